@@ -1,0 +1,30 @@
+// Errors of lichtmc, in two kinds: what the user can put right (InputError) and what the machine refused
+// (RuntimeError).
+//
+// Every message reads: what is wrong (the value and what is allowed). What to do.
+#pragma once
+
+#include <stdexcept>
+
+namespace lichtmc {
+
+// Base of every exception the library throws on purpose.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// A file, an option or a setting is wrong. The message names the file and the node, mesh or material in it, or the
+// option, with the value, the legal range and what to do. Programs end with exit status 2.
+class InputError : public Error {
+ public:
+  using Error::Error;
+};
+
+// The machine could not do what was asked: disk, memory, device. Programs end with exit status 1.
+class RuntimeError : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace lichtmc

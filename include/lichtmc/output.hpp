@@ -1,0 +1,26 @@
+// Results as files: a summary, tables, and a picture of numbers for every surface.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "lichtmc/result.hpp"
+#include "lichtmc/room.hpp"
+
+namespace lichtmc {
+
+// Makes the folder (and its parents) where it is missing and tries to write into it.
+// Throws InputError where that fails. Call it before a long run, so that the run is not lost.
+void prepare_output(const std::filesystem::path& folder);
+
+// Writes summary.json, tiles.csv, surfaces.csv and tiles/NAME.exr into a folder.
+//
+// Every file is written under a temporary name and renamed when it is whole; summary.json comes last, so that a folder
+// with a summary.json of this run is complete. tiles/ holds the maps of this run only. Throws RuntimeError where
+// something cannot be written.
+void write_results(const Room& room, const Result& result, const std::filesystem::path& folder);
+
+// What summary.json holds.
+std::string summary_json(const Room& room, const Result& result);
+
+}  // namespace lichtmc

@@ -1,0 +1,85 @@
+// What a simulation found: irradiance of every tile with its standard error, the balance of powers, and how it was got.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lichtmc/room.hpp"
+#include "lichtmc/settings.hpp"
+#include "lichtmc/tiles.hpp"
+
+namespace lichtmc {
+
+// Why a run ended.
+enum class StopReason { photons, target_error, max_time, interrupt };
+
+// "photons", "target-error", "max-time" or "interrupt".
+std::string_view to_string(StopReason reason);
+
+// One tile. A tile that nothing hit has irradiance 0 and standard error NaN: its error is unknown, not zero.
+struct TileResult {
+  double power = 0.0;           // incident power in W or lm
+  double irradiance = 0.0;      // power / area in W/m² or lx
+  double standard_error = 0.0;  // of the irradiance, in W/m² or lx
+  std::uint64_t hits = 0;       // impacts that scored here
+};
+
+// One tile map: a surface, or the back of a two-sided one.
+struct SurfaceResult {
+  std::string name;
+  std::string material;
+  double reflectance = 0.0;
+  double area_m2 = 0.0;
+  std::uint64_t tiles = 0;
+  double mean_irradiance = 0.0;  // power / area in W/m² or lx
+  double min_irradiance = 0.0;   // of the tiles
+  double max_irradiance = 0.0;
+  double standard_error = 0.0;  // of the mean
+  double power = 0.0;           // incident power in W or lm
+  double behind_share =
+      0.0;  // share of the power that came from behind, 0 … 1 (always 0 or 1 where each side has a map)
+  std::uint64_t hits = 0;
+};
+
+// Where the emitted power went, in W or lm: emitted = absorbed + escaped + residual + lost.
+struct Balance {
+  double emitted = 0.0;
+  double absorbed = 0.0;
+  double escaped = 0.0;   // through openings
+  double residual = 0.0;  // cut off by max_bounces; for weight with roulette: removed less added by it, 0 on average
+  double lost = 0.0;      // numerical faults: photons that left a closed room
+};
+
+struct Result {
+  std::string room;  // Room::source
+  Quantity quantity = Quantity::photometric;
+  Settings settings;               // as asked for
+  Engine engine = Engine::embree;  // as used
+  unsigned threads = 1;            // as used
+  StopReason stopped_by = StopReason::photons;
+
+  std::uint64_t histories = 0;
+  std::uint64_t impacts = 0;         // flights that ended on a surface
+  std::uint64_t rays = 0;            // flights traced, with those traced again
+  std::uint64_t retraced = 0;        // flights that met no surface and were traced again by the slower rule
+  std::uint64_t lost_histories = 0;  // histories behind Balance::lost
+  double seconds = 0.0;              // wall-clock time of the walk
+
+  Balance balance;
+  double incident = 0.0;                 // incident power of all tiles in W or lm
+  double incident_standard_error = 0.0;  // NaN where too little was simulated to tell
+  double rms_relative_error =
+      0.0;                       // area-weighted rms of the tiles' relative standard errors, over tiles that were hit
+  double figure_of_merit = 0.0;  // 1 / (rms_relative_error² · seconds), 1/s
+  std::uint64_t tiles_without_hits = 0;
+
+  std::vector<TileResult> tiles;        // as Tiling::tiles
+  std::vector<SurfaceResult> surfaces;  // as Tiling::maps
+  Tiling tiling;
+  std::vector<std::string> ignored;  // Room::ignored, and what of the room this run did not use
+  std::vector<std::string> mended;   // Room::mended
+};
+
+}  // namespace lichtmc

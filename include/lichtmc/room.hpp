@@ -1,0 +1,103 @@
+// The room: surfaces that reflect diffusely, emitters that send light into it, receivers that look at it.
+//
+// Plain data in world coordinates: metres, right-handed, Y up as in glTF. Fill it in yourself, or get one from
+// make_cuboid() or read_gltf(). A Room is only read by everything else; check_room() says whether it is sound.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "lichtmc/units.hpp"
+
+namespace lichtmc {
+
+// Which sides of a surface have a tile map of their own.
+enum class Sides {
+  one,   // both sides count on one map; the share that came from behind is reported
+  both,  // front (counter-clockwise) and back have a map each
+};
+
+// A surface: a mesh of triangles with one reflectance. It reflects by Lambert's law on the side that is hit, whatever
+// the winding of its triangles; the winding only tells front from back.
+struct Surface {
+  std::string name;          // unique in the room; names the tile map's file
+  std::string material;      // for messages and tables; may be empty
+  double reflectance = 0.5;  // ρ, share of the arriving power that is reflected, 0 … 1
+  Sides sides = Sides::one;
+  std::vector<glm::dvec3> positions;  // m, world coordinates
+  std::vector<glm::dvec2> uvs;        // texture coordinates for the tiles: one per position, or none at all
+  std::vector<glm::uvec3> triangles;  // three indices into positions; seen from the front counter-clockwise
+};
+
+// Emits the same intensity in every direction: I = Φ/4π.
+struct IsotropicEmitter {
+  glm::dvec3 position{0.0};  // m
+};
+
+// Generalized Lambert emitter: I(θ) = Φ (m+1)/(2π) cos^m θ over the hemisphere about its axis.
+struct LambertEmitter {
+  glm::dvec3 position{0.0};         // m
+  glm::dvec3 axis{0.0, -1.0, 0.0};  // direction of the beam, any length but 0
+  double exponent = 1.0;            // m ≥ 0: 0 uniform hemisphere, 1 Lambert, large a narrow beam
+};
+
+// Spot with a soft edge: I(θ) = I₀ inside the inner cone, I₀ a² between the cones with
+// a = (cos θ − cos outer)/(cos inner − cos outer), 0 outside.
+// Hence Φ = 2π I₀ [(1 − cos inner) + (cos inner − cos outer)/3].
+struct SpotEmitter {
+  glm::dvec3 position{0.0};          // m
+  glm::dvec3 axis{0.0, -1.0, 0.0};   // direction of the beam, any length but 0
+  double inner = 0.0;                // rad, half angle of the cone of full intensity, 0 ≤ inner < outer
+  double outer = 0.785398163397448;  // rad, half angle of the cone that holds all light, outer ≤ π/2
+};
+
+// Every point of a surface's front emits as a generalized Lambert emitter about the normal, uniform per area. With m =
+// 1 the exitance is M = Φ/A and the radiance M/π.
+struct SurfaceEmitter {
+  std::size_t surface = 0;  // index into Room::surfaces
+  double exponent = 1.0;    // m ≥ 0
+};
+
+struct Emitter {
+  std::string name;    // for messages and tables
+  double power = 1.0;  // Φ in W or lm, ≥ 0
+  std::variant<IsotropicEmitter, LambertEmitter, SpotEmitter, SurfaceEmitter> shape;
+};
+
+// A point at which irradiance is asked for.
+struct Receiver {
+  std::string name;
+  glm::dvec3 position{0.0};          // m
+  glm::dvec3 normal{0.0, 1.0, 0.0};  // the way it looks, any length but 0
+  double half_angle_deg = 90.0;      // field of view, 0 … 90
+  double area_m2 = 1.0;              // for its gain H = E·A/Φ, ≥ 0
+};
+
+struct Room {
+  std::string source;  // where it came from, for messages: a file name, "cuboid", …
+  Quantity quantity = Quantity::photometric;
+  std::vector<Surface> surfaces;
+  std::vector<Emitter> emitters;
+  std::vector<Receiver> receivers;
+  std::vector<std::string> ignored;  // what the source holds and this room does not model, one sentence each
+  std::vector<std::string> mended;   // what was changed on request after reading, one sentence each
+};
+
+// Whether a room can be simulated: at least one triangle with an area and one emitter; 0 ≤ ρ ≤ 1; finite positions;
+// indices in range; axes with a length; exponents, cones, powers and receivers in their ranges; the sum of powers above
+// 0. Throws InputError naming the room's source, the surface or emitter, the value and what is allowed.
+void check_room(const Room& room);
+
+// Area of a surface in m², one side.
+double surface_area(const Surface& surface);
+
+// Sum of the emitters' powers in W or lm.
+double total_power(const Room& room);
+
+}  // namespace lichtmc

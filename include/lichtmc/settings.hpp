@@ -1,0 +1,42 @@
+// How to simulate: estimator, when to stop, how fine the tiles, which engine and how many threads.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace lichtmc {
+
+// What a photon scores on its way (Wasow 1950; Forsythe and Leibler 1950). All three estimate the same irradiance.
+enum class Estimator {
+  weight,      // never absorbed; impact k scores the weight Π ρ of the surfaces before it
+  collision,   // survives a surface with probability ρ; every impact scores 1
+  absorption,  // as collision, but only the last impact scores, with 1/(1 − ρ)
+};
+
+// How flights are traced.
+enum class Engine {
+  automatic,  // the closed form where the room is an empty cuboid, else Embree
+  cuboid,     // closed form of the cuboid
+  embree,     // any room
+};
+
+// "weight", "collision", "absorption"; "auto", "cuboid", "embree".
+std::string_view to_string(Estimator estimator);
+std::string_view to_string(Engine engine);
+
+// The first stop rule to be met ends the run.
+struct Settings {
+  Estimator estimator = Estimator::collision;
+  std::uint64_t photons = 1'000'000;   // histories, ≥ 1
+  std::optional<double> target_error;  // stop when Result::rms_relative_error is at most this, > 0
+  std::optional<double> max_seconds;   // stop after this wall-clock time, > 0
+  std::optional<std::uint32_t>
+      max_bounces;           // weight only: end every history after this many flights, ≥ 1; default: roulette
+  double tile_edge_m = 0.1;  // m, > 0
+  std::uint64_t seed = 1;
+  unsigned threads = 0;  // 0: one per processor
+  Engine engine = Engine::automatic;
+};
+
+}  // namespace lichtmc

@@ -1,0 +1,25 @@
+#include "base/message.hpp"
+
+#include <array>
+#include <charconv>
+
+namespace lichtmc {
+
+std::string to_text(double value) {
+  std::array<char, 32> text{};  // the longest shortest double has 24 characters
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+std::string to_text(std::size_t count, std::string_view singular) {
+  std::string text = std::to_string(count) + " " + std::string(singular);
+  if (count != 1) text += "s";
+  return text;
+}
+
+std::string quoted(std::string_view name) {
+  if (name.empty()) return "(no name)";
+  return "'" + std::string(name) + "'";
+}
+
+}  // namespace lichtmc

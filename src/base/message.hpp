@@ -1,0 +1,18 @@
+// Pieces of messages: numbers as people write them, one grammar for every error.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lichtmc {
+
+// A number in the shortest form that reads back as the same double: "0.1", "1e+30", "nan".
+std::string to_text(double value);
+
+// A count with its noun, in the singular or plural: "1 triangle", "12 triangles".
+std::string to_text(std::size_t count, std::string_view singular);
+
+// "'name'" in quotes for messages; a name that is empty reads "(no name)".
+std::string quoted(std::string_view name);
+
+}  // namespace lichtmc

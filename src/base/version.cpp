@@ -1,0 +1,9 @@
+#include "lichtmc/version.hpp"
+
+namespace lichtmc {
+
+std::string_view version() {
+  return LICHTMC_VERSION;
+}
+
+}  // namespace lichtmc

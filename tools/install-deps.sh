@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Installs what building lichtmc and running its tests needs, from Debian's packages (12 "bookworm" and 13 "trixie").
+# Needs root or sudo; asks nothing. Does nothing where everything is there.
+set -euo pipefail
+
+packages=(
+  build-essential cmake ninja-build ccache   # to build
+  libembree-dev                              # ray tracing (3.13 or 4.3)
+  libglm-dev                                 # vectors of the public interface
+  libtbb-dev                                 # threads
+  libtinygltf-dev                            # glTF
+  libopenexr-dev                             # tile maps as images
+  libcli11-dev                               # the command line
+  nlohmann-json3-dev                         # summary.json, glTF written
+  catch2                                     # tests
+  python3-minimal                            # test scripts of the command line
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || {
+    echo "install-deps.sh: these packages are missing: ${missing[*]}. Run it as root, or install sudo." >&2
+    exit 1
+  }
+  as_root=(sudo)
+fi
+
+echo "Installing ${missing[*]}" >&2
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"

@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# Sets up, builds and runs the whole test suite. Arguments go to ctest, for example: tools/test.sh -R furnace
+set -euo pipefail
+cd "$(dirname "$0")/.."
+tools/install-deps.sh
+cmake --preset release
+cmake --build --preset release
+ctest --preset release --parallel "$(nproc)" "$@"
