@@ -1,1 +1,48 @@
-int main() { return 0; }
+// The program lichtmc: reads the command line, runs a command, and turns errors into messages and exit status.
+#include <exception>
+#include <iostream>
+
+#include "commands.hpp"
+#include "lichtmc/error.hpp"
+#include "lichtmc/version.hpp"
+
+namespace {
+
+constexpr int exit_failed = 1;       // the run failed: disk, memory, device
+constexpr int exit_wrong_input = 2;  // the command line or an input is wrong
+
+int fail(const std::exception& error, int status) {
+  std::cerr << "lichtmc: " << error.what() << '\n';
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program{
+      "How much light arrives where in a room, and how sure is that number: lichtmc follows light packets from the\n"
+      "lamps of a glTF room over its diffusely reflecting surfaces and measures the irradiance (W/m^2) or\n"
+      "illuminance (lx) of every tile of surface, with its standard error.\n",
+      "lichtmc"};
+  program.set_version_flag("--version", std::string("lichtmc ") + std::string(lichtmc::version()));
+  program.require_subcommand(1);
+  program.footer(
+      "Start with:  lichtmc run room.glb\n"
+      "More on a command:  lichtmc COMMAND --help\n"
+      "Exit status: 0 done; 1 the run failed; 2 the command line or an input is wrong.");
+  lichtmc::app::add_run_command(program);
+  lichtmc::app::add_cuboid_command(program);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help and --version
+    return program.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "lichtmc: " << error.what() << "\nSee lichtmc --help, or lichtmc COMMAND --help.\n";
+    return exit_wrong_input;
+  } catch (const lichtmc::InputError& error) {
+    return fail(error, exit_wrong_input);
+  } catch (const std::exception& error) {
+    return fail(error, exit_failed);
+  }
+  return 0;
+}

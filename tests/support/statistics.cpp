@@ -1,1 +1,107 @@
 #include "support/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace lichtmc::test {
+
+double normal_tail(double z) {
+  return 0.5 * std::erfc(z / std::sqrt(2.0));
+}
+
+double normal_quantile_above(double p) {
+  // Bisection: the tail is monotonic, and 200 halvings of [−40, 40] reach the last digit.
+  double low = -40.0;
+  double high = 40.0;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (low + high);
+    (normal_tail(middle) > p ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double largest_z_allowed(std::size_t figures) {
+  // Šidák: each figure may be beyond with 1 − (1 − α)^{1/K}, on two sides.
+  const double each = -std::expm1(std::log1p(-false_alarm) / static_cast<double>(figures));
+  return normal_quantile_above(0.5 * each);
+}
+
+double chi_square_above(std::size_t k, double p) {
+  const auto n = static_cast<double>(k);
+  const double c = 2.0 / (9.0 * n);
+  const double root = std::max(0.0, 1.0 - c + normal_quantile_above(p) * std::sqrt(c));
+  return n * root * root * root;
+}
+
+Verdict compare(const std::vector<Compared>& figures) {
+  Verdict verdict;
+  verdict.figures = figures.size();
+  verdict.agrees = !figures.empty();
+  double information =
+      0.0;  // Σ (expected/error)²: a common relative bias b shifts Σ z·(expected/error) by b times this
+  for (const Compared& figure : figures) {
+    const double error = std::hypot(figure.standard_error, figure.expected_error);
+    const double difference = figure.value - figure.expected;
+    if (!(error > 0.0) || !std::isfinite(error)) {
+      if (difference != 0.0 || std::isnan(difference)) verdict.agrees = false;
+      continue;
+    }
+    const double z = difference / error;
+    if (std::isnan(z)) verdict.agrees = false;
+    verdict.largest_z = std::max(verdict.largest_z, std::abs(z));
+    verdict.chi_square += z * z;
+    information += (figure.expected / error) * (figure.expected / error);
+  }
+  const double allowed = largest_z_allowed(std::max<std::size_t>(1, figures.size()));
+  if (verdict.largest_z > allowed) verdict.agrees = false;
+  double low = 0.0;
+  double high = allowed * allowed;
+  if (figures.size() >= 3) {
+    high = chi_square_above(figures.size(), false_alarm);
+    low = chi_square_above(figures.size(), 1.0 - false_alarm);
+    if (verdict.chi_square > high || verdict.chi_square < low) verdict.agrees = false;
+  }
+  // With a common bias b the expectation of Σ z² grows by b² · information; from K it must reach the limit.
+  const double room = std::max(high - static_cast<double>(figures.size()), 0.0);
+  verdict.smallest_bias = information > 0.0 ? std::sqrt(room / information) : 0.0;
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "%zu figures, largest |z| %.2f (allowed %.2f), chi-square %.1f (allowed %.1f to %.1f), bias found from %.2g",
+      figures.size(), verdict.largest_z, allowed, verdict.chi_square, low, high, verdict.smallest_bias);
+  verdict.text = text;
+  return verdict;
+}
+
+Verdict compare_counts(const std::vector<double>& counts, const std::vector<double>& expected) {
+  Verdict verdict;
+  std::size_t bins = 0;
+  double count = 0.0;
+  double expectation = 0.0;
+  double total = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    count += counts[i];
+    expectation += expected[i];
+    total += expected[i];
+    if (expectation < 10.0 && i + 1 < counts.size()) continue;
+    if (expectation > 0.0) {
+      verdict.chi_square += (count - expectation) * (count - expectation) / expectation;
+      ++bins;
+    } else if (count > 0.0) {
+      verdict.text = "counts where none can be; ";
+      return verdict;
+    }
+    count = expectation = 0.0;
+  }
+  verdict.figures = bins;
+  const double allowed = chi_square_above(bins - 1, false_alarm);
+  verdict.agrees = bins > 1 && verdict.chi_square <= allowed;
+  verdict.smallest_bias = std::sqrt((allowed - static_cast<double>(bins)) / total);
+  char text[160];
+  std::snprintf(text, sizeof text, "%zu bins, chi-square %.1f (allowed %.1f)", bins, verdict.chi_square, allowed);
+  verdict.text = text;
+  return verdict;
+}
+
+}  // namespace lichtmc::test

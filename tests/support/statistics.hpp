@@ -1,1 +1,54 @@
+// The one place where simulated figures are compared with exact ones.
+//
+// A comparison of K figures fails when the largest of their z-scores is beyond what K normal variables exceed with
+// probability 10⁻⁶ (Šidák), or when Σ z² is beyond what χ² with K degrees of freedom exceeds, or falls short of, with
+// that probability. So a correct program fails one comparison in a few hundred thousand; nothing is loosened, re-run or
+// skipped.
 #pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace lichtmc::test {
+
+inline constexpr double false_alarm = 1e-6;
+
+// A simulated figure, its standard error, and what it should be (with an error of its own where that was simulated
+// too).
+struct Compared {
+  double value = 0.0;
+  double standard_error = 0.0;
+  double expected = 0.0;
+  double expected_error = 0.0;
+};
+
+struct Verdict {
+  bool agrees = false;
+  std::size_t figures = 0;
+  double largest_z = 0.0;
+  double chi_square = 0.0;     // Σ z²
+  double smallest_bias = 0.0;  // relative bias of all figures together that would have made it fail, about
+  std::string text;            // all of this in one line
+};
+
+// Compares figure by figure. Figures whose standard error is not a number above 0 count as disagreement unless value
+// and expectation are equal.
+Verdict compare(const std::vector<Compared>& figures);
+
+// z-score that the largest of K standard normal variables exceeds in size with probability false_alarm.
+double largest_z_allowed(std::size_t figures);
+
+// Probability that a standard normal variable lies above z.
+double normal_tail(double z);
+// Inverse of normal_tail for 0 < p < 1.
+double normal_quantile_above(double p);
+// Value that χ² with k degrees of freedom exceeds with probability p (Wilson and Hilferty 1931; better than 1 % of
+// √(2k) for k ≥ 3).
+double chi_square_above(std::size_t k, double p);
+
+// χ² of counts against expected counts, bins of less than 10 expected pooled with their neighbours; agrees when not
+// beyond false_alarm on the upper side.
+Verdict compare_counts(const std::vector<double>& counts, const std::vector<double>& expected);
+
+}  // namespace lichtmc::test

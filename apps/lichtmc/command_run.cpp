@@ -1,0 +1,293 @@
+// lichtmc run: the main job, irradiance of every tile of a room.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "lichtmc/error.hpp"
+#include "lichtmc/gltf.hpp"
+#include "lichtmc/mend.hpp"
+#include "lichtmc/output.hpp"
+#include "lichtmc/simulate.hpp"
+#include "light_spec.hpp"
+#include "progress_line.hpp"
+#include "quantities.hpp"
+
+namespace lichtmc::app {
+
+namespace {
+
+struct RunOptions {
+  std::string room;
+  std::string output;
+  std::string estimator = "collision";
+  std::string photons = "1e6";
+  std::optional<std::string> target_error, max_time, max_bounces, unit, max_reflectance;
+  std::string tile = "0.1";
+  std::uint64_t seed = 1;
+  std::optional<int> threads;
+  std::string engine = "auto";
+  std::vector<std::string> lights;
+  std::vector<std::string> reflectances;
+  std::string scene;
+  std::optional<int> uv_set;
+  bool quiet = false;
+};
+
+Estimator parse_estimator(const std::string& text) {
+  if (text == "weight" || text == "1") return Estimator::weight;
+  if (text == "collision" || text == "2") return Estimator::collision;
+  if (text == "absorption" || text == "3") return Estimator::absorption;
+  throw InputError(
+      "The estimator '" + text +
+      "' is not known (allowed: weight, collision, absorption, or 1, 2, 3). Give one of these to --estimator.");
+}
+
+Engine parse_engine(const std::string& text) {
+  if (text == "auto") return Engine::automatic;
+  if (text == "cuboid") return Engine::cuboid;
+  if (text == "embree") return Engine::embree;
+  throw InputError("The engine '" + text +
+                   "' is not known (allowed: auto, cuboid, embree). Give one of these to --engine.");
+}
+
+Settings parse_settings(const RunOptions& options) {
+  Settings settings;
+  settings.estimator = parse_estimator(options.estimator);
+  settings.photons = parse_count(options.photons, "--photons");
+  if (options.target_error) settings.target_error = parse_share(*options.target_error, "--target-error");
+  if (options.max_time) settings.max_seconds = parse_seconds(*options.max_time, "--max-time");
+  if (options.max_bounces) {
+    constexpr std::uint64_t most = 4'000'000'000;
+    const std::uint64_t bounces = parse_count(*options.max_bounces, "--max-bounces");
+    if (bounces > most)
+      throw InputError("The number of bounces is " + *options.max_bounces +
+                       " (allowed: 1 to 4e9). Give --max-bounces a smaller number.");
+    settings.max_bounces = static_cast<std::uint32_t>(bounces);
+  }
+  settings.tile_edge_m = parse_number(options.tile, "--tile");
+  settings.seed = options.seed;
+  if (options.threads && *options.threads < 1) {
+    throw InputError("The number of threads is " + std::to_string(*options.threads) +
+                     " (allowed: 1 or more). Leave out --threads to use all processors.");
+  }
+  settings.threads = static_cast<unsigned>(options.threads.value_or(0));
+  settings.engine = parse_engine(options.engine);
+  return settings;
+}
+
+Room read_room(const RunOptions& options) {
+  ReadOptions read;
+  read.uv_set = options.uv_set;
+  read.scene = options.scene;
+  if (options.unit) read.quantity = parse_unit(*options.unit, "--unit");
+  Room room = read_gltf(options.room, read);
+  for (const std::string& change : options.reflectances) {
+    const std::size_t equals = change.rfind('=');
+    if (equals == std::string::npos) {
+      throw InputError(
+          "The value '" + change +
+          "' of --reflectance cannot be used (allowed: MATERIAL=R). Give it in that form, for example Wall=0.6.");
+    }
+    set_reflectance(room, change.substr(0, equals), parse_number(change.substr(equals + 1), "--reflectance " + change));
+  }
+  if (options.max_reflectance) limit_reflectance(room, parse_number(*options.max_reflectance, "--max-reflectance"));
+  add_lights(room, options.lights);
+  return room;
+}
+
+std::string percent(double share) {
+  if (!std::isfinite(share)) return "unknown";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g %%", 100.0 * share);
+  return text;
+}
+
+std::string figure(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+const char* describe(StopReason reason) {
+  switch (reason) {
+    case StopReason::photons:
+      return "all photons simulated";
+    case StopReason::target_error:
+      return "target error reached";
+    case StopReason::max_time:
+      return "time is over";
+    case StopReason::interrupt:
+      return "interrupted";
+  }
+  return "";
+}
+
+// A stop rule that was not met is said, with what it would take.
+void warn_of_missed_target(const Settings& settings, const Result& result) {
+  if (!settings.target_error || result.stopped_by == StopReason::target_error) return;
+  std::cerr << "The target error of " << percent(*settings.target_error) << " was not reached: it is "
+            << percent(result.rms_relative_error) << '.';
+  const double factor = std::pow(result.rms_relative_error / *settings.target_error, 2);
+  if (std::isfinite(factor)) {
+    std::cerr << " It would take about " << short_count(factor * static_cast<double>(result.histories)) << " photons ("
+              << short_time(factor * result.seconds) << " here), or larger tiles.";
+  }
+  std::cerr << '\n';
+}
+
+void print_outcome(const Room& room, const Result& result, const std::filesystem::path& folder) {
+  const std::string unit(power_unit(result.quantity));
+  const Balance& balance = result.balance;
+  std::cerr << short_count(static_cast<double>(result.histories)) << " photons, "
+            << short_count(static_cast<double>(result.impacts)) << " impacts in " << figure(result.seconds) << " s ("
+            << describe(result.stopped_by) << "; engine " << to_string(result.engine) << ", estimator "
+            << to_string(result.settings.estimator) << ").\n";
+  std::cerr << "Emitted " << figure(balance.emitted) << ' ' << unit << ": absorbed " << figure(balance.absorbed)
+            << ", escaped through openings " << figure(balance.escaped);
+  if (balance.residual != 0.0) std::cerr << ", residual " << figure(balance.residual);
+  std::cerr << ", lost " << figure(balance.lost) << ".\n";
+  std::cerr << result.tiles.size() << " tiles, relative standard error " << percent(result.rms_relative_error)
+            << " (area-weighted rms)";
+  if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " tiles were not hit";
+  std::cerr << ".\n";
+  warn_of_missed_target(result.settings, result);
+  if (!room.ignored.empty()) {
+    std::cerr << "The room holds " << room.ignored.size() << " thing" << (room.ignored.size() == 1 ? "" : "s")
+              << " that are not modelled, for example: " << room.ignored.front()
+              << " The list is in summary.json under \"ignored\".\n";
+  }
+  std::cerr << "Results are in " << folder.string()
+            << ": surfaces.csv (one row per surface), tiles.csv, tiles/*.exr, summary.json.\n";
+}
+
+void run(const RunOptions& options) {
+  const Settings settings = parse_settings(options);
+  const Room room = read_room(options);
+  check_room(room);
+  const std::filesystem::path folder =
+      options.output.empty() ? std::filesystem::path(options.room).stem().concat(".out") : options.output;
+  prepare_output(folder);
+
+  const auto show = options.quiet ? ProgressLine::Show::no : ProgressLine::Show::yes;
+  const InterruptWatch interrupt;
+  Result result;
+  {
+    ProgressLine line(show, settings);
+    Control control;
+    control.stop = interrupt.token();
+    control.progress = [&line](const Progress& progress) { line.update(progress); };
+    result = simulate(room, settings, control);
+  }
+  write_results(room, result, folder);
+  if (!options.quiet) print_outcome(room, result, folder);
+}
+
+void add_options(CLI::App& command, RunOptions& options) {
+  command.add_option("room", options.room, "glTF 2.0 file (.gltf or .glb), metres, Y up")
+      ->required()
+      ->type_name("ROOM");
+  command.add_option("-o,--output", options.output, "Folder for the results [name of ROOM with .out]")
+      ->type_name("DIR");
+
+  const std::string accuracy = "How long to simulate (the first rule to be met ends the run)";
+  command.add_option("--photons", options.photons, "Number of light packets: 1000000, 1e6, 10M, 2G")
+      ->type_name("N")
+      ->capture_default_str()
+      ->group(accuracy);
+  command
+      .add_option("--target-error", options.target_error,
+                  "Stop when the tiles' relative standard error (area-weighted rms) is at most this: 1% or 0.01")
+      ->type_name("P")
+      ->group(accuracy);
+  command.add_option("--max-time", options.max_time, "Stop after this time: 60s, 5min, 2h")
+      ->type_name("T")
+      ->group(accuracy);
+
+  const std::string method = "How to simulate";
+  command.add_option("--tile", options.tile, "Edge of a tile in metres")
+      ->type_name("M")
+      ->capture_default_str()
+      ->group(method);
+  command
+      .add_option("--estimator", options.estimator, "What a photon scores: weight, collision or absorption (1, 2, 3)")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->group(method);
+  command
+      .add_option("--max-bounces", options.max_bounces,
+                  "With --estimator weight: cut every history off after this many flights; what is cut off is reported "
+                  "as residual [no cut: unbiased Russian roulette]")
+      ->type_name("N")
+      ->group(method);
+  command
+      .add_option("--seed", options.seed, "Number that selects the random numbers; the same seed gives the same digits")
+      ->type_name("S")
+      ->capture_default_str()
+      ->group(method);
+  command.add_option("--threads", options.threads, "Number of threads [one per processor]")
+      ->type_name("N")
+      ->group(method);
+  command
+      .add_option("--engine", options.engine,
+                  "How flights are traced: auto, cuboid (closed form, empty cuboids only) or embree")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->group(method);
+
+  const std::string reading = "How to read the room";
+  command.add_option("--light", options.lights, light_help)
+      ->type_name("LIGHT")
+      ->expected(1)
+      ->take_all()
+      ->group(reading);
+  command.add_option("--reflectance", options.reflectances, "Set a material's reflectance, 0 to 1 (repeatable)")
+      ->type_name("MATERIAL=R")
+      ->expected(1)
+      ->take_all()
+      ->group(reading);
+  command.add_option("--max-reflectance", options.max_reflectance, "Lower every reflectance above this to it, 0 to 1")
+      ->type_name("R")
+      ->group(reading);
+  command.add_option("--unit", options.unit, "Take the file's powers in W or in lm [what the file says]")
+      ->type_name("W|lm")
+      ->group(reading);
+  command
+      .add_option("--uv-set", options.uv_set,
+                  "Texture coordinates that tiles are laid out by, the n of TEXCOORD_n [1 if present, else 0]")
+      ->type_name("N")
+      ->group(reading);
+  command.add_option("--scene", options.scene, "Name of the scene to take [the file's default scene]")
+      ->type_name("NAME")
+      ->group(reading);
+
+  command.add_flag("--quiet", options.quiet, "No progress, no summary; only errors");
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("run", "Simulate a room: irradiance of every tile, with its standard error");
+  command->description(
+      "Follows light packets (photons) from the lamps of a room until they are absorbed or leave through an opening, "
+      "and writes the\n"
+      "irradiance (W/m^2) or illuminance (lx) of every tile of every surface with its standard error.\n");
+  auto options = std::make_shared<RunOptions>();
+  add_options(*command, *options);
+  command->footer(
+      "Examples:\n"
+      "  lichtmc run room.glb                                1 million photons, tiles of 0.1 m, results in room.out/\n"
+      "  lichtmc run room.glb --target-error 2% --max-time 5min --tile 0.25\n"
+      "  lichtmc run hall.glb --light point:5,3,5:8000lm --max-reflectance 0.9 -o out/hall\n"
+      "Ctrl-C ends a run early and keeps what was simulated; a second Ctrl-C ends the program at once.");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace lichtmc::app

@@ -1,0 +1,35 @@
+#include "interrupt.hpp"
+
+#include <chrono>
+#include <csignal>
+
+namespace lichtmc::app {
+
+namespace {
+
+// A signal handler may do no more than set this; the watcher does the rest.
+volatile std::sig_atomic_t interrupted = 0;
+
+extern "C" void note_interrupt(int signal) {
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+InterruptWatch::InterruptWatch() {
+  interrupted = 0;
+  std::signal(SIGINT, note_interrupt);
+  std::signal(SIGTERM, note_interrupt);
+  watcher_ = std::jthread([this](const std::stop_token& ended) {
+    while (!ended.stop_requested() && interrupted == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (interrupted != 0) source_.request_stop();
+  });
+}
+
+InterruptWatch::~InterruptWatch() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+}  // namespace lichtmc::app

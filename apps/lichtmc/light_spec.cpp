@@ -1,0 +1,57 @@
+#include "light_spec.hpp"
+
+#include <string_view>
+
+#include "lichtmc/error.hpp"
+#include "lichtmc/mend.hpp"
+#include "quantities.hpp"
+
+namespace lichtmc::app {
+
+const char* const light_help =
+    "Add a light (repeatable): point:X,Y,Z:POWER or lambert:X,Y,Z:DX,DY,DZ:M:POWER; metres, Y up; POWER with unit, for "
+    "example point:2,2.4,1.5:1000lm or lambert:0.5,0.5,0.5:0,-1,0:5:1W";
+
+namespace {
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+Emitter parse_light(const std::string& description, Quantity& quantity) {
+  const std::string option = "--light " + description;
+  const std::vector<std::string_view> part = split(description, ':');
+  Emitter emitter;
+  emitter.name = description;
+  emitter.power = parse_power(part.back(), option, quantity);
+  if (part.front() == "point" && part.size() == 3) {
+    emitter.shape = IsotropicEmitter{parse_vector(part[1], option)};
+  } else if (part.front() == "lambert" && part.size() == 5) {
+    emitter.shape =
+        LambertEmitter{parse_vector(part[1], option), parse_vector(part[2], option), parse_number(part[3], option)};
+  } else {
+    throw InputError("The light '" + description +
+                     "' cannot be used (allowed: point:X,Y,Z:POWER or lambert:X,Y,Z:DX,DY,DZ:M:POWER). Give it in one "
+                     "of these forms, for "
+                     "example --light point:2,2.4,1.5:1000lm.");
+  }
+  return emitter;
+}
+
+}  // namespace
+
+void add_lights(Room& room, const std::vector<std::string>& descriptions) {
+  for (const std::string& description : descriptions) {
+    Quantity quantity = Quantity::photometric;
+    Emitter emitter = parse_light(description, quantity);
+    add_emitter(room, std::move(emitter), quantity);
+  }
+}
+
+}  // namespace lichtmc::app

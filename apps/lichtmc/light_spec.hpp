@@ -1,0 +1,21 @@
+// Lights on the command line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lichtmc/room.hpp"
+
+namespace lichtmc::app {
+
+// Help text for --light.
+extern const char* const light_help;
+
+// Adds an emitter for each description to a room:
+//   point:X,Y,Z:POWER                      the same intensity in every direction
+//   lambert:X,Y,Z:DX,DY,DZ:M:POWER         generalized Lambert emitter of exponent M about the direction
+// Positions in metres on the room's axes (Y up), POWER with its unit ("1000lm", "1W").
+// Throws InputError naming the description and what is wrong in it.
+void add_lights(Room& room, const std::vector<std::string>& descriptions);
+
+}  // namespace lichtmc::app

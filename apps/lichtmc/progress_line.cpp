@@ -1,0 +1,90 @@
+#include "progress_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include <unistd.h>
+
+namespace lichtmc::app {
+
+namespace {
+
+constexpr std::chrono::milliseconds line_interval{5000};
+constexpr std::chrono::milliseconds bar_interval{200};
+constexpr int bar_width = 24;
+
+}  // namespace
+
+std::string short_count(double count) {
+  constexpr const char* suffixes[] = {"", "k", "M", "G", "T", "P"};
+  std::size_t k = 0;
+  while (count >= 999.5 && k + 1 < std::size(suffixes)) {
+    count /= 1000.0;
+    ++k;
+  }
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g%s", count, suffixes[k]);
+  return text;
+}
+
+std::string short_time(double seconds) {
+  const auto whole = static_cast<long long>(std::ceil(std::min(seconds, 1e15)));
+  if (whole < 60) return std::to_string(whole) + " s";
+  if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+  return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
+}
+
+ProgressLine::ProgressLine(Show show, const Settings& settings)
+    : show_(show),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      settings_(settings),
+      last_(std::chrono::steady_clock::now()) {}
+
+ProgressLine::~ProgressLine() {
+  if (drawn_ && terminal_) std::cerr << "\r\x1b[K" << std::flush;  // the bar has served; results follow
+}
+
+// The stop rule that is nearest decides how much is done.
+double ProgressLine::share_done(const Progress& progress) const {
+  double share = static_cast<double>(progress.histories) / static_cast<double>(progress.target);
+  if (settings_.max_seconds) share = std::max(share, progress.seconds / *settings_.max_seconds);
+  if (settings_.target_error && progress.rms_relative_error > 0.0) {
+    // Errors fall with the square root of the histories.
+    share = std::max(share, std::pow(*settings_.target_error / progress.rms_relative_error, 2));
+  }
+  return std::clamp(share, 0.0, 1.0);
+}
+
+std::string ProgressLine::describe(const Progress& progress) const {
+  const double share = share_done(progress);
+  const double left = share > 0.0 ? progress.seconds * (1.0 - share) / share : 0.0;
+  std::string text = short_count(static_cast<double>(progress.histories)) + " of " +
+                     short_count(static_cast<double>(progress.target)) + " photons, " +
+                     short_count(static_cast<double>(progress.impacts) / progress.seconds) + " impacts/s";
+  if (progress.rms_relative_error > 0.0) {
+    char error[48];
+    std::snprintf(error, sizeof error, ", error %.2g %%", 100.0 * progress.rms_relative_error);
+    text += error;
+  }
+  return text + ", about " + short_time(left) + " left";
+}
+
+void ProgressLine::update(const Progress& progress) {
+  if (show_ == Show::no) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_ < (terminal_ ? bar_interval : line_interval)) return;
+  last_ = now;
+  drawn_ = true;
+  if (!terminal_) {
+    std::cerr << describe(progress) << std::endl;
+    return;
+  }
+  const int done = static_cast<int>(std::lround(share_done(progress) * bar_width));
+  std::cerr << "\r[" << std::string(static_cast<std::size_t>(done), '#')
+            << std::string(static_cast<std::size_t>(bar_width - done), '.') << "] " << describe(progress) << "\x1b[K"
+            << std::flush;
+}
+
+}  // namespace lichtmc::app

@@ -1,0 +1,40 @@
+// How far a run is: a bar on a terminal, a line every few seconds elsewhere; on stderr, nothing on request.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "lichtmc/settings.hpp"
+#include "lichtmc/simulate.hpp"
+
+namespace lichtmc::app {
+
+class ProgressLine {
+ public:
+  enum class Show { yes, no };
+
+  ProgressLine(Show show, const Settings& settings);
+  // Leaves the cursor at the start of a line.
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void update(const Progress& progress);
+
+ private:
+  std::string describe(const Progress& progress) const;
+  double share_done(const Progress& progress) const;
+
+  Show show_;
+  bool terminal_;
+  bool drawn_ = false;
+  Settings settings_;
+  std::chrono::steady_clock::time_point last_;
+};
+
+// "12.3M", "4.56k": a count in three digits.
+std::string short_count(double count);
+// "4 s", "3 min 20 s", "2 h 5 min".
+std::string short_time(double seconds);
+
+}  // namespace lichtmc::app

@@ -1,0 +1,114 @@
+#include "quantities.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "lichtmc/error.hpp"
+
+namespace lichtmc::app {
+
+namespace {
+
+[[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view allowed) {
+  throw InputError("The value '" + std::string(text) + "' of " + std::string(option) +
+                   " cannot be used (allowed: " + std::string(allowed) + "). Give it in that form.");
+}
+
+// Splits "12.5ms" into the number and what follows it; false where there is no finite number.
+bool split_number(std::string_view text, double& number, std::string_view& rest) {
+  const char* begin = text.data();
+  const char* end = text.data() + text.size();
+  if (begin != end && *begin == '+') ++begin;
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  rest = std::string_view(stop, static_cast<std::size_t>(end - stop));
+  return error == std::errc() && std::isfinite(number);
+}
+
+struct Suffix {
+  std::string_view text;
+  double factor;
+};
+
+// A number with one of some suffixes; false where it is neither.
+template <std::size_t N>
+bool scaled(std::string_view text, const std::array<Suffix, N>& suffixes, double& number) {
+  std::string_view rest;
+  if (!split_number(text, number, rest)) return false;
+  for (const Suffix& suffix : suffixes) {
+    if (rest != suffix.text) continue;
+    number *= suffix.factor;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+double parse_number(std::string_view text, std::string_view option) {
+  double number = 0.0;
+  std::string_view rest;
+  if (!split_number(text, number, rest) || !rest.empty()) refuse(option, text, "a number, for example 0.5");
+  return number;
+}
+
+std::uint64_t parse_count(std::string_view text, std::string_view option) {
+  constexpr std::string_view allowed = "a whole number from 1 to 9e18, for example 1000000, 1e6, 10M or 2G";
+  // Plain digits exactly; others by way of a double, which holds whole numbers up to 2^53 exactly.
+  std::uint64_t count = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error == std::errc() && stop == text.data() + text.size() && count <= (std::uint64_t{1} << 63)) return count;
+  constexpr std::array<Suffix, 6> suffixes{{{"", 1.0}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}, {"T", 1e12}, {"K", 1e3}}};
+  double number = 0.0;
+  if (!scaled(text, suffixes, number) || number < 0.0 || number > 0x1p63 || number != std::floor(number)) {
+    refuse(option, text, allowed);
+  }
+  return static_cast<std::uint64_t>(number);
+}
+
+double parse_share(std::string_view text, std::string_view option) {
+  constexpr std::array<Suffix, 2> suffixes{{{"", 1.0}, {"%", 0.01}}};
+  double number = 0.0;
+  if (!scaled(text, suffixes, number)) refuse(option, text, "a share above 0, for example 1% or 0.01");
+  return number;
+}
+
+double parse_seconds(std::string_view text, std::string_view option) {
+  constexpr std::array<Suffix, 5> suffixes{{{"", 1.0}, {"s", 1.0}, {"min", 60.0}, {"m", 60.0}, {"h", 3600.0}}};
+  double number = 0.0;
+  if (!scaled(text, suffixes, number)) refuse(option, text, "a time above 0, for example 60s, 5min or 2h");
+  return number;
+}
+
+glm::dvec3 parse_vector(std::string_view text, std::string_view option) {
+  glm::dvec3 vector(0.0);
+  std::string_view rest = text;
+  for (int k = 0; k < 3; ++k) {
+    std::string_view after;
+    const bool last = k == 2;
+    if (!split_number(rest, vector[k], after) || after.empty() != last || (!last && after.front() != ',')) {
+      refuse(option, text, "three numbers with commas between, for example 1,2.5,0");
+    }
+    rest = last ? after : after.substr(1);
+  }
+  return vector;
+}
+
+double parse_power(std::string_view text, std::string_view option, Quantity& quantity) {
+  double power = 0.0;
+  std::string_view unit;
+  if (!split_number(text, power, unit) || (unit != "lm" && unit != "W") || power < 0.0) {
+    refuse(option, text, "a power of 0 or more with its unit, for example 1000lm or 1W");
+  }
+  quantity = parse_unit(unit, option);
+  return power;
+}
+
+Quantity parse_unit(std::string_view text, std::string_view option) {
+  if (text == "W") return Quantity::radiometric;
+  if (text == "lm") return Quantity::photometric;
+  refuse(option, text, "W or lm");
+}
+
+}  // namespace lichtmc::app

@@ -1,0 +1,37 @@
+// Numbers as people write them on a command line: 1e6, 10M, 2G; 1%; 60s, 5min, 2h; 0.3,0.5,0.2; 1000lm.
+//
+// Each function throws InputError naming the option, what was given, what is allowed and an example.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <glm/vec3.hpp>
+
+#include "lichtmc/units.hpp"
+
+namespace lichtmc::app {
+
+// A finite number.
+double parse_number(std::string_view text, std::string_view option);
+
+// A count up to 2^63: "1000000", "1e6", "10k", "10M", "2G".
+std::uint64_t parse_count(std::string_view text, std::string_view option);
+
+// A share: "1%" or "0.01".
+double parse_share(std::string_view text, std::string_view option);
+
+// Seconds: "60", "60s", "5min", "2h".
+double parse_seconds(std::string_view text, std::string_view option);
+
+// Three numbers with commas.
+glm::dvec3 parse_vector(std::string_view text, std::string_view option);
+
+// A power with its unit, "1000lm" or "1W".
+double parse_power(std::string_view text, std::string_view option, Quantity& quantity);
+
+// "W" or "lm".
+Quantity parse_unit(std::string_view text, std::string_view option);
+
+}  // namespace lichtmc::app

@@ -1,0 +1,54 @@
+// Mean and standard error from exact integer sums.
+//
+// Hits of one history are correlated, those of different histories are not. So the error comes from differences between
+// batches of histories: with x_b the score of batch b of n_b histories, X = Σ x_b and N = Σ n_b, the variance of one
+// history is estimated without bias by σ² = (Σ x_b²/n_b − X²/N)/(B − 1), and the variance of the mean X/N is σ²/N. Sums
+// of integers do not depend on the order of the batches: any number of threads and any way of splitting a run gives the
+// same bits.
+#pragma once
+
+#include <cstdint>
+
+#include "base/wide.hpp"
+
+namespace lichtmc {
+
+// Histories in a full batch. Large enough that its start and end cost little, small enough that a run of 10⁵ histories
+// still has a hundred.
+inline constexpr std::uint32_t batch_histories = 1024;
+
+// Number of batches that hold so many histories; the last may be a part of one.
+constexpr std::uint64_t batches_of(std::uint64_t histories) {
+  return histories / batch_histories + (histories % batch_histories != 0 ? 1 : 0);
+}
+
+struct Moments {
+  uint128 sum = 0;      // Σ x_b
+  uint128 squares = 0;  // Σ x_b² · batch_histories/n_b
+
+  // Adds a batch of n histories (1 … batch_histories) with score x.
+  void add(std::uint64_t x, std::uint32_t n) {
+    sum += x;
+    const uint128 square = static_cast<uint128>(x) * x;
+    squares += n == batch_histories ? square : (square * batch_histories + n / 2) / n;
+  }
+
+  void add(const Moments& other) {
+    sum += other.sum;
+    squares += other.squares;
+  }
+};
+
+struct Estimate {
+  double mean = 0.0;            // score per history
+  double standard_error = 0.0;  // of the mean; NaN where fewer than two batches were simulated
+};
+
+// Mean and error of the score per history, in units of the integers, from moments over `histories` histories (≥ 1).
+Estimate estimate(const Moments& moments, std::uint64_t histories);
+
+// The same for scores that are 0 or 1 once per history: the binomial law, exact, no batches needed.
+// The standard error is NaN for a single history.
+Estimate estimate_binomial(std::uint64_t count, std::uint64_t histories);
+
+}  // namespace lichtmc

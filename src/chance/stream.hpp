@@ -1,0 +1,44 @@
+// A photon's random numbers: they depend on (seed, history, flight, purpose) alone, never on thread, lane or order.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "chance/philox.hpp"
+
+namespace lichtmc {
+
+// What four words are drawn for. Each purpose has words of its own, so that a new one leaves all others as they are.
+enum class Purpose : std::uint32_t {
+  flight = 0,    // words 0, 1: direction of the next flight; words 2, 3: whether the photon survives
+  emission = 1,  // words 0, 1: direction; words 2, 3: which emitter
+  place = 2,     // words 0, 1: which triangle of a surface emitter; words 2, 3: where on it
+};
+
+class Stream {
+ public:
+  explicit Stream(std::uint64_t seed)
+      : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)} {}
+
+  Words draw(std::uint64_t history, std::uint32_t flight, Purpose purpose) const {
+    return philox4x32_10({static_cast<std::uint32_t>(history), static_cast<std::uint32_t>(history >> 32), flight,
+                          static_cast<std::uint32_t>(purpose)},
+                         key_);
+  }
+
+ private:
+  std::array<std::uint32_t, 2> key_;
+};
+
+// Uniform in the open interval (0, 1), in steps of 2⁻³²: never 0, so that its logarithm is finite, and never 1.
+inline double unit_open(std::uint32_t word) {
+  return (word + 0.5) * 0x1p-32;
+}
+
+// Uniform in [0, 1) in steps of 2⁻⁵³: `unit_fine(…) < p` is true with probability p to the last digit of p, always
+// for p = 1 and never for p = 0.
+inline double unit_fine(std::uint32_t high, std::uint32_t low) {
+  return high * 0x1p-32 + (low >> 11) * 0x1p-53;
+}
+
+}  // namespace lichtmc

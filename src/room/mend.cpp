@@ -1,0 +1,71 @@
+#include "lichtmc/mend.hpp"
+
+#include <set>
+#include <utility>
+
+#include "base/message.hpp"
+#include "lichtmc/error.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+void check_reflectance(double reflectance, const std::string& what) {
+  if (reflectance >= 0.0 && reflectance <= 1.0) return;
+  throw InputError(what + " is " + to_text(reflectance) +
+                   " (allowed: 0 to 1). Give the share of light that is reflected, for example 0.5.");
+}
+
+std::string materials_of(const Room& room) {
+  std::set<std::string> names;
+  for (const Surface& surface : room.surfaces) names.insert(quoted(surface.material));
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+}  // namespace
+
+void set_reflectance(Room& room, const std::string& material, double reflectance) {
+  check_reflectance(reflectance, "The reflectance for material " + quoted(material));
+  std::size_t changed = 0;
+  for (Surface& surface : room.surfaces) {
+    if (surface.material != material) continue;
+    surface.reflectance = reflectance;
+    ++changed;
+  }
+  if (changed == 0) {
+    throw InputError("There is no material " + quoted(material) + " in " + room.source + " (it has " +
+                     materials_of(room) + "). Give one of these names.");
+  }
+  room.mended.push_back("Material " + quoted(material) + ": reflectance set to " + to_text(reflectance) + " on " +
+                        to_text(changed, "surface") + ".");
+}
+
+void limit_reflectance(Room& room, double highest) {
+  check_reflectance(highest, "The highest reflectance");
+  std::size_t changed = 0;
+  for (Surface& surface : room.surfaces) {
+    if (surface.reflectance <= highest) continue;
+    surface.reflectance = highest;
+    ++changed;
+  }
+  if (changed > 0) {
+    room.mended.push_back("Reflectances above " + to_text(highest) + " lowered to it on " +
+                          to_text(changed, "surface") + ".");
+  }
+}
+
+void add_emitter(Room& room, Emitter emitter, Quantity quantity) {
+  if (room.emitters.empty()) room.quantity = quantity;
+  if (room.quantity != quantity) {
+    throw InputError("The light " + quoted(emitter.name) + " is in " + std::string(power_unit(quantity)) +
+                     ", the emitters of " + room.source + " are in " + std::string(power_unit(room.quantity)) +
+                     " (allowed: one unit for all). Give its power in " + std::string(power_unit(room.quantity)) + ".");
+  }
+  room.mended.push_back("Emitter " + quoted(emitter.name) + " added: " + to_text(emitter.power) + " " +
+                        std::string(power_unit(quantity)) + ".");
+  room.emitters.push_back(std::move(emitter));
+}
+
+}  // namespace lichtmc

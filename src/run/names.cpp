@@ -1,0 +1,45 @@
+// The words that settings and results are written with.
+#include "lichtmc/result.hpp"
+#include "lichtmc/settings.hpp"
+
+namespace lichtmc {
+
+std::string_view to_string(Estimator estimator) {
+  switch (estimator) {
+    case Estimator::weight:
+      return "weight";
+    case Estimator::collision:
+      return "collision";
+    case Estimator::absorption:
+      return "absorption";
+  }
+  return "";
+}
+
+std::string_view to_string(Engine engine) {
+  switch (engine) {
+    case Engine::automatic:
+      return "auto";
+    case Engine::cuboid:
+      return "cuboid";
+    case Engine::embree:
+      return "embree";
+  }
+  return "";
+}
+
+std::string_view to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::photons:
+      return "photons";
+    case StopReason::target_error:
+      return "target-error";
+    case StopReason::max_time:
+      return "max-time";
+    case StopReason::interrupt:
+      return "interrupt";
+  }
+  return "";
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,128 @@
+#include "run/scores.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lichtmc {
+
+Scores::Scores(const Room& room, const Tiling& tiling, Estimator estimator)
+    : room_(&room),
+      tiling_(&tiling),
+      estimator_(estimator),
+      power_(total_power(room)),
+      unit_(estimator == Estimator::weight ? 1.0 / weight_units : 1.0) {
+  for (const Surface& surface : room.surfaces) {
+    // A photon absorbed stands for the 1/(1 − ρ) impacts that a photon makes on such a surface until it is.
+    factor_.push_back(estimator == Estimator::absorption ? 1.0 / (1.0 - surface.reflectance) : 1.0);
+  }
+}
+
+// Mean and error of a tile's, or a surface's, incident power.
+Estimate Scores::incident_power(const Moments& moments, std::size_t surface, std::uint64_t histories) const {
+  // An absorbed photon scores once: the error is that of a binomial law, known from the count alone.
+  Estimate result = estimator_ == Estimator::absorption
+                        ? estimate_binomial(static_cast<std::uint64_t>(moments.sum), histories)
+                        : estimate(moments, histories);
+  const double scale = power_ * unit_ * factor_[surface];
+  result.mean *= scale;
+  result.standard_error *= scale;
+  return result;
+}
+
+std::vector<TileResult> Scores::tiles(const Totals& totals) const {
+  std::vector<TileResult> results(tiling_->tiles.size());
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const Tile& tile = tiling_->tiles[i];
+    TileResult& result = results[i];
+    result.hits = totals.hits.empty() ? static_cast<std::uint64_t>(totals.tiles[i].sum) : totals.hits[i];
+    result.standard_error = std::numeric_limits<double>::quiet_NaN();
+    if (result.hits == 0) continue;  // its irradiance is 0 and how far from 0 it may be is unknown
+    const Estimate power = incident_power(totals.tiles[i], tiling_->maps[tile.map].surface, totals.histories);
+    result.power = power.mean;
+    result.irradiance = power.mean / tile.area_m2;
+    result.standard_error = power.standard_error / tile.area_m2;
+  }
+  return results;
+}
+
+std::vector<SurfaceResult> Scores::surfaces(const Totals& totals, const std::vector<TileResult>& tiles) const {
+  std::vector<SurfaceResult> results(tiling_->maps.size());
+  for (std::size_t m = 0; m < results.size(); ++m) {
+    const TileMap& map = tiling_->maps[m];
+    const Surface& surface = room_->surfaces[map.surface];
+    SurfaceResult& result = results[m];
+    result.name = map.name;
+    result.material = surface.material;
+    result.reflectance = surface.reflectance;
+    result.min_irradiance = std::numeric_limits<double>::infinity();
+  }
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    SurfaceResult& result = results[tiling_->tiles[i].map];
+    result.area_m2 += tiling_->tiles[i].area_m2;
+    result.tiles += 1;
+    result.hits += tiles[i].hits;
+    result.min_irradiance = std::min(result.min_irradiance, tiles[i].irradiance);
+    result.max_irradiance = std::max(result.max_irradiance, tiles[i].irradiance);
+  }
+  for (std::size_t m = 0; m < results.size(); ++m) {
+    SurfaceResult& result = results[m];
+    result.standard_error = std::numeric_limits<double>::quiet_NaN();
+    if (result.tiles == 0) result.min_irradiance = 0.0;
+    if (result.hits == 0) continue;
+    const Estimate power = incident_power(totals.maps[m], tiling_->maps[m].surface, totals.histories);
+    result.power = power.mean;
+    result.mean_irradiance = power.mean / result.area_m2;
+    result.standard_error = power.standard_error / result.area_m2;
+    result.behind_share = static_cast<double>(totals.behind[m]) / static_cast<double>(totals.maps[m].sum);
+  }
+  return results;
+}
+
+Balance Scores::balance(const Totals& totals) const {
+  const double per_unit = power_ * unit_ / static_cast<double>(totals.histories);
+  Balance balance;
+  balance.emitted = power_;
+  balance.absorbed = per_unit * static_cast<double>(totals.ends.absorbed);
+  balance.escaped = per_unit * static_cast<double>(totals.ends.escaped);
+  balance.residual = per_unit * static_cast<double>(totals.ends.residual);
+  balance.lost = per_unit * static_cast<double>(totals.ends.lost);
+  return balance;
+}
+
+void Scores::incident(const Totals& totals, double& power, double& standard_error) const {
+  if (estimator_ != Estimator::absorption) {
+    const Estimate all = estimate(totals.incident, totals.histories);
+    power = power_ * unit_ * all.mean;
+    standard_error = power_ * unit_ * all.standard_error;
+    return;
+  }
+  // Each history scores at most once, the factor of the surface that absorbed it: mean and mean square follow from the
+  // counts.
+  const auto n = static_cast<double>(totals.histories);
+  double mean = 0.0;
+  double mean_square = 0.0;
+  for (std::size_t m = 0; m < totals.maps.size(); ++m) {
+    const double factor = factor_[tiling_->maps[m].surface];
+    const double share = static_cast<double>(totals.maps[m].sum) / n;
+    mean += share * factor;
+    mean_square += share * factor * factor;
+  }
+  power = power_ * mean;
+  standard_error = n < 2.0 ? std::numeric_limits<double>::quiet_NaN()
+                           : power_ * std::sqrt(std::max(mean_square - mean * mean, 0.0) / (n - 1.0));
+}
+
+double rms_relative_error(const Tiling& tiling, const std::vector<TileResult>& tiles) {
+  double squares = 0.0;
+  double area = 0.0;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    if (tiles[i].hits == 0) continue;
+    const double relative = tiles[i].standard_error / tiles[i].irradiance;
+    squares += tiling.tiles[i].area_m2 * relative * relative;
+    area += tiling.tiles[i].area_m2;
+  }
+  return area > 0.0 ? std::sqrt(squares / area) : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,90 @@
+#include "run/settings_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/message.hpp"
+#include "lichtmc/error.hpp"
+#include "room/enclosure.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+bool positive(double value) {
+  return std::isfinite(value) && value > 0.0;
+}
+
+// Surfaces that light can fall on.
+bool has_area(const Surface& surface) {
+  return surface_area(surface) > 0.0;
+}
+
+const Surface* surface_that_absorbs_nothing(const Room& room) {
+  const auto found = std::find_if(room.surfaces.begin(), room.surfaces.end(), [](const Surface& surface) {
+    return surface.reflectance == 1.0 && has_area(surface);
+  });
+  return found == room.surfaces.end() ? nullptr : &*found;
+}
+
+bool nothing_absorbs(const Room& room) {
+  return std::all_of(room.surfaces.begin(), room.surfaces.end(),
+                     [](const Surface& surface) { return surface.reflectance == 1.0 || !has_area(surface); });
+}
+
+}  // namespace
+
+void check_settings(const Settings& settings) {
+  if (settings.photons == 0) {
+    throw InputError("The number of photons is 0 (allowed: 1 or more). Give --photons a number, for example 1e6.");
+  }
+  if (settings.target_error && !positive(*settings.target_error)) {
+    throw InputError("The target error is " + to_text(*settings.target_error) +
+                     " (allowed: a finite number above 0). Give --target-error a share, for example 1% or 0.01.");
+  }
+  if (settings.max_seconds && !positive(*settings.max_seconds)) {
+    throw InputError("The time limit is " + to_text(*settings.max_seconds) +
+                     " s (allowed: a finite number above 0). Give --max-time a time, for example 60s.");
+  }
+  if (settings.max_bounces && *settings.max_bounces == 0) {
+    throw InputError("The number of bounces is 0 (allowed: 1 or more). Give --max-bounces a number, for example 20.");
+  }
+  if (settings.max_bounces && settings.estimator != Estimator::weight) {
+    throw InputError("A number of bounces is given for the estimator '" + std::string(to_string(settings.estimator)) +
+                     "' (only 'weight' is cut off). Leave out --max-bounces or use --estimator weight.");
+  }
+  if (!positive(settings.tile_edge_m)) {
+    throw InputError("The tile edge is " + to_text(settings.tile_edge_m) +
+                     " m (allowed: a finite number above 0). Give --tile a length in metres, for example 0.1.");
+  }
+  constexpr unsigned most_threads = 4096;
+  if (settings.threads > most_threads) {
+    throw InputError("The number of threads is " + std::to_string(settings.threads) +
+                     " (allowed: 0 for one per processor, to " + std::to_string(most_threads) +
+                     "). Give --threads a smaller number.");
+  }
+}
+
+void check_settings_for(const Room& room, const Settings& settings) {
+  if (settings.estimator == Estimator::absorption) {
+    if (const Surface* surface = surface_that_absorbs_nothing(room)) {
+      throw InputError(
+          "The estimator 'absorption' cannot see the surface " + quoted(surface->name) + " (material " +
+          quoted(surface->material) + ") of " + room.source +
+          ": its reflectance is 1, so that it never absorbs. Use the estimator 'collision' or 'weight', or a "
+          "reflectance below 1.");
+    }
+  }
+  if (settings.max_bounces || !nothing_absorbs(room)) return;
+  if (Enclosure(room).has_closed_shell()) {
+    throw InputError(
+        "Nothing in the closed room " + room.source +
+        " absorbs light: every reflectance is 1 (allowed: at least one surface below 1), so that the light in it would "
+        "grow "
+        "without end. Give its materials a reflectance below 1, or cut the walk off with --estimator weight "
+        "--max-bounces N.");
+  }
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,16 @@
+// Whether settings are sound, and sound for a room.
+#pragma once
+
+#include "lichtmc/room.hpp"
+#include "lichtmc/settings.hpp"
+
+namespace lichtmc {
+
+// Throws InputError naming the setting, its value, the legal range and what to do.
+void check_settings(const Settings& settings);
+
+// Throws InputError where the estimator cannot see the room (absorption with ρ = 1), or nothing in a closed room
+// absorbs so that the light in it would grow without end. The room must have passed check_room().
+void check_settings_for(const Room& room, const Settings& settings);
+
+}  // namespace lichtmc

@@ -1,0 +1,113 @@
+#include "lichtmc/simulate.hpp"
+
+#include <algorithm>
+#include <new>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "base/message.hpp"
+#include "chance/moments.hpp"
+#include "lichtmc/error.hpp"
+#include "run/crew.hpp"
+#include "run/scores.hpp"
+#include "run/settings_check.hpp"
+#include "walk/scene.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+unsigned threads_for(const Settings& settings) {
+  const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
+  const unsigned asked = settings.threads == 0 ? processors : settings.threads;
+  // A thread without a batch would only cost memory.
+  return static_cast<unsigned>(std::min<std::uint64_t>(asked, batches_of(settings.photons)));
+}
+
+// Simulates until the first stop rule is met. The target error is looked at after numbers of histories that depend on
+// nothing but the settings, so that the run ends at the same history for any number of threads.
+StopReason run_until_stopped(Crew& crew, const Scores& scores, const Tiling& tiling, const Settings& settings) {
+  constexpr std::uint64_t first_look =
+      32 * std::uint64_t{batch_histories};  // an error from 32 batches is known to 13 %
+  std::uint64_t look = settings.target_error ? std::min(first_look, settings.photons) : settings.photons;
+  for (;;) {
+    crew.simulate_up_to(look);
+    if (crew.stopped()) return *crew.stopped();
+    if (settings.target_error) {
+      const double error = rms_relative_error(tiling, scores.tiles(crew.totals()));
+      if (error <= *settings.target_error) return StopReason::target_error;
+      crew.set_error(error);
+    }
+    if (look == settings.photons) return StopReason::photons;
+    // A quarter more each time, whole batches: at most a quarter is simulated in vain.
+    const std::uint64_t more = std::max<std::uint64_t>(1, look / batch_histories / 4) * batch_histories;
+    look = settings.photons - look > more ? look + more : settings.photons;
+  }
+}
+
+std::vector<std::string> ignored_by_run(const Room& room) {
+  std::vector<std::string> ignored = room.ignored;
+  if (!room.receivers.empty()) {
+    ignored.push_back(to_text(room.receivers.size(), "receiver") + " (" + quoted(room.receivers.front().name) +
+                      (room.receivers.size() > 1 ? ", …" : "") + "): a forward run measures tiles, not points.");
+  }
+  return ignored;
+}
+
+void fill_in(Result& result, const Room& room, const Totals& totals, const Scores& scores) {
+  result.histories = totals.histories;
+  result.impacts = totals.impacts;
+  result.rays = totals.traced.rays;
+  result.retraced = totals.traced.retraced;
+  result.lost_histories = totals.ends.lost_histories;
+  result.balance = scores.balance(totals);
+  scores.incident(totals, result.incident, result.incident_standard_error);
+  result.tiles = scores.tiles(totals);
+  result.surfaces = scores.surfaces(totals, result.tiles);
+  result.rms_relative_error = rms_relative_error(result.tiling, result.tiles);
+  result.figure_of_merit = 1.0 / (result.rms_relative_error * result.rms_relative_error * result.seconds);
+  result.tiles_without_hits = static_cast<std::uint64_t>(
+      std::count_if(result.tiles.begin(), result.tiles.end(), [](const TileResult& tile) { return tile.hits == 0; }));
+  result.room = room.source;
+  result.quantity = room.quantity;
+  result.ignored = ignored_by_run(room);
+  result.mended = room.mended;
+}
+
+Result simulate_checked(const Room& room, const Settings& settings, const Control& control) {
+  Result result;
+  result.settings = settings;
+  result.threads = threads_for(settings);
+  result.tiling = make_tiling(room, settings.tile_edge_m);
+  const Scene scene(room, result.tiling, settings.engine);
+  result.engine = scene.engine;
+  const Scores scores(room, result.tiling, settings.estimator);
+
+  Crew crew(scene, settings, control, result.threads);
+  result.stopped_by = run_until_stopped(crew, scores, result.tiling, settings);
+  result.seconds = crew.seconds();
+  const Totals totals = crew.totals();
+  if (totals.histories == 0) {
+    throw RuntimeError(
+        "The run was stopped before the first photon was simulated: there is no result. Give it more time.");
+  }
+  fill_in(result, room, totals, scores);
+  return result;
+}
+
+}  // namespace
+
+Result simulate(const Room& room, const Settings& settings, const Control& control) {
+  check_settings(settings);
+  check_room(room);
+  check_settings_for(room, settings);
+  try {
+    return simulate_checked(room, settings, control);
+  } catch (const std::bad_alloc&) {
+    throw RuntimeError("There is not enough memory for the tiles of " + room.source +
+                       ". Use larger tiles (--tile) or fewer threads.");
+  }
+}
+
+}  // namespace lichtmc

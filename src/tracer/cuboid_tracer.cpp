@@ -1,0 +1,291 @@
+// Flights through an empty cuboid in closed form: λ = (d − n·a)/(n·v) for the three walls a flight goes towards, and
+// the smallest counts.
+//
+// Source: H. Schulze, Lichtausbreitung in Räumen, 2021, eq. 15-17. In the tracer's coordinates the cuboid is the unit
+// cube. A photon on a wall lies on it exactly and flies away from it, so that it cannot meet the wall it leaves, and no
+// photon can get out: no tolerance is needed.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "room/cuboid_shape.hpp"
+#include "tracer/tracer.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// A face's own coordinates: s along the next axis, t along the one after, in cyclic order.
+constexpr std::size_t axis_of(std::size_t face) {
+  return face / 2;
+}
+constexpr std::size_t s_axis(std::size_t axis) {
+  return (axis + 1) % 3;
+}
+constexpr std::size_t t_axis(std::size_t axis) {
+  return (axis + 2) % 3;
+}
+
+// Distance along a ray in one coordinate of the unit cube to the wall it flies to; infinite where it flies along the
+// walls.
+inline float distance(float start, float direction) {
+  const float wall = direction > 0.0F ? 1.0F : 0.0F;
+  const float length = (wall - start) / direction;
+  return direction == 0.0F ? std::numeric_limits<float>::infinity() : length;
+}
+
+inline float inside(float coordinate) {
+  return std::min(std::max(coordinate, 0.0F), 1.0F);
+}
+
+class CuboidTracer final : public Tracer {
+ public:
+  CuboidTracer(const CuboidShape& shape, std::vector<std::vector<TriangleOnFacet>> triangles, std::vector<Facet> facets)
+      : corner_(shape.corner), triangles_(std::move(triangles)) {
+    facets_ = std::move(facets);
+    glm::dmat3 to_unit{0.0};
+    double longest = 0.0;
+    for (const glm::dvec3& edge : shape.edges) longest = std::max(longest, glm::length(edge));
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3& edge = shape.edges[static_cast<std::size_t>(k)];
+      const double length = glm::length(edge);
+      for (int c = 0; c < 3; ++c) to_unit[c][k] = edge[c] / length / length;
+    }
+    points_ = to_unit;
+    // A direction may have any length: scaled to the longest edge, its components stay near 1.
+    directions_ = longest * to_unit;
+    for (std::size_t face = 0; face < 6; ++face) face_frame(face);
+  }
+
+  void trace(Rays& rays, Misses /*misses*/, TraceCount& count) const override {
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      const std::array<float, 3> a{rays.x[i], rays.y[i], rays.z[i]};
+      const std::array<float, 3> v{rays.dx[i], rays.dy[i], rays.dz[i]};
+      const std::array<float, 3> lambda{distance(a[0], v[0]), distance(a[1], v[1]), distance(a[2], v[2])};
+      std::size_t axis = lambda[1] < lambda[0] ? 1 : 0;
+      axis = lambda[2] < lambda[axis] ? 2 : axis;
+      // Only the light of an emitter on a wall can start towards that wall: it leaves the room at once.
+      if (rays.facet[i] == no_facet && lambda[axis] <= 0.0F) continue;
+      const std::size_t face = 2 * axis + (v[axis] > 0.0F ? 1 : 0);
+      rays.facet[i] = static_cast<std::uint32_t>(face);
+      rays.s[i] = inside(a[s_axis(axis)] + lambda[axis] * v[s_axis(axis)]);
+      rays.t[i] = inside(a[t_axis(axis)] + lambda[axis] * v[t_axis(axis)]);
+      rays.behind[i] = behind_[face];
+    }
+    count.rays += rays.size;
+  }
+
+  void depart(Rays& rays) const override {
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      if (rays.facet[i] == no_facet) continue;
+      const std::size_t axis = axis_of(rays.facet[i]);
+      std::array<float, 3> point{};
+      point[axis] = static_cast<float>(rays.facet[i] % 2);
+      point[s_axis(axis)] = rays.s[i];
+      point[t_axis(axis)] = rays.t[i];
+      rays.set_start(i, {point[0], point[1], point[2]});
+    }
+  }
+
+  Start start(const glm::dvec3& world_point_m) const override {
+    Start result;
+    const glm::dvec3 unit = points_ * (world_point_m - corner_);
+    for (int k = 0; k < 3; ++k) {
+      // Within rounding of a wall is on it.
+      const double nearest_wall = unit[k] < 0.5 ? 0.0 : 1.0;
+      const bool on_wall = std::abs(unit[k] - nearest_wall) <= wall_rounding;
+      result.point[k] = static_cast<float>(on_wall ? nearest_wall : unit[k]);
+      result.on_surface = result.on_surface || on_wall;
+    }
+    return result;
+  }
+
+  // Whether a point lies in the cuboid, its walls included.
+  bool holds(const glm::dvec3& world_point_m) const {
+    const glm::vec3 unit = start(world_point_m).point;
+    return unit.x >= 0.0F && unit.x <= 1.0F && unit.y >= 0.0F && unit.y <= 1.0F && unit.z >= 0.0F && unit.z <= 1.0F;
+  }
+
+  // Whether a surface's front, from which it emits, is the outside of the cuboid anywhere.
+  bool emits_outwards(std::size_t surface) const {
+    for (std::size_t face = 0; face < 6; ++face) {
+      if (facets_[face].surface == surface && behind_[face] != 0) return true;
+    }
+    return false;
+  }
+
+  TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const override {
+    return triangles_[surface][triangle];
+  }
+
+ private:
+  // A step of float coordinates next to 1.
+  static constexpr double wall_rounding = 0x1p-23;
+
+  // Frame to scatter about: the world's unit vectors along the edges, in the tracer's coordinates, where they have
+  // other lengths.
+  void face_frame(std::size_t face) {
+    const std::size_t axis = axis_of(face);
+    const auto along = [&](std::size_t k) {
+      glm::vec3 v(0.0F);
+      const auto column = static_cast<glm::length_t>(k);
+      v[column] = static_cast<float>(
+          glm::length(glm::dvec3(directions_[0][column], directions_[1][column], directions_[2][column])));
+      return v;
+    };
+    Facet& facet = facets_[face];
+    const bool normal_inwards = glm::dot(facet.normal, glm::vec3(1.0F)) > 0.0F;  // along the axis, see add_face()
+    facet.tangent = along(s_axis(axis));
+    facet.bitangent = along(t_axis(axis));
+    facet.normal = normal_inwards ? along(axis) : -along(axis);
+    const bool towards_middle = normal_inwards == (face % 2 == 0);
+    behind_[face] = towards_middle ? 0 : 1;
+  }
+
+  glm::dvec3 corner_;
+  glm::dmat3 points_{1.0};
+  std::array<std::uint8_t, 6> behind_{};  // 1 where the inside of the room is the back of the face
+  std::vector<std::vector<TriangleOnFacet>> triangles_;
+};
+
+// The part of a room's face that one triangle is: its corners in the face's coordinates and in the surface's grid.
+struct Piece {
+  std::size_t surface = 0;
+  bool front_along_axis = false;  // its normal points along the face's axis, not against it
+  std::array<glm::dvec2, 3> st{};
+  std::array<glm::dvec2, 3> cell{};
+};
+
+double twice_area(const std::array<glm::dvec2, 3>& corner) {
+  const glm::dvec2 a = corner[1] - corner[0];
+  const glm::dvec2 b = corner[2] - corner[0];
+  return a.x * b.y - a.y * b.x;
+}
+
+// The map from face coordinates to cells that a piece's corners define.
+struct CellMap {
+  glm::dvec2 cell_0{0.0};
+  glm::dmat2 slope{0.0};
+
+  explicit CellMap(const Piece& piece) {
+    const glm::dmat2 st(piece.st[1] - piece.st[0], piece.st[2] - piece.st[0]);
+    const glm::dmat2 cells(piece.cell[1] - piece.cell[0], piece.cell[2] - piece.cell[0]);
+    slope = cells * glm::inverse(st);
+    cell_0 = piece.cell[0] - slope * piece.st[0];
+  }
+  glm::dvec2 operator()(const glm::dvec2& st) const { return cell_0 + slope * st; }
+};
+
+// UVs are floats in files: corners may miss the map by some roundings of the grid's extent.
+bool follows(const CellMap& map, const Piece& piece, double grid_extent) {
+  constexpr double uv_roundings = 4.0 * 0x1p-23;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::dvec2 miss = map(piece.st[k]) - piece.cell[k];
+    if (std::max(std::abs(miss.x), std::abs(miss.y)) > uv_roundings * grid_extent) return false;
+  }
+  return true;
+}
+
+// The facet that a face's pieces make together; none where they belong to different surfaces, face different sides or
+// do not share one map to the tiles.
+std::optional<Facet> add_face(std::size_t axis, const std::vector<Piece>& pieces, double grid_extent) {
+  const auto largest = std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+    return std::abs(twice_area(a.st)) < std::abs(twice_area(b.st));
+  });
+  const CellMap map(*largest);
+  for (const Piece& piece : pieces) {
+    if (piece.surface != largest->surface || piece.front_along_axis != largest->front_along_axis) return std::nullopt;
+    if (!follows(map, piece, grid_extent)) return std::nullopt;
+  }
+  Facet facet;
+  facet.surface = static_cast<std::uint32_t>(largest->surface);
+  facet.normal[static_cast<glm::length_t>(axis)] = largest->front_along_axis ? 1.0F : -1.0F;
+  facet.cell_0 = glm::vec2(map.cell_0);
+  facet.cell_s = glm::vec2(map.slope[0]);
+  facet.cell_t = glm::vec2(map.slope[1]);
+  return facet;
+}
+
+double grid_extent(const Tiling& tiling, std::size_t surface) {
+  double extent = 1.0;
+  for (const TileMap& map : tiling.maps) {
+    if (map.surface == surface) extent = std::max({extent, double{1} * map.columns, double{1} * map.rows});
+  }
+  return extent;
+}
+
+// Corners of a triangle in its face's coordinates.
+Piece make_piece(const Room& room, const Tiling& tiling, const CuboidShape& shape, std::size_t k, std::size_t n) {
+  const Surface& surface = room.surfaces[k];
+  const glm::uvec3 corner = surface.triangles[n];
+  const std::size_t axis = axis_of(shape.face_of_triangle[k][n]);
+  const glm::dvec3& edge_s = shape.edges[s_axis(axis)];
+  const glm::dvec3& edge_t = shape.edges[t_axis(axis)];
+  Piece piece;
+  piece.surface = k;
+  piece.cell = tiling.cells[k][n];
+  for (std::size_t c = 0; c < 3; ++c) {
+    const glm::dvec3 from_corner = surface.positions[corner[static_cast<glm::length_t>(c)]] - shape.corner;
+    piece.st[c] = {glm::dot(from_corner, edge_s) / glm::dot(edge_s, edge_s),
+                   glm::dot(from_corner, edge_t) / glm::dot(edge_t, edge_t)};
+  }
+  // s × t points along the axis: the triangle's own winding in (s, t) tells which way its front looks.
+  piece.front_along_axis = twice_area(piece.st) > 0.0;
+  return piece;
+}
+
+}  // namespace
+
+std::unique_ptr<Tracer> make_cuboid_tracer(const Room& room, const Tiling& tiling, std::string& why_not) {
+  const std::optional<CuboidShape> shape = recognise_cuboid(room);
+  if (!shape) {
+    why_not = "is not an empty cuboid";
+    return nullptr;
+  }
+  std::array<std::vector<Piece>, 6> pieces;
+  std::vector<std::vector<TriangleOnFacet>> triangles(room.surfaces.size());
+  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
+    for (std::size_t n = 0; n < room.surfaces[k].triangles.size(); ++n) {
+      const Piece piece = make_piece(room, tiling, *shape, k, n);
+      const std::uint8_t face = shape->face_of_triangle[k][n];
+      triangles[k].push_back(
+          {face, glm::vec2(piece.st[0]), glm::vec2(piece.st[1] - piece.st[0]), glm::vec2(piece.st[2] - piece.st[0])});
+      if (twice_area(piece.st) != 0.0) pieces[face].push_back(piece);
+    }
+  }
+  std::vector<Facet> facets;
+  for (std::size_t face = 0; face < 6; ++face) {
+    const auto facet = add_face(axis_of(face), pieces[face], grid_extent(tiling, pieces[face].front().surface));
+    if (!facet) {
+      why_not = "has a wall that is made of several surfaces, or whose UVs are not one map";
+      return nullptr;
+    }
+    facets.push_back(*facet);
+  }
+  auto tracer = std::make_unique<CuboidTracer>(*shape, std::move(triangles), std::move(facets));
+  for (const Emitter& emitter : room.emitters) {
+    const bool outside = std::visit(
+        [&](const auto& shape_of_emitter) {
+          if constexpr (requires { shape_of_emitter.position; }) return !tracer->holds(shape_of_emitter.position);
+          return false;
+        },
+        emitter.shape);
+    // From outside the walls are seen from the other side.
+    const auto* surface = std::get_if<SurfaceEmitter>(&emitter.shape);
+    if (outside || (surface != nullptr && tracer->emits_outwards(surface->surface))) {
+      why_not = "has an emitter that shines from outside";
+      return nullptr;
+    }
+  }
+  return tracer;
+}
+
+}  // namespace lichtmc

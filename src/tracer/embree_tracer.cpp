@@ -1,0 +1,296 @@
+// Flights through any room by Embree.
+//
+// Embree computes in float. Three things keep that from showing:
+//  * The room is moved to the origin and scaled by a power of two so that its largest half extent lies in (½, 1].
+//  * A hit point is computed in double from the facet's own corners, as Embree has them, and the barycentric
+//  coordinates of
+//    the hit: it lies in the facet's plane, however long the flight was (C. Waechter, N. Binder: A Fast and Robust
+//    Method for Avoiding Self-Intersection. Ray Tracing Gems, 2019, ch. 6).
+//  * A photon leaves a surface by the rule written at depart().
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "base/frame.hpp"
+#include "lichtmc/error.hpp"
+#include "tracer/embree.hpp"
+#include "tracer/tracer.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, decltype(&rtcReleaseDevice)>;
+using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, decltype(&rtcReleaseScene)>;
+
+// What leaving a facet needs: its corners as Embree has them, and the two lengths of the rule at depart().
+struct Departure {
+  glm::vec3 corner{0.0F};
+  glm::vec3 edge_s{0.0F};
+  glm::vec3 edge_t{0.0F};
+  glm::vec3 step{0.0F};    // normal times the step off the plane
+  glm::vec3 margin{0.0F};  // least distance from the three sides, as barycentric coordinates: of 1 − s − t, s and t
+};
+
+// Embree decides on which side of a plane a ray starts from (corner − start)·normal. With the start rounded to float
+// and three differences and products the error is below 4 roundings (2⁻²⁴ each) of the distance between start and
+// corner and one of the coordinates; twice that is the step.
+constexpr double step_roundings = 8.0 * 0x1p-24;
+
+// A photon keeps this many steps away from the sides of its facet, so that it stays inside where walls meet at angles
+// down to 27°.
+constexpr double margin_steps = 2.0;
+
+// But it is never moved by more than this share of the facet: on slivers, narrower than some steps, the margin gives
+// way.
+constexpr double largest_margin = 0x1p-10;
+
+double largest_component(const glm::dvec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+Departure make_departure(const std::array<glm::vec3, 3>& corners, const glm::dvec3& normal) {
+  const std::array<glm::dvec3, 3> p{corners[0], corners[1], corners[2]};
+  const double twice_area = glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+  const double reach = std::max({largest_component(p[0]), largest_component(p[1]), largest_component(p[2])});
+  const std::array<double, 3> side{glm::length(p[2] - p[1]), glm::length(p[0] - p[2]), glm::length(p[1] - p[0])};
+  const double step = step_roundings * (reach + std::max({side[0], side[1], side[2]}));
+
+  Departure departure;
+  departure.corner = corners[0];
+  departure.edge_s = corners[1] - corners[0];
+  departure.edge_t = corners[2] - corners[0];
+  departure.step = glm::vec3(step * normal);
+  for (int k = 0; k < 3; ++k) {
+    // Height of the triangle over side k; a share of it is a barycentric coordinate.
+    const double share = margin_steps * step * side[static_cast<std::size_t>(k)] / twice_area;
+    departure.margin[k] = static_cast<float>(share < largest_margin ? share : largest_margin);
+  }
+  return departure;
+}
+
+void throw_embree_error(RTCDevice device, const std::string& what) {
+  const RTCError code = rtcGetDeviceError(device);
+  if (code == RTC_ERROR_NONE) return;
+  const std::string reason = code == RTC_ERROR_OUT_OF_MEMORY     ? "out of memory"
+                             : code == RTC_ERROR_UNSUPPORTED_CPU ? "this processor is not supported"
+                                                                 : "error " + std::to_string(static_cast<int>(code));
+  throw RuntimeError("Embree failed while " + what + " (" + reason +
+                     "). Use a machine with more memory, or a smaller room.");
+}
+
+class EmbreeTracer final : public Tracer {
+ public:
+  EmbreeTracer(const Room& room, const Tiling& tiling) {
+    if (!device_) throw_embree_error(nullptr, "starting");
+    scene_ = {rtcNewScene(device_.get()), &rtcReleaseScene};
+    // Robust: rays do not slip between triangles that share an edge. Medium quality: the same tree for any number of
+    // threads.
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
+    place(room);
+    add_facets(room, tiling);
+    throw_embree_error(device_.get(), "taking in the room");
+    rtcCommitScene(scene_.get());
+    throw_embree_error(device_.get(), "sorting the room's triangles");
+  }
+
+  void trace(Rays& rays, Misses misses, TraceCount& count) const override {
+    EmbreeQuery query;
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      const glm::vec3 direction = rays.direction(i);
+      RTCRayHit hit = intersect(query, rays.start(i), direction);
+      if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID && misses == Misses::retrace) {
+        hit = retrace(query, rays.start(i), direction);
+        count.rays += 4;
+        ++count.retraced;
+      }
+      land(rays, i, hit);
+    }
+    count.rays += rays.size;
+  }
+
+  // The rule for leaving a surface:
+  //  1. The photon keeps a margin from the facet's sides: a photon that landed within rounding of an edge would
+  //  otherwise start outside the room.
+  //  2. It starts one step off the facet's plane, on the side that it was hit on: Embree would otherwise find the facet
+  //  itself at distance 0.
+  // Both are some 10⁻⁶ of the room, below what float coordinates can tell apart, and are scored nowhere: tiles count
+  // the true hit.
+  void depart(Rays& rays) const override {
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      if (rays.facet[i] == no_facet) continue;
+      const Departure& from = departures_[rays.facet[i]];
+      double s = std::max(rays.s[i], from.margin.y);
+      double t = std::max(rays.t[i], from.margin.z);
+      const double excess = s + t - (1.0 - static_cast<double>(from.margin.x));
+      if (excess > 0.0) {
+        s -= 0.5 * excess;
+        t -= 0.5 * excess;
+      }
+      const double side = rays.behind[i] != 0 ? -1.0 : 1.0;
+      const glm::dvec3 point = glm::dvec3(from.corner) + s * glm::dvec3(from.edge_s) + t * glm::dvec3(from.edge_t);
+      rays.set_start(i, glm::vec3(point + side * glm::dvec3(from.step)));
+    }
+  }
+
+  Start start(const glm::dvec3& world_point_m) const override;
+
+  TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const override {
+    return {static_cast<std::uint32_t>(first_facet_[surface] + triangle), {0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}};
+  }
+
+ private:
+  void place(const Room& room);
+  void add_facets(const Room& room, const Tiling& tiling);
+
+  RTCRayHit intersect(EmbreeQuery& query, const glm::vec3& start, const glm::vec3& direction) const {
+    RTCRayHit hit{};
+    hit.ray.org_x = start.x;
+    hit.ray.org_y = start.y;
+    hit.ray.org_z = start.z;
+    hit.ray.dir_x = direction.x;
+    hit.ray.dir_y = direction.y;
+    hit.ray.dir_z = direction.z;
+    hit.ray.tnear = 0.0F;
+    hit.ray.tfar = std::numeric_limits<float>::infinity();
+    hit.ray.mask = 0xFFFFFFFF;
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.intersect(scene_.get(), hit);
+    return hit;
+  }
+
+  // A ray that found no surface in a closed room went exactly through an edge or a corner. Four rays beside it, a few
+  // steps away, cannot all do so; the nearest surface they meet is the one.
+  RTCRayHit retrace(EmbreeQuery& query, const glm::vec3& start, const glm::vec3& direction) const {
+    const Frame beside = frame_about(glm::normalize(glm::dvec3(direction)));
+    constexpr double distance = 4.0 * step_roundings;
+    RTCRayHit nearest{};
+    nearest.ray.tfar = std::numeric_limits<float>::infinity();
+    nearest.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    for (const glm::dvec3& shift : {beside.tangent, -beside.tangent, beside.bitangent, -beside.bitangent}) {
+      const RTCRayHit hit = intersect(query, glm::vec3(glm::dvec3(start) + distance * shift), direction);
+      if (hit.hit.geomID != RTC_INVALID_GEOMETRY_ID && hit.ray.tfar < nearest.ray.tfar) nearest = hit;
+    }
+    return nearest;
+  }
+
+  void land(Rays& rays, std::size_t i, const RTCRayHit& hit) const {
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+      rays.facet[i] = no_facet;
+      return;
+    }
+    rays.facet[i] = hit.hit.primID;
+    rays.s[i] = hit.hit.u;
+    rays.t[i] = hit.hit.v;
+    rays.behind[i] = glm::dot(rays.direction(i), facets_[hit.hit.primID].normal) > 0.0F ? 1 : 0;
+  }
+
+  Device device_{rtcNewDevice(nullptr), &rtcReleaseDevice};
+  Scene scene_{nullptr, &rtcReleaseScene};
+  glm::dvec3 centre_{0.0};
+  double scale_ = 1.0;
+  std::vector<std::size_t> first_facet_;  // of each surface
+  std::vector<Departure> departures_;
+};
+
+void EmbreeTracer::place(const Room& room) {
+  glm::dvec3 low(std::numeric_limits<double>::infinity());
+  glm::dvec3 high(-std::numeric_limits<double>::infinity());
+  for (const Surface& surface : room.surfaces) {
+    for (const glm::uvec3& triangle : surface.triangles) {
+      for (int k = 0; k < 3; ++k) {
+        low = glm::min(low, surface.positions[triangle[k]]);
+        high = glm::max(high, surface.positions[triangle[k]]);
+      }
+    }
+  }
+  centre_ = low + 0.5 * (high - low);
+  int exponent = 0;
+  std::frexp(largest_component(0.5 * (high - low)), &exponent);
+  scale_ = std::ldexp(1.0, -exponent);
+}
+
+void EmbreeTracer::add_facets(const Room& room, const Tiling& tiling) {
+  std::vector<glm::vec3> vertices;
+  std::vector<glm::uvec3> triangles;
+  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
+    const Surface& surface = room.surfaces[k];
+    const auto first_vertex = static_cast<std::uint32_t>(vertices.size());
+    first_facet_.push_back(triangles.size());
+    for (const glm::dvec3& position : surface.positions) vertices.emplace_back(scale_ * (position - centre_));
+    for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
+      const glm::uvec3 triangle = surface.triangles[n];
+      const glm::dvec3 a = surface.positions[triangle.x];
+      // Scaled first: the cross product of a tiny room's edges would underflow.
+      const glm::dvec3 cross =
+          glm::cross(scale_ * (surface.positions[triangle.y] - a), scale_ * (surface.positions[triangle.z] - a));
+      const double length = glm::length(cross);
+      // A triangle without area is never hit; any normal will do.
+      const Frame frame = frame_about(length > 0.0 ? cross / length : glm::dvec3(0.0, 1.0, 0.0));
+      const auto& cells = tiling.cells[k][n];
+      facets_.push_back({glm::vec3(frame.tangent), glm::vec3(frame.bitangent), glm::vec3(frame.normal),
+                         static_cast<std::uint32_t>(k), glm::vec2(cells[0]), glm::vec2(cells[1] - cells[0]),
+                         glm::vec2(cells[2] - cells[0])});
+      triangles.push_back(triangle + first_vertex);
+      const glm::uvec3 corner = triangles.back();
+      departures_.push_back(make_departure({vertices[corner.x], vertices[corner.y], vertices[corner.z]}, frame.normal));
+    }
+  }
+
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  const auto fill = [geometry](RTCBufferType type, RTCFormat format, const auto& elements) {
+    using Element = std::decay_t<decltype(elements[0])>;
+    void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Element), elements.size());
+    if (buffer != nullptr) std::copy(elements.begin(), elements.end(), static_cast<Element*>(buffer));
+  };
+  fill(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, vertices);
+  fill(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene_.get(), geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+Start EmbreeTracer::start(const glm::dvec3& world_point_m) const {
+  Start result;
+  const glm::dvec3 point = scale_ * (world_point_m - centre_);
+  result.point = glm::vec3(point);
+  for (std::size_t k = 0; k < departures_.size(); ++k) {
+    const Departure& facet = departures_[k];
+    const glm::dvec3 step(facet.step);
+    const glm::dvec3 normal(facets_[k].normal);
+    const glm::dvec3 from_corner = point - glm::dvec3(facet.corner);
+    if (std::abs(glm::dot(from_corner, normal)) > glm::length(step)) continue;
+    const glm::dvec3 cross = glm::cross(glm::dvec3(facet.edge_s), glm::dvec3(facet.edge_t));
+    const double area = glm::dot(cross, cross);
+    if (!(area > 0.0)) continue;
+    const double s = glm::dot(glm::cross(from_corner, glm::dvec3(facet.edge_t)), cross) / area;
+    const double t = glm::dot(glm::cross(glm::dvec3(facet.edge_s), from_corner), cross) / area;
+    const glm::dvec3 margin(facet.margin);
+    if (s < -margin.y || t < -margin.z || s + t > 1.0 + margin.x) continue;
+    result.on_surface = true;
+    // Triangles of one plane count once.
+    const bool known = std::any_of(result.steps.begin(), result.steps.end(), [&](const glm::vec3& other) {
+      return std::abs(glm::dot(glm::normalize(glm::dvec3(other)), normal)) > 1.0 - 1e-6;
+    });
+    if (!known) result.steps.push_back(2.0F * facet.step);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling) {
+  return std::make_unique<EmbreeTracer>(room, tiling);
+}
+
+}  // namespace lichtmc

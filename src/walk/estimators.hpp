@@ -1,0 +1,82 @@
+// The three estimators as policies of the one kernel: what an impact scores, and what becomes of the photon there.
+//
+// W. Wasow: On the mean duration of random walks, 1950; G. Forsythe, R. Leibler: Matrix inversion by a Monte Carlo
+// method, 1950; H. Schulze, Lichtausbreitung in Räumen, 2021, variants 1 to 3.
+//
+// All of them walk the same chain from surface to surface; ρ is the reflectance of the surface that was hit, `chance`
+// uniform in [0, 1). survive() says whether the photon flies on and books in `ends` where its power went, in the units
+// of the score.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "walk/tally.hpp"
+
+namespace lichtmc {
+
+// Variant 2: the photon survives with probability ρ; every impact scores 1.
+struct CollisionPolicy {
+  static constexpr Hits hits = Hits::are_the_score;
+  static constexpr bool scores_every_impact = true;
+  static constexpr bool carries_weight = false;
+
+  static std::uint64_t units(double /*weight*/) { return 1; }
+  static bool survive(double reflectance, double chance, double& /*weight*/, Ends& ends) {
+    if (chance < reflectance) return true;
+    ends.absorbed += 1;
+    return false;
+  }
+};
+
+// Variant 3: as variant 2, but only the last impact counts. It stands for 1/(1 − ρ) impacts, a factor that belongs to
+// the surface: the tally counts photons, the factor comes in at the end.
+struct AbsorptionPolicy : CollisionPolicy {
+  static constexpr bool scores_every_impact = false;
+};
+
+// Variant 1: the photon is never absorbed, its weight falls by ρ at every impact. The units of its weight that are gone
+// have been absorbed; rounding the weight itself, not what is gone, keeps the balance exact.
+struct WeightPolicy {
+  static constexpr Hits hits = Hits::apart;
+  static constexpr bool scores_every_impact = true;
+  static constexpr bool carries_weight = true;
+
+  static std::uint64_t units(double weight) { return static_cast<std::uint64_t>(weight * weight_units + 0.5); }
+  static int128 signed_units(double weight) { return static_cast<int128>(units(weight)); }
+
+  static void absorb(double reflectance, double& weight, Ends& ends) {
+    const double reflected = weight * reflectance;
+    ends.absorbed += signed_units(weight) - signed_units(reflected);
+    weight = reflected;
+  }
+};
+
+// Variant 1 ended by Russian roulette: below 1/8 the photon goes on with weight 1/4 or not at all, with the same
+// expectation. The figures trade the length of the walk against variance: with weights between 1/8 and 1/4 the roulette
+// adds little variance to a score whose own spread is that of hitting the tile or not.
+struct RouletteWeightPolicy : WeightPolicy {
+  static constexpr double threshold = 0.125;
+  static constexpr double restored = 0.25;
+
+  static bool survive(double reflectance, double chance, double& weight, Ends& ends) {
+    absorb(reflectance, weight, ends);
+    if (weight >= threshold) return true;
+    ends.residual += signed_units(weight);
+    if (chance * restored >= weight) return false;
+    ends.residual -= signed_units(restored);
+    weight = restored;
+    return true;
+  }
+};
+
+// Variant 1 cut off after a fixed number of flights by the kernel: what weight is left then is the residual.
+struct TruncatedWeightPolicy : WeightPolicy {
+  static bool survive(double reflectance, double /*chance*/, double& weight, Ends& ends) {
+    absorb(reflectance, weight, ends);
+    if (units(weight) > 0) return true;
+    return false;
+  }
+};
+
+}  // namespace lichtmc

@@ -1,0 +1,138 @@
+#include "walk/launcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "base/frame.hpp"
+#include "chance/directions.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// Turns shares into their running sum, scaled to end at exactly 1.
+std::vector<double> cumulative(const std::vector<double>& shares) {
+  std::vector<double> sums(shares.size());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < shares.size(); ++i) sums[i] = sum += shares[i];
+  for (double& value : sums) value /= sum;
+  sums.back() = 1.0;
+  return sums;
+}
+
+// Index of the share that 0 ≤ u < 1 falls into; shares of 0 are never chosen.
+std::size_t choose(const std::vector<double>& sums, double u) {
+  const auto chosen = std::upper_bound(sums.begin(), sums.end(), u);
+  return static_cast<std::size_t>(chosen - sums.begin());
+}
+
+glm::dvec3 sample(const IsotropicEmitter& /*law*/, double u, double turns) {
+  return sample_sphere(u, turns);
+}
+glm::dvec3 sample(const LambertEmitter& law, double u, double turns) {
+  return sample_generalized_lambert(law.exponent, u, turns);
+}
+glm::dvec3 sample(const SpotEmitter& law, double u, double turns) {
+  return sample_spot(law.inner, law.outer, u, turns);
+}
+
+}  // namespace
+
+Launcher::Launcher(const Room& room, const Tracer& tracer) : facets_(&tracer.facets()) {
+  std::vector<double> powers;
+  for (const Emitter& emitter : room.emitters) {
+    powers.push_back(emitter.power);
+    if (const auto* surface = std::get_if<SurfaceEmitter>(&emitter.shape)) {
+      sources_.emplace_back(surface_source(room, *surface, tracer));
+    } else {
+      sources_.emplace_back(point_source(emitter, tracer));
+    }
+  }
+  // Shares of the largest first: powers near the limits of double would overflow or vanish in the sum.
+  const double largest = *std::max_element(powers.begin(), powers.end());
+  for (double& power : powers) power /= largest;
+  powers_up_to_ = cumulative(powers);
+}
+
+Launcher::PointSource Launcher::point_source(const Emitter& emitter, const Tracer& tracer) {
+  PointSource source;
+  glm::dvec3 position(0.0);
+  glm::dvec3 axis(0.0, 0.0, 1.0);
+  std::visit(
+      [&](const auto& law) {
+        if constexpr (requires { law.position; }) {
+          position = law.position;
+          source.law = law;
+        }
+        if constexpr (requires { law.axis; }) axis = law.axis;
+      },
+      emitter.shape);
+  source.start = tracer.start(position);
+  hangs_free_ = hangs_free_ && !source.start.on_surface;
+  // Scaled by its largest component first: the square of a very long or short axis would not be a double.
+  axis /= std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
+  const Frame frame = frame_about(glm::normalize(axis));
+  source.to_tracer = tracer.directions() * glm::dmat3(frame.tangent, frame.bitangent, frame.normal);
+  return source;
+}
+
+Launcher::SurfaceSource Launcher::surface_source(const Room& room, const SurfaceEmitter& emitter,
+                                                 const Tracer& tracer) {
+  const Surface& surface = room.surfaces[emitter.surface];
+  SurfaceSource source;
+  source.exponent = emitter.exponent;
+  std::vector<double> areas;
+  for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
+    const glm::uvec3 corner = surface.triangles[n];
+    const glm::dvec3 a = surface.positions[corner.x];
+    areas.push_back(glm::length(glm::cross(surface.positions[corner.y] - a, surface.positions[corner.z] - a)));
+    source.triangles.push_back(tracer.locate(emitter.surface, n));
+  }
+  source.areas_up_to = cumulative(areas);
+  return source;
+}
+
+void Launcher::launch(const Stream& stream, std::uint64_t history, Rays& rays, std::size_t i) const {
+  const Words words = stream.draw(history, 0, Purpose::emission);
+  const auto& source = sources_[choose(powers_up_to_, unit_fine(words[2], words[3]))];
+  if (const auto* point = std::get_if<PointSource>(&source)) {
+    start_at(*point, words, rays, i);
+  } else {
+    start_on(std::get<SurfaceSource>(source), words, stream.draw(history, 0, Purpose::place), rays, i);
+  }
+}
+
+void Launcher::start_at(const PointSource& source, const Words& words, Rays& rays, std::size_t i) const {
+  const double u = unit_open(words[0]);
+  const double turns = unit_open(words[1]);
+  const glm::dvec3 local = std::visit([&](const auto& law) { return sample(law, u, turns); }, source.law);
+  const glm::vec3 direction(source.to_tracer * local);
+  glm::vec3 point = source.start.point;
+  // An emitter that touches a surface sends each photon off on the side it flies to.
+  for (const glm::vec3& step : source.start.steps) point += glm::dot(step, direction) < 0.0F ? -step : step;
+  rays.facet[i] = no_facet;
+  rays.set_start(i, point);
+  rays.set_direction(i, direction);
+}
+
+void Launcher::start_on(const SurfaceSource& source, const Words& words, const Words& place, Rays& rays,
+                        std::size_t i) const {
+  const std::size_t n = choose(source.areas_up_to, unit_fine(place[0], place[1]));
+  // Uniform on the triangle: 1 − √u is the share of the way from the side opposite a corner, the rest is uniform along
+  // it.
+  const double root = std::sqrt(unit_open(place[2]));
+  const double b1 = root * (1.0 - unit_open(place[3]));
+  const double b2 = root * unit_open(place[3]);
+  const TriangleOnFacet& triangle = source.triangles[n];
+  const glm::vec2 st = triangle.st_0 + static_cast<float>(b1) * triangle.st_1 + static_cast<float>(b2) * triangle.st_2;
+  rays.facet[i] = triangle.facet;
+  rays.s[i] = st.x;
+  rays.t[i] = st.y;
+  rays.behind[i] = 0;
+  const glm::dvec3 local = sample_generalized_lambert(source.exponent, unit_open(words[0]), unit_open(words[1]));
+  rays.set_direction(i, direction_from((*facets_)[triangle.facet], false, glm::vec3(local)));
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,99 @@
+#include "walk/scene.hpp"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "lichtmc/error.hpp"
+#include "room/enclosure.hpp"
+#include "room/nearest_tile.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// Whether a surface emitter's light starts inside a closed shell. Looked at in front of some of its triangles, spread
+// over it.
+bool emits_inside(const Room& room, const SurfaceEmitter& emitter, const Enclosure& enclosure) {
+  constexpr std::size_t samples = 16;
+  const Surface& surface = room.surfaces[emitter.surface];
+  const std::size_t stride = std::max<std::size_t>(1, surface.triangles.size() / samples);
+  for (std::size_t n = 0; n < surface.triangles.size(); n += stride) {
+    const glm::uvec3 corner = surface.triangles[n];
+    const glm::dvec3 a = surface.positions[corner.x];
+    const glm::dvec3 b = surface.positions[corner.y] - a;
+    const glm::dvec3 c = surface.positions[corner.z] - a;
+    const glm::dvec3 cross = glm::cross(b, c);
+    const double length = glm::length(cross);
+    if (!(length > 0.0)) continue;
+    // A millionth of the triangle's size in front of it.
+    if (!enclosure.encloses(a + (b + c) / 3.0 + 1e-6 * std::sqrt(length) * (cross / length))) return false;
+  }
+  return true;
+}
+
+// Whether all light starts inside closed shells, so that none of it can rightly leave the room.
+bool all_inside(const Room& room, const Enclosure& enclosure) {
+  return std::all_of(room.emitters.begin(), room.emitters.end(), [&](const Emitter& emitter) {
+    return std::visit(
+        [&](const auto& shape) {
+          if constexpr (requires { shape.position; }) return enclosure.encloses(shape.position);
+          if constexpr (requires { shape.surface; }) return emits_inside(room, shape, enclosure);
+        },
+        emitter.shape);
+  });
+}
+
+// A back side has the front's grid, and its tiles follow the front's in the same order: the distance is the same for
+// all.
+std::uint32_t tiles_between(const TileMap& front, const TileMap& back) {
+  const auto used =
+      std::find_if(back.tile_of_cell.begin(), back.tile_of_cell.end(), [](std::uint32_t t) { return t != no_tile; });
+  if (used == back.tile_of_cell.end()) return 0;
+  return *used - front.tile_of_cell[static_cast<std::size_t>(used - back.tile_of_cell.begin())];
+}
+
+std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engine asked, Engine& taken) {
+  std::string why_not;
+  if (asked != Engine::embree) {
+    taken = Engine::cuboid;
+    if (auto tracer = make_cuboid_tracer(room, tiling, why_not)) return tracer;
+    if (asked == Engine::cuboid) {
+      throw InputError("The engine 'cuboid' cannot serve " + room.source + ": the room " + why_not +
+                       ". Use the engine 'auto' or 'embree'.");
+    }
+  }
+  taken = Engine::embree;
+  return make_embree_tracer(room, tiling);
+}
+
+}  // namespace
+
+Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make_tracer(room, tiling, asked, engine)) {
+  surfaces.resize(room.surfaces.size());
+  maps = tiling.maps.size();
+  for (std::size_t k = 0; k < surfaces.size(); ++k) surfaces[k].reflectance = room.surfaces[k].reflectance;
+  for (std::size_t m = 0; m < tiling.maps.size(); ++m) {
+    const TileMap& map = tiling.maps[m];
+    SurfaceOptics& surface = surfaces[map.surface];
+    if (map.side == Side::back) {
+      surface.tiles_to_back = tiles_between(tiling.maps[m - 1], map);
+      continue;
+    }
+    surface.columns = map.columns;
+    surface.rows = map.rows;
+    surface.first_cell = tile_of_cell.size();
+    const std::vector<std::uint32_t> filled = nearest_tiles(map);
+    tile_of_cell.insert(tile_of_cell.end(), filled.begin(), filled.end());
+  }
+  map_of_tile.reserve(tiling.tiles.size());
+  for (const Tile& tile : tiling.tiles) map_of_tile.push_back(tile.map);
+
+  launcher = std::make_unique<Launcher>(room, *tracer);
+  if (engine == Engine::embree && launcher->hangs_free()) {
+    const Enclosure enclosure(room);
+    if (enclosure.has_closed_shell() && all_inside(room, enclosure)) misses = Misses::retrace;
+  }
+}
+
+}  // namespace lichtmc

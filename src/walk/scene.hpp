@@ -1,0 +1,60 @@
+// The room as the walk sees it: a tracer, what each surface does to light, which tile a place belongs to, where photons
+// start.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lichtmc/room.hpp"
+#include "lichtmc/settings.hpp"
+#include "lichtmc/tiles.hpp"
+#include "tracer/tracer.hpp"
+#include "walk/launcher.hpp"
+
+namespace lichtmc {
+
+// A surface's reflectance and its grid.
+struct SurfaceOptics {
+  double reflectance = 0.0;
+  std::uint32_t columns = 1;
+  std::uint32_t rows = 1;
+  std::size_t first_cell = 0;       // into Scene::tile_of_cell
+  std::uint32_t tiles_to_back = 0;  // a back side's tile number less the front's; 0 where both sides share one map
+};
+
+struct Scene {
+  // Tiles and lays out everything that a walk through `room` needs; the room is not needed afterwards.
+  Scene(const Room& room, const Tiling& tiling, Engine engine);
+
+  std::unique_ptr<Tracer> tracer;
+  Engine engine = Engine::embree;  // the one taken
+  Misses misses = Misses::escape;
+  std::vector<SurfaceOptics> surfaces;
+  std::vector<std::uint32_t> tile_of_cell;  // every cell has a tile, empty ones the nearest
+  std::vector<std::uint32_t> map_of_tile;
+  std::size_t maps = 0;
+  std::unique_ptr<Launcher> launcher;
+
+  // The tile that a place on a facet belongs to.
+  std::uint32_t tile_at(const Facet& facet, float s, float t, bool behind) const {
+    const SurfaceOptics& surface = surfaces[facet.surface];
+    const std::uint32_t column = cell_index(facet.cell_0.x + s * facet.cell_s.x + t * facet.cell_t.x, surface.columns);
+    const std::uint32_t row = cell_index(facet.cell_0.y + s * facet.cell_s.y + t * facet.cell_t.y, surface.rows);
+    const std::size_t cell = surface.first_cell + std::size_t{row} * surface.columns + column;
+    return tile_of_cell[cell] + (behind ? surface.tiles_to_back : 0);
+  }
+
+ private:
+  // A place that rounding puts beside the grid belongs to its outermost cells.
+  static std::uint32_t cell_index(float cell, std::uint32_t count) {
+    if (!(cell > 0.0F)) return 0;
+    const auto index = static_cast<std::uint32_t>(cell);  // cells number fewer than 2³¹
+    return index < count ? index : count - 1;
+  }
+};
+
+}  // namespace lichtmc

@@ -1,0 +1,42 @@
+// The walk: a batch of histories from the emitters to their ends.
+//
+// One kernel for all estimators and both tracers. What differs is passed in as a policy and resolved when the walk is
+// chosen, once per run.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "chance/stream.hpp"
+#include "lichtmc/settings.hpp"
+#include "walk/estimators.hpp"
+#include "walk/scene.hpp"
+#include "walk/tally.hpp"
+
+namespace lichtmc {
+
+// Asked every thousand flights of a wave: true ends it, and what still flies is booked as residual. Only a room that
+// keeps light for very long gets there.
+using Abandon = std::function<bool()>;
+
+class Walk {
+ public:
+  virtual ~Walk() = default;
+
+  // Simulates histories first … first + n − 1 (1 ≤ n ≤ batch_histories) and adds them to the tally as one batch.
+  virtual void simulate_batch(std::uint64_t first, std::uint32_t n, Tally& tally, const Abandon& abandon) = 0;
+
+ protected:
+  Walk() = default;
+  Walk(const Walk&) = default;
+  Walk& operator=(const Walk&) = default;
+};
+
+// A walk for one thread; the scene must outlive it.
+std::unique_ptr<Walk> make_walk(const Scene& scene, const Settings& settings);
+
+// How the tally of a walk counts hits.
+Hits hits_of(Estimator estimator);
+
+}  // namespace lichtmc

@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# From a bare machine to a first result: installs what is missing, builds, and simulates the living room in scenes/.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+tools/install-deps.sh
+cmake --preset release
+cmake --build --preset release
+build/release/bin/lichtmc run scenes/living_room.glb -o out/living_room "$@"
+echo "Illuminance of every surface: $PWD/out/living_room/surfaces.csv"
