@@ -13,7 +13,7 @@ packages=(
   libcli11-dev                               # the command line
   nlohmann-json3-dev                         # summary.json, glTF written
   catch2                                     # tests
-  python3-minimal                            # test scripts of the command line
+  python3                                    # test scripts of the command line, pictures of the paper
 )
 
 missing=()

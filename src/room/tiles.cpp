@@ -1,0 +1,215 @@
+#include "lichtmc/tiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "base/message.hpp"
+#include "lichtmc/error.hpp"
+#include "room/chart.hpp"
+#include "room/clip.hpp"
+#include "room/engine_chart.hpp"
+#include "room/triangle_shapes.hpp"
+#include "room/uv_chart.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr double most_cells = 0x1p31;
+
+// A cell's centre counts as on a triangle when it is outside by no more than this share of it: on an edge between two
+// triangles rounding must not put it on neither.
+constexpr double on_triangle = -1e-9;
+
+Chart make_chart(const Surface& surface, const std::vector<TriangleShape>& shapes, double edge_m) {
+  const bool has_area =
+      std::any_of(shapes.begin(), shapes.end(), [](const TriangleShape& shape) { return shape.area_m2 > 0.0; });
+  if (!has_area) {
+    Chart chart;
+    chart.source = ChartSource::engine;
+    chart.reason = "it has no area";
+    chart.corners.resize(shapes.size());
+    return chart;
+  }
+  std::string fault = uv_fault(surface, shapes);
+  if (fault.empty()) return make_uv_chart(surface, shapes, edge_m);
+  return make_engine_chart(surface, shapes, edge_m, std::move(fault));
+}
+
+double cell_count(const Surface& surface, const Chart& chart) {
+  return chart.cells.x * chart.cells.y * (surface.sides == Sides::both ? 2.0 : 1.0);
+}
+
+void check_cells(const Room& room, const std::vector<Chart>& charts, double edge_m) {
+  double total = 0.0;
+  double most = 0.0;
+  std::size_t worst = 0;
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    const double count = cell_count(room.surfaces[k], charts[k]);
+    total += count;
+    if (!(count > most)) continue;
+    most = count;
+    worst = k;
+  }
+  if (total <= most_cells) return;
+  throw InputError("Tiles of " + to_text(edge_m) + " m divide the room into " + to_text(total) +
+                   " cells (allowed: " + to_text(most_cells) + "), " + to_text(most) + " of them on the surface " +
+                   quoted(room.surfaces[worst].name) +
+                   ". Give --tile a greater length, or check that the room's coordinates are metres.");
+}
+
+// One map being filled.
+class MapTiler {
+ public:
+  MapTiler(const Surface& surface, TileMap& map) : surface_(surface), map_(map) {}
+
+  // Cuts a triangle into cells and adds its pieces to their tiles, which are numbered as they are met.
+  void add(std::size_t triangle, double area_m2, const std::array<glm::dvec2, 3>& corners);
+
+  // Renumbers the tiles from `first` on, row by row, and appends them.
+  void finish(std::uint32_t map_index, std::vector<Tile>& tiles);
+
+ private:
+  struct Draft {
+    Tile tile;
+    double largest_piece_m2 = 0.0;
+    bool at_centre = false;
+  };
+
+  Draft& draft_of(const CellPiece& piece);
+  glm::dvec3 point_on(std::size_t triangle, const glm::dvec3& weights) const;
+
+  const Surface& surface_;
+  TileMap& map_;
+  std::vector<CellPiece> pieces_;
+  std::vector<Draft> drafts_;
+};
+
+MapTiler::Draft& MapTiler::draft_of(const CellPiece& piece) {
+  std::uint32_t& number = map_.tile_of_cell[std::size_t{piece.row} * map_.columns + piece.column];
+  if (number == no_tile) {
+    number = static_cast<std::uint32_t>(drafts_.size());
+    drafts_.emplace_back();
+    drafts_.back().tile.column = piece.column;
+    drafts_.back().tile.row = piece.row;
+  }
+  return drafts_[number];
+}
+
+glm::dvec3 MapTiler::point_on(std::size_t triangle, const glm::dvec3& weights) const {
+  const glm::uvec3 corner = surface_.triangles[triangle];
+  return weights.x * surface_.positions[corner.x] + weights.y * surface_.positions[corner.y] +
+         weights.z * surface_.positions[corner.z];
+}
+
+// Barycentric coordinates of a place in the grid; not finite where the triangle has no area there.
+glm::dvec3 weights_at(const glm::dvec2& place, const std::array<glm::dvec2, 3>& corners) {
+  const glm::dvec2 b = corners[1] - corners[0];
+  const glm::dvec2 c = corners[2] - corners[0];
+  const glm::dvec2 p = place - corners[0];
+  const double determinant = b.x * c.y - b.y * c.x;
+  const double second = (p.x * c.y - p.y * c.x) / determinant;
+  const double third = (b.x * p.y - b.y * p.x) / determinant;
+  return {1.0 - second - third, second, third};
+}
+
+void MapTiler::add(std::size_t triangle, double area_m2, const std::array<glm::dvec2, 3>& corners) {
+  clip_to_cells(corners, map_.columns, map_.rows, pieces_);
+  for (const CellPiece& piece : pieces_) {
+    Draft& draft = draft_of(piece);
+    const double piece_m2 = piece.share * area_m2;
+    draft.tile.area_m2 += piece_m2;
+    if (draft.at_centre) continue;
+    const glm::dvec3 weights = weights_at({piece.column + 0.5, piece.row + 0.5}, corners);
+    draft.at_centre = weights.x >= on_triangle && weights.y >= on_triangle && weights.z >= on_triangle;
+    if (draft.at_centre) {
+      draft.tile.point = point_on(triangle, weights);
+    } else if (piece_m2 > draft.largest_piece_m2) {
+      draft.largest_piece_m2 = piece_m2;
+      draft.tile.point = point_on(triangle, piece.centroid);
+    }
+  }
+}
+
+void MapTiler::finish(std::uint32_t map_index, std::vector<Tile>& tiles) {
+  tiles.reserve(tiles.size() + drafts_.size());
+  for (std::uint32_t& number : map_.tile_of_cell) {
+    if (number == no_tile) continue;
+    const Draft& draft = drafts_[number];
+    if (!(draft.tile.area_m2 > 0.0)) {  // an area too small for a double
+      number = no_tile;
+      continue;
+    }
+    number = static_cast<std::uint32_t>(tiles.size());
+    tiles.push_back(draft.tile);
+    tiles.back().map = map_index;
+  }
+}
+
+TileMap front_map(const Surface& surface, std::size_t index, const Chart& chart) {
+  TileMap map;
+  map.name = surface.name;
+  map.surface = index;
+  map.chart = chart.source;
+  map.chart_reason = chart.reason;
+  map.columns = static_cast<std::uint32_t>(chart.cells.x);
+  map.rows = static_cast<std::uint32_t>(chart.cells.y);
+  map.uv_min = chart.uv_min;
+  map.uv_max = chart.uv_max;
+  map.tile_of_cell.assign(std::size_t{map.columns} * map.rows, no_tile);
+  return map;
+}
+
+// The back has the front's grid and geometry; its tiles follow the front's in the same order.
+void add_back(Tiling& tiling, std::size_t first_tile) {
+  TileMap back = tiling.maps.back();
+  back.name += ".back";
+  back.side = Side::back;
+  const std::size_t count = tiling.tiles.size() - first_tile;
+  for (std::uint32_t& tile : back.tile_of_cell) {
+    if (tile != no_tile) tile += static_cast<std::uint32_t>(count);
+  }
+  tiling.tiles.reserve(tiling.tiles.size() + count);
+  for (std::size_t n = 0; n < count; ++n) {
+    tiling.tiles.push_back(tiling.tiles[first_tile + n]);
+    tiling.tiles.back().map = static_cast<std::uint32_t>(tiling.maps.size());
+  }
+  tiling.maps.push_back(std::move(back));
+}
+
+}  // namespace
+
+Tiling make_tiling(const Room& room, double edge_m) {
+  if (!(edge_m > 0.0) || !std::isfinite(edge_m)) {
+    throw InputError("The tile edge is " + to_text(edge_m) +
+                     " m (allowed: a finite number above 0). Give --tile a length in metres.");
+  }
+  std::vector<std::vector<TriangleShape>> shapes;
+  std::vector<Chart> charts;
+  for (const Surface& surface : room.surfaces) {
+    shapes.push_back(triangle_shapes(surface));
+    charts.push_back(make_chart(surface, shapes.back(), edge_m));
+  }
+  check_cells(room, charts, edge_m);
+
+  Tiling tiling;
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    const Surface& surface = room.surfaces[k];
+    const std::size_t first_tile = tiling.tiles.size();
+    TileMap map = front_map(surface, k, charts[k]);
+    MapTiler tiler(surface, map);
+    for (std::size_t n = 0; n < shapes[k].size(); ++n) {
+      if (shapes[k][n].area_m2 > 0.0) tiler.add(n, shapes[k][n].area_m2, charts[k].corners[n]);
+    }
+    tiler.finish(static_cast<std::uint32_t>(tiling.maps.size()), tiling.tiles);
+    tiling.maps.push_back(std::move(map));
+    if (surface.sides == Sides::both) add_back(tiling, first_tile);
+    tiling.cells.push_back(std::move(charts[k].corners));
+  }
+  return tiling;
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,160 @@
+"""lichtmc run and cuboid: what they write, print and return."""
+import csv
+import hashlib
+import json
+import math
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from support import PROGRAM, SCENES, ProgramTest, lichtmc
+
+CUBE = SCENES / "cube_paper.gltf"
+
+SUMMARY_KEYS = ("version room unit engine estimator seed threads histories impacts rays seconds impacts_per_second emitted absorbed escaped residual "
+                "lost incident incident_standard_error rms_relative_error figure_of_merit stopped_by surfaces receivers ignored").split()
+TILE_COLUMNS = "tile,surface,column,row,x,y,z,area,power,irradiance,standard_error,hits".split(",")
+
+
+def digest(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+class Run(ProgramTest):
+    def run_room(self, *options, room=CUBE):
+        out = self.folder / "out"
+        done = lichtmc("run", room, "-o", out, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, "")
+        with open(out / "tiles.csv", newline="") as file:
+            tiles = list(csv.DictReader(file))
+        return out, json.loads((out / "summary.json").read_text()), tiles, done.stderr
+
+    def test_files_and_columns(self):
+        out, summary, tiles, said = self.run_room("--photons", "100k", "--seed", "5", "--threads", "2")
+        for key in SUMMARY_KEYS:
+            self.assertIn(key, summary)
+        self.assertEqual(list(tiles[0])[:12], TILE_COLUMNS)
+        self.assertEqual(len(tiles), 600)
+        self.assertEqual([int(t["tile"]) for t in tiles], list(range(600)))
+        self.assertEqual(summary["unit"], "W")
+        self.assertEqual(summary["histories"], 100000)
+        self.assertEqual(summary["seed"], 5)
+        self.assertEqual(summary["engine"], "cuboid")
+        self.assertEqual(summary["stopped_by"], "photons")
+        self.assertEqual(sorted(p.name for p in out.iterdir()), ["summary.json", "surfaces.csv", "tiles", "tiles.csv"])
+        self.assertEqual(len(list((out / "tiles").glob("*.exr"))), 6)
+        # Sums of 600 rounded numbers.
+        self.assertTrue(math.isclose(sum(float(t["power"]) for t in tiles), summary["incident"], rel_tol=1e-12))
+        self.assertTrue(math.isclose(sum(float(t["area"]) for t in tiles), 6.0, rel_tol=1e-12))
+        balance = sum(summary[k] for k in ("absorbed", "escaped", "residual", "lost"))
+        self.assertTrue(math.isclose(balance, summary["emitted"], rel_tol=1e-12))
+        for tile in tiles:
+            self.assertTrue(math.isclose(float(tile["power"]), float(tile["irradiance"]) * float(tile["area"]), rel_tol=1e-12))
+        self.assertIn("100k photons", said)
+        self.assertIn(str(out), said)
+
+    def test_same_digits_for_any_number_of_threads(self):
+        files = []
+        for threads in (1, 2, 7):
+            out, _, _, _ = self.run_room("--photons", "50001", "--threads", threads)
+            files.append(digest(out / "tiles.csv"))
+        self.assertEqual(len(set(files)), 1)
+        out, _, _, _ = self.run_room("--photons", "50001", "--seed", "2")
+        self.assertNotEqual(digest(out / "tiles.csv"), files[0])
+
+    def test_estimator_numbers_are_aliases(self):
+        for number, name in ("1", "weight"), ("2", "collision"), ("3", "absorption"):
+            _, summary, _, _ = self.run_room("--photons", "2000", "--estimator", number)
+            self.assertEqual(summary["estimator"], name)
+
+    def test_counts_as_people_write_them(self):
+        for text, count in ("2000", 2000), ("2e3", 2000), ("2k", 2000), ("0.003M", 3000):
+            _, summary, _, _ = self.run_room("--photons", text)
+            self.assertEqual(summary["histories"], count)
+
+    def test_target_error_and_what_it_would_take(self):
+        _, summary, _, _ = self.run_room("--target-error", "10%", "--tile", "0.25")
+        self.assertEqual(summary["stopped_by"], "target-error")
+        self.assertLessEqual(summary["rms_relative_error"], 0.10)
+        _, summary, _, said = self.run_room("--target-error", "0.001%", "--photons", "10000")
+        self.assertEqual(summary["stopped_by"], "photons")
+        self.assertIn("was not reached", said)
+
+    def test_max_time(self):
+        _, summary, _, _ = self.run_room("--photons", "1T", "--max-time", "0.5s")
+        self.assertEqual(summary["stopped_by"], "max-time")
+
+    def test_light_and_mending_are_noted(self):
+        room = self.folder / "dark.glb"
+        self.assertEqual(lichtmc("cuboid", "--size", 2, 2, 2, "-o", room).returncode, 0)
+        _, summary, _, _ = self.run_room("--photons", "2000", "--light", "point:1,1,1:500lm", "--light", "lambert:1,1.9,1:0,-1,0:3:100lm",
+                                         "--max-reflectance", "0.4", room=room)
+        self.assertEqual(summary["emitted"], 600)
+        self.assertEqual(summary["unit"], "lm")
+        self.assertEqual(len(summary["mended"]), 3)
+
+    def test_quiet(self):
+        done = lichtmc("run", CUBE, "-o", self.folder / "out", "--photons", "2000", "--quiet")
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+
+    def test_default_output_folder(self):
+        self.assertEqual(lichtmc("run", CUBE, "--photons", "2000", cwd=self.folder).returncode, 0)
+        self.assertTrue((self.folder / "cube_paper.out" / "summary.json").exists())
+
+    def test_interrupt_keeps_what_was_simulated(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            out = self.folder / f"out{number}"
+            program = subprocess.Popen([PROGRAM, "run", str(CUBE), "-o", str(out), "--photons", "1T"], stderr=subprocess.PIPE, text=True)
+            time.sleep(1.0)
+            program.send_signal(number)
+            _, said = program.communicate(timeout=20)
+            self.assertEqual(program.returncode, 0, said)
+            summary = json.loads((out / "summary.json").read_text())
+            self.assertEqual(summary["stopped_by"], "interrupt")
+            self.assertGreater(summary["histories"], 0)
+            self.assertLess(summary["histories"], 10**12)
+            self.assertIn("interrupted", said)
+
+    def test_a_second_run_replaces_the_first(self):
+        self.run_room("--photons", "2000", room=SCENES / "l_room.gltf")
+        out, summary, tiles, _ = self.run_room("--photons", "2000")
+        self.assertEqual(len(list((out / "tiles").glob("*.exr"))), 6)
+        self.assertEqual(len(tiles), 600)
+        self.assertEqual([p.name for p in out.rglob("*") if "tmp" in p.name], [])
+
+    def test_cuboid_is_read_back_as_one(self):
+        for name in "room.glb", "room.gltf":
+            room = self.folder / name
+            done = lichtmc("cuboid", "--size", 5, 2.6, 4, "--walls", 0.6, "--ceiling", 0.8, "--floor", 0.3, "--light", "point:2.5,2.4,2:2000lm", "-o", room)
+            self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+            _, summary, _, _ = self.run_room("--photons", "2000", room=room)
+            self.assertEqual(summary["engine"], "cuboid")
+            self.assertEqual(summary["unit"], "lm")
+            reflectances = {s["name"]: s["reflectance"] for s in summary["surfaces"]}
+            self.assertEqual(reflectances["ceiling"], 0.8)
+            self.assertEqual(reflectances["wall_z1"], 0.6)
+
+
+class Help(ProgramTest):
+    def test_every_command_explains_itself(self):
+        top = lichtmc("--help")
+        self.assertEqual(top.returncode, 0)
+        for command in "run", "cuboid":
+            self.assertIn(command, top.stdout)
+            done = lichtmc(command, "--help")
+            self.assertEqual(done.returncode, 0)
+            self.assertIn("Example", done.stdout)
+            self.assertEqual(done.stderr, "")
+        for option in ("--photons --estimator --target-error --max-time --max-bounces --tile --seed --threads --engine --unit --light "
+                       "--max-reflectance --reflectance --output --quiet").split():
+            self.assertIn(option, lichtmc("run", "--help").stdout)
+
+    def test_version(self):
+        self.assertRegex(lichtmc("--version").stdout, r"^lichtmc \d+\.\d+\.\d+\n$")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

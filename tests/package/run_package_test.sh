@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Installs the built project into a fresh folder, builds another project against the installed package only, and runs it.
+#   run_package_test.sh SOURCE_DIR BUILD_DIR
+set -euo pipefail
+source=$1 build=$2
+work=$build/package_test
+rm -rf "$work"
+cmake --install "$build" --prefix "$work/prefix" >/dev/null
+cmake -G Ninja -S "$source/tests/package/consumer" -B "$work/consumer" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release >"$work/configure.log" ||
+  { cat "$work/configure.log"; exit 1; }
+cmake --build "$work/consumer" || exit 1
+out=$("$work/consumer/consumer")
+echo "$out"
+[ "$(wc -l <<<"$out")" -eq 6 ] || { echo "expected one line for each of the six surfaces"; exit 1; }
+"$work/prefix/bin/lichtmc" --version
+# What the README shows is what was built here.
+awk '/^```cpp$/{on=1; next} /^```$/{on=0} on' "$source/README.md" >"$work/readme.cpp"
+diff "$work/readme.cpp" "$source/tests/package/consumer/main.cpp" || { echo "the example in README.md is not tests/package/consumer/main.cpp"; exit 1; }
+# The installed headers name no library but the standard one and GLM.
+if grep -rhoE '#include <[a-z0-9_]+/' "$work/prefix/include" | sort -u | grep -vE '<glm/'; then
+  echo "a public header includes another library"; exit 1
+fi
