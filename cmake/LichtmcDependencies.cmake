@@ -1,7 +1,6 @@
 # The libraries that lichtmc stands on, found where the system's packages put them. Read by the build here and by
 # programs that use the installed package.
 find_package(glm REQUIRED)
-find_package(TBB REQUIRED)
 # Debian 12's Imath names a Python library that only another package brings; its message about that is of no use here.
 set(lichtmc_log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING)

@@ -7,7 +7,6 @@ packages=(
   build-essential cmake ninja-build ccache   # to build
   libembree-dev                              # ray tracing (3.13 or 4.3)
   libglm-dev                                 # vectors of the public interface
-  libtbb-dev                                 # threads
   libtinygltf-dev                            # glTF
   libopenexr-dev                             # tile maps as images
   libcli11-dev                               # the command line

@@ -171,8 +171,9 @@ void run(const RunOptions& options) {
   const Settings settings = parse_settings(options);
   const Room room = read_room(options);
   check_room(room);
-  const std::filesystem::path folder =
-      options.output.empty() ? std::filesystem::path(options.room).stem().concat(".out") : options.output;
+  const std::filesystem::path folder = options.output.empty()
+                                           ? std::filesystem::path(options.room).stem().concat(".out")
+                                           : std::filesystem::path(options.output);
   prepare_output(folder);
 
   const auto show = options.quiet ? ProgressLine::Show::no : ProgressLine::Show::yes;

@@ -83,7 +83,7 @@ std::string collapsed(const Surface& surface, const std::vector<TriangleShape>& 
   }
   if (collapsed_area <= collapsed_share * area) return {};
   return "its UVs are degenerate (triangle " + std::to_string(worst) + " has an area of " + to_text(worst_area) +
-         " m², but none in its UVs)";
+         " m^2, but none in its UVs)";
 }
 
 std::string overlapping(const Surface& surface, const std::vector<TriangleShape>& shapes, double noise) {

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
+#include <thread>
 
 #include "chance/moments.hpp"
 
@@ -30,14 +28,12 @@ Crew::Crew(const Scene& scene, const Settings& settings, const Control& control,
 
 void Crew::simulate_up_to(std::uint64_t end) {
   next_ = done_;
-  tbb::task_arena arena(static_cast<int>(workers_.size()));
-  arena.execute([&] {
-    tbb::task_group group;
-    for (const auto& worker : workers_) {
-      group.run([this, &worker, end] { work(*worker, end); });
-    }
-    group.wait();
-  });
+  {
+    // Threads of the run's own, as many as were asked for; the calling thread is one of them.
+    std::vector<std::jthread> helpers;
+    for (std::size_t k = 1; k < workers_.size(); ++k) helpers.emplace_back([this, k, end] { work(*workers_[k], end); });
+    work(*workers_.front(), end);
+  }
   if (failure_) std::rethrow_exception(failure_);
   done_ = end;
 }

@@ -32,7 +32,6 @@ LIBRARIES = {
     r"embree\d?/": ["src/tracer/embree.hpp"],
     r"tiny_gltf": ["src/gltf/"],
     r"Imf|OpenEXR": ["src/output/", "tests/"],
-    r"tbb/": ["src/run/"],
     r"CLI/": ["apps/"],
 }
 

@@ -19,7 +19,8 @@ double y_r_atan(double y, double r) {
   return r > 0.0 ? y * r * std::atan(y / r) : 0.0;
 }
 
-// H. C. Hottel, 1931: element → rectangle with one corner on the perpendicular from the element; odd in a and b.
+// H. C. Hottel, Radiant heat transmission between surfaces separated by non-absorbing media, Transactions of the ASME
+// 53 (1931) 265: element → rectangle with one corner on the perpendicular from the element; odd in a and b.
 double element_to_corner_parallel(double distance, double a, double b) {
   const double to_a = std::hypot(distance, a);
   const double to_b = std::hypot(distance, b);
@@ -87,7 +88,8 @@ double element_to_perpendicular_rectangle(double distance, double left, double r
 }
 
 double opposite_rectangles(double a, double b, double distance) {
-  // Hamilton and Morgan, NACA TN 2836, 1952, P-1; X, Y the edges over the distance.
+  // D. C. Hamilton and W. R. Morgan, Radiant-interchange configuration factors, NACA TN 2836, 1952 (Howell C-11);
+  // x and y are the edges over the distance.
   const double x = a / distance;
   const double y = b / distance;
   const double x1 = std::sqrt(1.0 + x * x);
@@ -99,7 +101,7 @@ double opposite_rectangles(double a, double b, double distance) {
 }
 
 double rectangles_with_common_edge(double common, double from, double to) {
-  // Hamilton and Morgan, P-2; H and W the heights over the common edge.
+  // Hamilton and Morgan, as above (Howell C-14); h and w are the other edges over the common one.
   const double h = to / common;
   const double w = from / common;
   const double h2 = h * h;
@@ -126,7 +128,8 @@ double perpendicular_rectangles(const Rectangle& from, const Rectangle& to) {
 }
 
 double coaxial_disks(double r1, double r2, double distance) {
-  // C-41. The smaller solution of F² − X F + (r₂/r₁)² = 0, X = 1 + (1 + R₂²)/R₁², in the form without cancellation.
+  // Hamilton and Morgan, as above (Howell C-41). The smaller solution of F² − X F + (r₂/r₁)² = 0, X = 1 + (1 +
+  // R₂²)/R₁², in the form without cancellation.
   const double ratio2 = r2 / r1 * (r2 / r1);
   const double x = 1.0 + distance * distance / (r1 * r1) + ratio2;
   return 2.0 * ratio2 / (x + std::sqrt(x * x - 4.0 * ratio2));

@@ -2,9 +2,8 @@
 //
 // F is dimensionless, between 0 and 1, for a surface of uniform exitance with nothing in between. By reciprocity
 // A₁ F₁₂ = A₂ F₂₁. For an element of area F is also the irradiance on the element over the exitance of the other
-// surface, E/M. Lengths may be in any unit, the same for all. Letters C and numbers are those of J. R. Howell, A
-// Catalog of Radiation Heat Transfer Configuration Factors, where the formulas stand together; their authors are named
-// in the .cpp.
+// surface, E/M. Lengths may be in any unit, the same for all. The formulas stand together in J. R. Howell, A Catalog of
+// Radiation Heat Transfer Configuration Factors; their authors are named in the .cpp.
 #pragma once
 
 namespace lichtmc::test {
@@ -17,12 +16,12 @@ struct Rectangle {
   double second_high = 1.0;
 };
 
-// Element → rectangle in a plane parallel to it (C-11 to C-13). The foot of the perpendicular from the element, a
+// Element → rectangle in a plane parallel to it. The foot of the perpendicular from the element, a
 // distance > 0 away, divides the rectangle into `left` and `right` along one direction, `front` and `back` along the
 // other; where it lies outside, one of a pair is negative and the other larger than the rectangle.
 double element_to_parallel_rectangle(double distance, double left, double right, double front, double back);
 
-// Element → rectangle in a plane perpendicular to it (C-15, C-16). The foot of the perpendicular from the element onto
+// Element → rectangle in a plane perpendicular to it. The foot of the perpendicular from the element onto
 // the rectangle's plane, a distance > 0 away, divides the rectangle into `left` and `right` as above; in the direction
 // the element faces, the rectangle reaches from `near` ≥ 0 to `far`.
 double element_to_perpendicular_rectangle(double distance, double left, double right, double far, double near = 0.0);

@@ -1,5 +1,6 @@
 #include "support/rooms.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -62,11 +63,23 @@ const SurfaceResult& surface_named(const Result& result, const std::string& name
 
 std::vector<Compared> against(const Result& result, const std::string& map,
                               const std::function<double(const Tile&)>& expected) {
+  constexpr double enough_hits = 50.0;
   std::vector<Compared> figures;
+  Compared pool;  // powers; the error's square
+  double pool_area = 0.0;
+  const double hits_per_power = static_cast<double>(result.histories) / result.balance.emitted;
   for (std::size_t i = 0; i < result.tiles.size(); ++i) {
     const Tile& tile = result.tiling.tiles[i];
     if (result.tiling.maps[tile.map].name != map) continue;
-    figures.push_back({result.tiles[i].irradiance, result.tiles[i].standard_error, expected(tile), 0.0});
+    pool.value += result.tiles[i].power;
+    pool.expected += expected(tile) * tile.area_m2;
+    if (result.tiles[i].hits > 0) pool.standard_error += std::pow(result.tiles[i].standard_error * tile.area_m2, 2);
+    pool_area += tile.area_m2;
+    if (pool.expected > 0.0 && pool.expected * hits_per_power < enough_hits) continue;
+    figures.push_back(
+        {pool.value / pool_area, std::sqrt(pool.standard_error) / pool_area, pool.expected / pool_area, 0.0});
+    pool = {};
+    pool_area = 0.0;
   }
   return figures;
 }

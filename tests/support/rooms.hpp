@@ -31,7 +31,9 @@ Settings settings_of(Estimator estimator, Engine engine, double photons, std::ui
 
 const SurfaceResult& surface_named(const Result& result, const std::string& name);
 
-// Irradiance of the tiles of one map against an expectation for each tile.
+// Irradiance of the tiles of one map against an expectation for each tile. Hits follow Poisson's law, which is not near
+// enough to a normal one where few are expected: tiles that expect fewer than 50 hits are pooled into figures that
+// expect at least that many.
 std::vector<Compared> against(const Result& result, const std::string& map,
                               const std::function<double(const Tile&)>& expected);
 

@@ -36,7 +36,6 @@ double chi_square_above(std::size_t k, double p) {
 
 Verdict compare(const std::vector<Compared>& figures) {
   Verdict verdict;
-  verdict.figures = figures.size();
   verdict.agrees = !figures.empty();
   double information =
       0.0;  // Σ (expected/error)²: a common relative bias b shifts Σ z·(expected/error) by b times this
@@ -48,28 +47,29 @@ Verdict compare(const std::vector<Compared>& figures) {
       continue;
     }
     const double z = difference / error;
+    ++verdict.figures;
     if (std::isnan(z)) verdict.agrees = false;
     verdict.largest_z = std::max(verdict.largest_z, std::abs(z));
     verdict.chi_square += z * z;
     information += (figure.expected / error) * (figure.expected / error);
   }
-  const double allowed = largest_z_allowed(std::max<std::size_t>(1, figures.size()));
+  const double allowed = largest_z_allowed(std::max<std::size_t>(1, verdict.figures));
   if (verdict.largest_z > allowed) verdict.agrees = false;
   double low = 0.0;
   double high = allowed * allowed;
-  if (figures.size() >= 3) {
-    high = chi_square_above(figures.size(), false_alarm);
-    low = chi_square_above(figures.size(), 1.0 - false_alarm);
+  if (verdict.figures >= 3) {
+    high = chi_square_above(verdict.figures, false_alarm);
+    low = chi_square_above(verdict.figures, 1.0 - false_alarm);
     if (verdict.chi_square > high || verdict.chi_square < low) verdict.agrees = false;
   }
   // With a common bias b the expectation of Σ z² grows by b² · information; from K it must reach the limit.
-  const double room = std::max(high - static_cast<double>(figures.size()), 0.0);
+  const double room = std::max(high - static_cast<double>(verdict.figures), 0.0);
   verdict.smallest_bias = information > 0.0 ? std::sqrt(room / information) : 0.0;
   char text[240];
   std::snprintf(
       text, sizeof text,
       "%zu figures, largest |z| %.2f (allowed %.2f), chi-square %.1f (allowed %.1f to %.1f), bias found from %.2g",
-      figures.size(), verdict.largest_z, allowed, verdict.chi_square, low, high, verdict.smallest_bias);
+      verdict.figures, verdict.largest_z, allowed, verdict.chi_square, low, high, verdict.smallest_bias);
   verdict.text = text;
   return verdict;
 }

@@ -30,9 +30,7 @@ TEST_CASE("CIE 171 case 5.6: light off a diffuse surface") {
   // ceiling 3 m above. Points at the middle of the width: 100 E/M, and the same closed form averaged over the tiles.
   Room room = make_cuboid({4.0, 3.0, 4.0}, uniform_reflectance(0.0));
   room.emitters.push_back(surface_emitter(0, 16.0));
-  const auto on_wall = [](const glm::dvec3& p) {
-    return element_to_perpendicular_rectangle(p.y, 2.0 + (p.z - 2.0), 2.0 - (p.z - 2.0), 4.0);
-  };
+  const auto on_wall = [](const glm::dvec3& p) { return element_to_perpendicular_rectangle(p.y, p.z, 4.0 - p.z, 4.0); };
   const auto on_ceiling = [](const glm::dvec3& p) {
     return element_to_parallel_rectangle(3.0, p.x, 4.0 - p.x, p.z, 4.0 - p.z);
   };

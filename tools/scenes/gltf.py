@@ -151,7 +151,8 @@ class Gltf:
 
     def _floats(self, rows, kind, bounds=False):
         data = packed("f", (number for row in rows for number in row))
-        accessor = {"bufferView": self._view(data, ARRAY_BUFFER), "componentType": FLOAT, "count": len(rows), "type": kind}
+        view = self._view(data, ARRAY_BUFFER)
+        accessor = {"bufferView": view, "componentType": FLOAT, "count": len(rows), "type": kind}
         if bounds:
             # Of the numbers as stored: a bound rounded less than they are would not hold them.
             width = len(rows[0])

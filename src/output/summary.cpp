@@ -1,0 +1,138 @@
+#include <cmath>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "lichtmc/output.hpp"
+#include "lichtmc/version.hpp"
+#include "output/tile_image.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no word for what is not a number.
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+const char* kind_of(const Emitter& emitter) {
+  struct Kind {
+    const char* operator()(const IsotropicEmitter&) const { return "isotropic"; }
+    const char* operator()(const LambertEmitter&) const { return "lambert"; }
+    const char* operator()(const SpotEmitter&) const { return "spot"; }
+    const char* operator()(const SurfaceEmitter&) const { return "surface"; }
+  };
+  return std::visit(Kind{}, emitter.shape);
+}
+
+Json surfaces_of(const Result& result) {
+  Json surfaces = Json::array();
+  const std::vector<std::string> files = tile_image_names(result.tiling);
+  for (std::size_t m = 0; m < result.surfaces.size(); ++m) {
+    const SurfaceResult& s = result.surfaces[m];
+    const TileMap& map = result.tiling.maps[m];
+    Json entry{{"name", s.name},
+               {"material", s.material},
+               {"reflectance", number(s.reflectance)},
+               {"area", number(s.area_m2)},
+               {"tiles", s.tiles},
+               {"columns", map.columns},
+               {"rows", map.rows},
+               {"mean_irradiance", number(s.mean_irradiance)},
+               {"min_irradiance", number(s.min_irradiance)},
+               {"max_irradiance", number(s.max_irradiance)},
+               {"standard_error", number(s.standard_error)},
+               {"power", number(s.power)},
+               {"behind_share", number(s.behind_share)},
+               {"hits", s.hits},
+               {"file", "tiles/" + files[m]}};
+    if (map.chart == ChartSource::engine) entry["chart"] = "made by lichtmc: " + map.chart_reason;
+    surfaces.push_back(entry);
+  }
+  return surfaces;
+}
+
+Json emitters_of(const Room& room) {
+  Json emitters = Json::array();
+  for (const Emitter& emitter : room.emitters) {
+    emitters.push_back({{"name", emitter.name}, {"kind", kind_of(emitter)}, {"power", number(emitter.power)}});
+  }
+  return emitters;
+}
+
+// The unit of every figure in the summary and the tables.
+Json units_of(const Result& result) {
+  const std::string power(power_unit(result.quantity));
+  const std::string irradiance(irradiance_unit(result.quantity));
+  return {{"power", power},
+          {"emitted", power},
+          {"absorbed", power},
+          {"escaped", power},
+          {"residual", power},
+          {"lost", power},
+          {"incident", power},
+          {"incident_standard_error", power},
+          {"irradiance", irradiance},
+          {"standard_error", irradiance},
+          {"mean_irradiance", irradiance},
+          {"min_irradiance", irradiance},
+          {"max_irradiance", irradiance},
+          {"area", "m^2"},
+          {"x", "m"},
+          {"y", "m"},
+          {"z", "m"},
+          {"tile_edge_m", "m"},
+          {"seconds", "s"},
+          {"impacts_per_second", "1/s"},
+          {"figure_of_merit", "1/s"},
+          {"rms_relative_error", "1"},
+          {"reflectance", "1"},
+          {"behind_share", "1"}};
+}
+
+}  // namespace
+
+std::string summary_json(const Room& room, const Result& result) {
+  const Balance& balance = result.balance;
+  Json summary{{"version", std::string(version())},
+               {"room", result.room},
+               {"unit", std::string(power_unit(result.quantity))},
+               {"engine", std::string(to_string(result.engine))},
+               {"estimator", std::string(to_string(result.settings.estimator))},
+               {"seed", result.settings.seed},
+               {"threads", result.threads},
+               {"histories", result.histories},
+               {"impacts", result.impacts},
+               {"rays", result.rays},
+               {"seconds", number(result.seconds)},
+               {"impacts_per_second", number(static_cast<double>(result.impacts) / result.seconds)},
+               {"emitted", number(balance.emitted)},
+               {"absorbed", number(balance.absorbed)},
+               {"escaped", number(balance.escaped)},
+               {"residual", number(balance.residual)},
+               {"lost", number(balance.lost)},
+               {"incident", number(result.incident)},
+               {"incident_standard_error", number(result.incident_standard_error)},
+               {"rms_relative_error", number(result.rms_relative_error)},
+               {"figure_of_merit", number(result.figure_of_merit)},
+               {"stopped_by", std::string(to_string(result.stopped_by))},
+               {"surfaces", surfaces_of(result)},
+               {"receivers", Json::array()},
+               {"ignored", result.ignored}};
+  summary["mended"] = result.mended;
+  summary["emitters"] = emitters_of(room);
+  summary["tile_edge_m"] = result.settings.tile_edge_m;
+  summary["tiles_count"] = result.tiles.size();
+  summary["tiles_without_hits"] = result.tiles_without_hits;
+  summary["max_bounces"] = result.settings.max_bounces ? Json(*result.settings.max_bounces) : Json(nullptr);
+  summary["retraced"] = result.retraced;
+  summary["lost_histories"] = result.lost_histories;
+  summary["units"] = units_of(result);
+  // Names in files may hold bytes that are no UTF-8; they are replaced, not refused at the end of a long run.
+  return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,61 @@
+#include "output/tables.hpp"
+
+#include "base/message.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// Appends fields with commas between, and a line end.
+template <class... Fields>
+void append_row(std::string& table, const Fields&... fields) {
+  bool first = true;
+  const auto append = [&](const std::string& field) {
+    if (!first) table += ',';
+    first = false;
+    table += field;
+  };
+  (append(fields), ...);
+  table += '\n';
+}
+
+}  // namespace
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return field + '"';
+}
+
+std::string tiles_csv(const Result& result) {
+  std::string table = "tile,surface,column,row,x,y,z,area,power,irradiance,standard_error,hits,unit\n";
+  const std::string unit(irradiance_unit(result.quantity));
+  std::vector<std::string> names;
+  for (const TileMap& map : result.tiling.maps) names.push_back(csv_field(map.name));
+  for (std::size_t i = 0; i < result.tiles.size(); ++i) {
+    const Tile& tile = result.tiling.tiles[i];
+    const TileResult& figures = result.tiles[i];
+    append_row(table, std::to_string(i), names[tile.map], std::to_string(tile.column), std::to_string(tile.row),
+               to_text(tile.point.x), to_text(tile.point.y), to_text(tile.point.z), to_text(tile.area_m2),
+               to_text(figures.power), to_text(figures.irradiance), to_text(figures.standard_error),
+               std::to_string(figures.hits), unit);
+  }
+  return table;
+}
+
+std::string surfaces_csv(const Result& result) {
+  std::string table =
+      "name,material,reflectance,area,tiles,mean_irradiance,min_irradiance,max_irradiance,standard_error,power,behind_"
+      "share,hits,unit\n";
+  const std::string unit(irradiance_unit(result.quantity));
+  for (const SurfaceResult& s : result.surfaces) {
+    append_row(table, csv_field(s.name), csv_field(s.material), to_text(s.reflectance), to_text(s.area_m2),
+               std::to_string(s.tiles), to_text(s.mean_irradiance), to_text(s.min_irradiance),
+               to_text(s.max_irradiance), to_text(s.standard_error), to_text(s.power), to_text(s.behind_share),
+               std::to_string(s.hits), unit);
+  }
+  return table;
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,25 @@
+// Results as tables of comma-separated values (RFC 4180): a header row with the names of the columns, then a row per
+// tile or surface.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "lichtmc/result.hpp"
+
+namespace lichtmc {
+
+// tile,surface,column,row,x,y,z,area,power,irradiance,standard_error,hits,unit
+// x, y, z (m): a point of the surface in the tile; area m²; power W or lm; irradiance and its standard error in `unit`.
+// The standard error is "nan" where nothing was hit or fewer than two batches were simulated. Numbers read back as the
+// same doubles.
+std::string tiles_csv(const Result& result);
+
+// name,material,reflectance,area,tiles,mean_irradiance,min_irradiance,max_irradiance,standard_error,power,behind_share,hits,unit
+// One row per tile map: a surface, or the back of a two-sided one. standard_error is that of the mean.
+std::string surfaces_csv(const Result& result);
+
+// A text as a field: in quotes, its own quotes doubled, where it holds a comma, a quote or a line break.
+std::string csv_field(std::string_view text);
+
+}  // namespace lichtmc

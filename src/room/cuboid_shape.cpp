@@ -1,0 +1,185 @@
+#include "room/cuboid_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+namespace lichtmc {
+
+namespace {
+
+constexpr std::size_t most_triangles = 20'000;  // pairs within a face are tested for overlap
+
+struct Corners {
+  std::size_t surface = 0;
+  std::size_t triangle = 0;
+  std::array<glm::dvec3, 3> position;
+  glm::dvec3 cross{0.0};  // normal times twice the area
+};
+
+std::vector<Corners> solid_triangles(const Room& room) {
+  std::vector<Corners> all;
+  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
+    const Surface& surface = room.surfaces[k];
+    for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
+      const glm::uvec3 t = surface.triangles[n];
+      Corners corners{k, n, {surface.positions[t.x], surface.positions[t.y], surface.positions[t.z]}, {}};
+      corners.cross = glm::cross(corners.position[1] - corners.position[0], corners.position[2] - corners.position[0]);
+      if (glm::length(corners.cross) > 0.0) all.push_back(corners);
+    }
+  }
+  return all;
+}
+
+// How far rounding may have moved a position, as a share of the room: float coordinates and the transforms on the way
+// round to some 10⁻⁷.
+constexpr double rounding = 1e-6;
+
+// Directions of the edges: the normals of the largest triangle and of the largest perpendicular to it, and their cross
+// product.
+std::optional<std::array<glm::dvec3, 3>> find_axes(const std::vector<Corners>& triangles) {
+  const auto larger = [](const Corners& a, const Corners& b) { return glm::length(a.cross) < glm::length(b.cross); };
+  const Corners& first = *std::max_element(triangles.begin(), triangles.end(), larger);
+  const glm::dvec3 n0 = glm::normalize(first.cross);
+  const Corners* second = nullptr;
+  for (const Corners& t : triangles) {
+    // In a cuboid a normal is along n0 or perpendicular to it.
+    if (std::abs(glm::dot(glm::normalize(t.cross), n0)) > 0.5) continue;
+    if (second == nullptr || larger(*second, t)) second = &t;
+  }
+  if (second == nullptr) return std::nullopt;
+  const glm::dvec3 tilted = glm::normalize(second->cross);
+  const glm::dvec3 n1 = glm::normalize(tilted - glm::dot(tilted, n0) * n0);
+  std::array<glm::dvec3, 3> axes{n0, n1, glm::cross(n0, n1)};
+  // In the order and sense of the world's axes, as far as that goes.
+  for (int k = 0; k < 3; ++k) {
+    const auto place = static_cast<std::size_t>(k);
+    std::size_t best = place;
+    for (std::size_t j = place; j < 3; ++j) {
+      if (std::abs(axes[j][k]) > std::abs(axes[best][k])) best = j;
+    }
+    std::swap(axes[place], axes[best]);
+    if (axes[place][k] < 0.0) axes[place] = -axes[place];
+  }
+  if (glm::dot(glm::cross(axes[0], axes[1]), axes[2]) < 0.0) axes[2] = -axes[2];
+  return axes;
+}
+
+using Flat = std::array<glm::dvec2, 3>;
+
+double twice_area(const Flat& t) {
+  const glm::dvec2 a = t[1] - t[0];
+  const glm::dvec2 b = t[2] - t[0];
+  return std::abs(a.x * b.y - a.y * b.x);
+}
+
+// Whether some side of a keeps b on its outer side, up to a tolerance.
+bool separates(const Flat& a, const Flat& b, double tolerance) {
+  const glm::dvec2 middle = (a[0] + a[1] + a[2]) / 3.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::dvec2 side = a[(k + 1) % 3] - a[k];
+    const double length = glm::length(side);
+    if (!(length > 0.0)) continue;
+    glm::dvec2 outward = glm::dvec2(side.y, -side.x) / length;
+    if (glm::dot(outward, middle - a[k]) > 0.0) outward = -outward;
+    const bool outside =
+        std::all_of(b.begin(), b.end(), [&](const glm::dvec2& p) { return glm::dot(outward, p - a[k]) >= -tolerance; });
+    if (outside) return true;
+  }
+  return false;
+}
+
+// Triangles tile the unit square when their areas add up to 1 and no two overlap.
+bool tile_the_square(const std::vector<Flat>& triangles, double tolerance) {
+  double area = 0.0;
+  for (const Flat& t : triangles) area += 0.5 * twice_area(t);
+  // The outline may be off by the tolerance on each of four sides.
+  if (std::abs(area - 1.0) > 4.0 * tolerance) return false;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t j = i + 1; j < triangles.size(); ++j) {
+      if (!separates(triangles[i], triangles[j], tolerance) && !separates(triangles[j], triangles[i], tolerance))
+        return false;
+    }
+  }
+  return true;
+}
+
+// The face that a triangle lies in, given its corners in the unit cube; 6 where it lies in none.
+std::uint8_t face_of(const std::array<glm::dvec3, 3>& p, const glm::dvec3& tolerance) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int end = 0; end < 2; ++end) {
+      const bool in_plane = std::all_of(
+          p.begin(), p.end(), [&](const glm::dvec3& q) { return std::abs(q[axis] - end) <= tolerance[axis]; });
+      if (in_plane) return static_cast<std::uint8_t>(2 * axis + end);
+    }
+  }
+  return 6;
+}
+
+// Rounding mixes a rotated room's coordinates, so that its shortest edge suffers from its longest; not so where the
+// edges lie along the world's axes.
+glm::dvec3 tolerances(const std::array<glm::dvec3, 3>& axes, const glm::dvec3& size) {
+  const bool aligned = axes[0].x == 1.0 && axes[1].y == 1.0 && axes[2].z == 1.0;
+  if (aligned) return glm::dvec3(rounding);
+  return rounding * std::max({size.x, size.y, size.z}) / size;
+}
+
+}  // namespace
+
+std::optional<CuboidShape> recognise_cuboid(const Room& room) {
+  const std::vector<Corners> triangles = solid_triangles(room);
+  if (triangles.size() < 12 || triangles.size() > most_triangles) return std::nullopt;
+  const auto axes = find_axes(triangles);
+  if (!axes) return std::nullopt;
+
+  // Corners in the cuboid's axes, from one corner of it on so that distance from the origin costs no digits.
+  const glm::dvec3 origin = triangles.front().position[0];
+  const auto in_axes = [&](const glm::dvec3& p) {
+    const glm::dvec3 d = p - origin;
+    return glm::dvec3(glm::dot(d, (*axes)[0]), glm::dot(d, (*axes)[1]), glm::dot(d, (*axes)[2]));
+  };
+  glm::dvec3 low(std::numeric_limits<double>::infinity());
+  glm::dvec3 high = -low;
+  std::vector<std::array<glm::dvec3, 3>> local;
+  for (const Corners& t : triangles) {
+    local.push_back({in_axes(t.position[0]), in_axes(t.position[1]), in_axes(t.position[2])});
+    for (const glm::dvec3& p : local.back()) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+  }
+  const glm::dvec3 size = high - low;
+  const glm::dvec3 tolerance = tolerances(*axes, size);
+  // An edge that is not well above the rounding has no length to speak of.
+  if (!(std::min({size.x, size.y, size.z}) > 0.0) || std::max({tolerance.x, tolerance.y, tolerance.z}) > 0.01)
+    return std::nullopt;
+
+  CuboidShape shape;
+  for (const Surface& surface : room.surfaces)
+    shape.face_of_triangle.emplace_back(surface.triangles.size(), std::uint8_t{0});
+  std::array<std::vector<Flat>, 6> faces;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    auto& p = local[i];
+    for (glm::dvec3& corner : p) corner = (corner - low) / size;
+    const std::uint8_t face = face_of(p, tolerance);
+    if (face == 6) return std::nullopt;
+    shape.face_of_triangle[triangles[i].surface][triangles[i].triangle] = face;
+    const int s = (face / 2 + 1) % 3;
+    const int t = (face / 2 + 2) % 3;
+    faces[face].push_back({glm::dvec2(p[0][s], p[0][t]), glm::dvec2(p[1][s], p[1][t]), glm::dvec2(p[2][s], p[2][t])});
+  }
+  const double widest = std::max({tolerance.x, tolerance.y, tolerance.z});
+  for (const auto& face : faces) {
+    if (!tile_the_square(face, widest)) return std::nullopt;
+  }
+  shape.corner = origin + low.x * (*axes)[0] + low.y * (*axes)[1] + low.z * (*axes)[2];
+  for (int k = 0; k < 3; ++k) shape.edges[static_cast<std::size_t>(k)] = size[k] * (*axes)[static_cast<std::size_t>(k)];
+  return shape;
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,160 @@
+#include "lichtmc/room.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <type_traits>
+
+#include <glm/geometric.hpp>
+
+#include "base/message.hpp"
+#include "lichtmc/error.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+bool finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+std::string to_text(const glm::dvec3& v) {
+  return "(" + lichtmc::to_text(v.x) + ", " + lichtmc::to_text(v.y) + ", " + lichtmc::to_text(v.z) + ")";
+}
+
+// One fault of a room: "The reflectance of surface 'x' in room.glb is 2 (allowed: 0 to 1). Do this."
+[[noreturn]] void refuse(const Room& room, const std::string& what, const std::string& value,
+                         const std::string& allowed, const std::string& remedy) {
+  throw InputError("The " + what + " in " + room.source + " is " + value + " (allowed: " + allowed + "). " + remedy);
+}
+
+void require(bool sound, const Room& room, const std::string& what, double value, const std::string& allowed,
+             const std::string& remedy) {
+  if (!sound) refuse(room, what, lichtmc::to_text(value), allowed, remedy);
+}
+
+void check_surface(const Room& room, const Surface& surface) {
+  const std::string of = "of surface " + quoted(surface.name);
+  require(surface.reflectance >= 0.0 && surface.reflectance <= 1.0, room,
+          "reflectance " + of + " (material " + quoted(surface.material) + ")", surface.reflectance, "0 to 1",
+          "Give the share of light that it reflects.");
+  if (!surface.uvs.empty() && surface.uvs.size() != surface.positions.size()) {
+    refuse(room, "number of texture coordinates " + of, std::to_string(surface.uvs.size()),
+           std::to_string(surface.positions.size()) + ", one per position, or none", "Give one for each position.");
+  }
+  for (const glm::uvec3& triangle : surface.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      if (triangle[k] >= surface.positions.size()) {
+        refuse(room, "index of a triangle " + of, std::to_string(triangle[k]),
+               "below " + std::to_string(surface.positions.size()), "Let it name one of the surface's positions.");
+      }
+      const glm::dvec3& position = surface.positions[triangle[k]];
+      if (!finite(position))
+        refuse(room, "position of a corner " + of, to_text(position), "finite numbers", "Export the mesh again.");
+    }
+  }
+}
+
+void check_position(const Room& room, const glm::dvec3& position, const std::string& of) {
+  if (!finite(position)) refuse(room, "position " + of, to_text(position), "finite numbers", "Place it in the room.");
+}
+
+void check_axis(const Room& room, const glm::dvec3& axis, const std::string& of) {
+  if (!finite(axis) || axis == glm::dvec3(0.0))
+    refuse(room, "direction " + of, to_text(axis), "finite numbers, not all 0", "Give it a direction.");
+}
+
+void check_exponent(const Room& room, double exponent, const std::string& of) {
+  require(exponent >= 0.0, room, "exponent m (lambert_exponent) " + of, exponent, "0 or more",
+          "Use 0 for a uniform hemisphere, 1 for Lambert's law, more for a beam.");
+}
+
+void check_shape(const Room& room, const IsotropicEmitter& shape, const std::string& of) {
+  check_position(room, shape.position, of);
+}
+
+void check_shape(const Room& room, const LambertEmitter& shape, const std::string& of) {
+  check_position(room, shape.position, of);
+  check_axis(room, shape.axis, of);
+  check_exponent(room, shape.exponent, of);
+}
+
+void check_shape(const Room& room, const SpotEmitter& shape, const std::string& of) {
+  check_position(room, shape.position, of);
+  check_axis(room, shape.axis, of);
+  // Half a right angle too much by rounding is still π/2.
+  constexpr double largest = std::numbers::pi / 2.0 * (1.0 + 1e-6);
+  require(shape.outer > 0.0 && shape.outer <= largest, room, "outer cone angle " + of, shape.outer,
+          "above 0, to π/2 = 1.5708 rad", "Give the half angle of the cone that holds its light.");
+  require(shape.inner >= 0.0 && shape.inner < shape.outer, room, "inner cone angle " + of, shape.inner,
+          "0 to below the outer angle, " + lichtmc::to_text(shape.outer) + " rad",
+          "Give the half angle of the cone of full intensity.");
+}
+
+void check_shape(const Room& room, const SurfaceEmitter& shape, const std::string& of) {
+  if (shape.surface >= room.surfaces.size()) {
+    refuse(room, "number of the surface " + of, std::to_string(shape.surface),
+           "below " + std::to_string(room.surfaces.size()), "Let it name a surface.");
+  }
+  require(surface_area(room.surfaces[shape.surface]) > 0.0, room, "area in m² of the emitting surface " + of, 0.0,
+          "above 0", "Give it triangles that have an area, or remove the emitter.");
+  check_exponent(room, shape.exponent, of);
+}
+
+void check_receiver(const Room& room, const Receiver& receiver) {
+  const std::string of = "of receiver " + quoted(receiver.name);
+  check_position(room, receiver.position, of);
+  check_axis(room, receiver.normal, of);
+  require(receiver.half_angle_deg >= 0.0 && receiver.half_angle_deg <= 90.0, room,
+          "field of view (half angle in degrees) " + of, receiver.half_angle_deg, "0 to 90",
+          "Give the half angle it sees; 90 is the whole hemisphere.");
+  require(receiver.area_m2 >= 0.0 && std::isfinite(receiver.area_m2), room, "area in m² " + of, receiver.area_m2,
+          "a finite number, 0 or more", "Give its sensitive area.");
+}
+
+}  // namespace
+
+void check_room(const Room& room) {
+  for (const Surface& surface : room.surfaces) check_surface(room, surface);
+  const bool solid = std::any_of(room.surfaces.begin(), room.surfaces.end(),
+                                 [](const Surface& surface) { return surface_area(surface) > 0.0; });
+  if (!solid) {
+    throw InputError("There is no triangle with an area in " + room.source +
+                     " (allowed: at least one). Export the room's meshes with it, as triangles.");
+  }
+  if (room.emitters.empty()) {
+    throw InputError("There is no emitter in " + room.source +
+                     " (allowed: at least one). Add a point or spot light or an emissive material to the room, or give "
+                     "one with --light, for "
+                     "example --light point:0,2,0:1000lm.");
+  }
+  for (const Emitter& emitter : room.emitters) {
+    const std::string of = "of emitter " + quoted(emitter.name);
+    require(emitter.power >= 0.0 && std::isfinite(emitter.power), room,
+            "power in " + std::string(power_unit(room.quantity)) + " " + of, emitter.power,
+            "a finite number, 0 or more", "Give its power.");
+    std::visit([&](const auto& shape) { check_shape(room, shape, of); }, emitter.shape);
+  }
+  const double power = total_power(room);
+  require(power > 0.0 && std::isfinite(power), room,
+          "sum of the emitters' powers in " + std::string(power_unit(room.quantity)), power, "a finite number above 0",
+          "Give an emitter a power.");
+  for (const Receiver& receiver : room.receivers) check_receiver(room, receiver);
+}
+
+double surface_area(const Surface& surface) {
+  double twice = 0.0;
+  for (const glm::uvec3& triangle : surface.triangles) {
+    const glm::dvec3& a = surface.positions[triangle.x];
+    twice += glm::length(glm::cross(surface.positions[triangle.y] - a, surface.positions[triangle.z] - a));
+  }
+  return 0.5 * twice;
+}
+
+double total_power(const Room& room) {
+  double sum = 0.0;
+  for (const Emitter& emitter : room.emitters) sum += emitter.power;
+  return sum;
+}
+
+}  // namespace lichtmc
