@@ -17,7 +17,7 @@ std::string to_text(std::size_t count, std::string_view singular) {
   return text;
 }
 
-std::string quoted(std::string_view name) {
+std::string in_quotes(std::string_view name) {
   if (name.empty()) return "(no name)";
   return "'" + std::string(name) + "'";
 }

@@ -13,6 +13,6 @@ std::string to_text(double value);
 std::string to_text(std::size_t count, std::string_view singular);
 
 // "'name'" in quotes for messages; a name that is empty reads "(no name)".
-std::string quoted(std::string_view name);
+std::string in_quotes(std::string_view name);
 
 }  // namespace lichtmc

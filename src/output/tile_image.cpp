@@ -12,6 +12,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
+#include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
@@ -75,21 +76,58 @@ Imf::Header header_of(const Result& result, std::size_t m) {
   text("material", result.surfaces[m].material);
   text("side", map.side == Side::front ? "front" : "back");
   text("lichtmc_version", version());
-  text("comments", "Y and standard_error in the unit named, area in m^2; row 0 at the smallest v; NaN: error unknown");
-  header.insert("uv_min", Imf::V2fAttribute({static_cast<float>(map.uv_min.x), static_cast<float>(map.uv_min.y)}));
-  header.insert("uv_max", Imf::V2fAttribute({static_cast<float>(map.uv_max.x), static_cast<float>(map.uv_max.y)}));
+  text("software", "lichtmc " + std::string(version()));
+  text("comments",
+       "Y and standard_error in the unit named, area in m^2; the top line is row 0, at the smallest v; standard_error "
+       "is nan where nothing hit the tile, and in cells without surface, which have the area 0");
+  header.insert("uv_min", Imf::V2dAttribute({map.uv_min.x, map.uv_min.y}));
+  header.insert("uv_max", Imf::V2dAttribute({map.uv_max.x, map.uv_max.y}));
+  header.insert("tile_count", Imf::IntAttribute(static_cast<int>(result.surfaces[m].tiles)));
   header.insert("tile_edge_m", Imf::FloatAttribute(static_cast<float>(result.settings.tile_edge_m)));
   for (const char* channel : {"Y", "standard_error", "area"})
     header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
   return header;
 }
 
+// Bytes of the UTF-8 character at the beginning of a text: 2 to 4 outside ASCII, 1 within, 0 where it is none (RFC
+// 3629; without a look at overlong forms and surrogates, which are strange but do no harm in a name).
+std::size_t character_length(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text.front());
+  const std::size_t length = lead < 0x80   ? 1
+                             : lead < 0xC2 ? 0
+                             : lead < 0xE0 ? 2
+                             : lead < 0xF0 ? 3
+                             : lead < 0xF5 ? 4
+                                           : 0;
+  if (length > text.size()) return 0;
+  const bool whole =
+      std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(length, 1)),
+                  [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; });
+  return whole ? length : 0;
+}
+
+std::string safe_stem(std::string_view name) {
+  constexpr std::size_t longest = 120;  // bytes; file systems allow 255 and the temporary name needs some
+  std::string stem;
+  while (!name.empty()) {
+    const auto c = static_cast<unsigned char>(name.front());
+    const std::size_t length = character_length(name);
+    const bool plain = length > 1 || (length == 1 && (std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'));
+    const std::string_view piece = plain ? name.substr(0, length) : std::string_view("_");
+    if (stem.size() + piece.size() > longest) break;
+    stem += piece;
+    name.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  if (stem.empty() || stem.front() == '.') stem.insert(0, "_");
+  return stem;
+}
+
 }  // namespace
 
 std::string tile_image(const Result& result, std::size_t m) {
   const TileMap& map = result.tiling.maps[m];
-  Pixels pixels = pixels_of(result, map);
   try {
+    Pixels pixels = pixels_of(result, map);
     ByteStream stream;
     {
       Imf::OutputFile file(stream, header_of(result, m));
@@ -114,17 +152,10 @@ std::string tile_image(const Result& result, std::size_t m) {
 }
 
 std::vector<std::string> tile_image_names(const Tiling& tiling) {
-  constexpr std::size_t longest = 120;  // bytes; file systems allow 255 and the temporary name needs some
   std::vector<std::string> names;
   std::set<std::string> taken;
   for (const TileMap& map : tiling.maps) {
-    std::string stem;
-    for (const char c : map.name.substr(0, longest)) {
-      const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.' ||
-                         static_cast<unsigned char>(c) >= 0x80;
-      stem += plain ? c : '_';
-    }
-    if (stem.empty() || stem.front() == '.') stem.insert(0, "_");
+    const std::string stem = safe_stem(map.name);
     const auto folded = [](std::string text) {
       std::transform(text.begin(), text.end(), text.begin(),
                      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

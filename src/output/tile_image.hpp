@@ -12,11 +12,12 @@ namespace lichtmc {
 // An OpenEXR file of one tile map, as bytes. One pixel per cell, row 0 (the top scan line) at the smallest v, column 0
 // at the smallest u. Channels, all 32-bit float: Y (irradiance), standard_error (NaN where unknown), area (m²). Cells
 // without surface have 0, NaN, 0. Header attributes: unit, quantity, surface, material, side, uv_min, uv_max,
-// tile_edge_m, lichtmc_version.
+// tile_count, tile_edge_m, lichtmc_version, software, comments. Throws RuntimeError where OpenEXR or the memory
+// refuses.
 std::string tile_image(const Result& result, std::size_t map);
 
-// File names for the tile maps of a result: a map's name with what file systems dislike turned into '_', and ".exr"; no
-// two alike, whatever the case.
+// File names for the tile maps of a result, in UTF-8: a map's name with what file systems dislike turned into '_', cut
+// to 120 bytes, and ".exr"; no two alike, whatever the case of their ASCII letters.
 std::vector<std::string> tile_image_names(const Tiling& tiling);
 
 }  // namespace lichtmc

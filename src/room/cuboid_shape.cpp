@@ -9,11 +9,13 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "room/triangle_shapes.hpp"
+
 namespace lichtmc {
 
 namespace {
 
-constexpr std::size_t most_triangles = 20'000;  // pairs within a face are tested for overlap
+constexpr std::size_t most_triangles = 20'000;  // pairs that meet in one coordinate are tested for overlap
 
 struct Corners {
   std::size_t surface = 0;
@@ -36,16 +38,27 @@ std::vector<Corners> solid_triangles(const Room& room) {
   return all;
 }
 
-// How far rounding may have moved a position, as a share of the room: float coordinates and the transforms on the way
-// round to some 10⁻⁷.
-constexpr double rounding = 1e-6;
+// How far a position may lie off its wall, relative to the largest coordinate: float_noise for the position, and as
+// much for each of the three corners that say where the wall is.
+constexpr double rounding = 4.0 * float_noise;
 
-// Directions of the edges: the normals of the largest triangle and of the largest perpendicular to it, and their cross
-// product.
+// Vector area of all triangles that look along `direction` or against it, as a direction. Positions inside a wall and
+// their rounding cancel out of it: only its outline counts.
+glm::dvec3 common_normal(const std::vector<Corners>& triangles, const glm::dvec3& direction) {
+  glm::dvec3 sum(0.0);
+  for (const Corners& t : triangles) {
+    const double cosine = glm::dot(glm::normalize(t.cross), direction);
+    if (std::abs(cosine) > 0.9) sum += cosine > 0.0 ? t.cross : -t.cross;
+  }
+  return glm::normalize(sum);
+}
+
+// Directions of the edges: the normals of the wall with the largest triangle and of the wall with the largest one
+// perpendicular to it, and their cross product.
 std::optional<std::array<glm::dvec3, 3>> find_axes(const std::vector<Corners>& triangles) {
   const auto larger = [](const Corners& a, const Corners& b) { return glm::length(a.cross) < glm::length(b.cross); };
   const Corners& first = *std::max_element(triangles.begin(), triangles.end(), larger);
-  const glm::dvec3 n0 = glm::normalize(first.cross);
+  const glm::dvec3 n0 = common_normal(triangles, glm::normalize(first.cross));
   const Corners* second = nullptr;
   for (const Corners& t : triangles) {
     // In a cuboid a normal is along n0 or perpendicular to it.
@@ -53,7 +66,7 @@ std::optional<std::array<glm::dvec3, 3>> find_axes(const std::vector<Corners>& t
     if (second == nullptr || larger(*second, t)) second = &t;
   }
   if (second == nullptr) return std::nullopt;
-  const glm::dvec3 tilted = glm::normalize(second->cross);
+  const glm::dvec3 tilted = common_normal(triangles, glm::normalize(second->cross));
   const glm::dvec3 n1 = glm::normalize(tilted - glm::dot(tilted, n0) * n0);
   std::array<glm::dvec3, 3> axes{n0, n1, glm::cross(n0, n1)};
   // In the order and sense of the world's axes, as far as that goes.
@@ -94,16 +107,34 @@ bool separates(const Flat& a, const Flat& b, double tolerance) {
   return false;
 }
 
+struct Placed {
+  Flat corners;
+  glm::dvec2 low;
+  glm::dvec2 high;
+};
+
+// Whether two triangles have more in common than their outlines.
+bool overlap(const Placed& a, const Placed& b, double tolerance) {
+  if (a.high.y <= b.low.y || b.high.y <= a.low.y) return false;
+  return !separates(a.corners, b.corners, tolerance) && !separates(b.corners, a.corners, tolerance);
+}
+
 // Triangles tile the unit square when their areas add up to 1 and no two overlap.
-bool tile_the_square(const std::vector<Flat>& triangles, double tolerance) {
+bool tile_the_square(const std::vector<Flat>& triangles, const glm::dvec2& tolerance) {
   double area = 0.0;
-  for (const Flat& t : triangles) area += 0.5 * twice_area(t);
+  std::vector<Placed> placed;
+  for (const Flat& t : triangles) {
+    area += 0.5 * twice_area(t);
+    placed.push_back({t, glm::min(t[0], glm::min(t[1], t[2])), glm::max(t[0], glm::max(t[1], t[2]))});
+  }
   // The outline may be off by the tolerance on each of four sides.
-  if (std::abs(area - 1.0) > 4.0 * tolerance) return false;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (std::size_t j = i + 1; j < triangles.size(); ++j) {
-      if (!separates(triangles[i], triangles[j], tolerance) && !separates(triangles[j], triangles[i], tolerance))
-        return false;
+  if (std::abs(area - 1.0) > 2.0 * (tolerance.x + tolerance.y)) return false;
+  // From left to right, a triangle is compared with those that begin before it ends.
+  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.low.x < b.low.x; });
+  const double widest = std::max(tolerance.x, tolerance.y);
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    for (std::size_t j = i + 1; j < placed.size() && placed[j].low.x < placed[i].high.x; ++j) {
+      if (overlap(placed[i], placed[j], widest)) return false;
     }
   }
   return true;
@@ -121,13 +152,16 @@ std::uint8_t face_of(const std::array<glm::dvec3, 3>& p, const glm::dvec3& toler
   return 6;
 }
 
-// Rounding mixes a rotated room's coordinates, so that its shortest edge suffers from its longest; not so where the
-// edges lie along the world's axes.
-glm::dvec3 tolerances(const std::array<glm::dvec3, 3>& axes, const glm::dvec3& size) {
+// Tolerances as shares of the edges, from the largest coordinates' sizes. Rounding mixes a rotated room's coordinates,
+// so that its shortest edge suffers from its longest; not so where the edges lie along the world's axes.
+glm::dvec3 tolerances(const std::array<glm::dvec3, 3>& axes, const glm::dvec3& size, const glm::dvec3& largest) {
   const bool aligned = axes[0].x == 1.0 && axes[1].y == 1.0 && axes[2].z == 1.0;
-  if (aligned) return glm::dvec3(rounding);
-  return rounding * std::max({size.x, size.y, size.z}) / size;
+  if (aligned) return rounding * largest / size;
+  return rounding * std::max({largest.x, largest.y, largest.z}) / size;
 }
+
+// More than that is no longer rounding: the areas of a wall would not tell a hole of 1 % of it.
+constexpr double largest_tolerance = 0.002;
 
 }  // namespace
 
@@ -145,6 +179,7 @@ std::optional<CuboidShape> recognise_cuboid(const Room& room) {
   };
   glm::dvec3 low(std::numeric_limits<double>::infinity());
   glm::dvec3 high = -low;
+  glm::dvec3 largest(0.0);
   std::vector<std::array<glm::dvec3, 3>> local;
   for (const Corners& t : triangles) {
     local.push_back({in_axes(t.position[0]), in_axes(t.position[1]), in_axes(t.position[2])});
@@ -152,11 +187,13 @@ std::optional<CuboidShape> recognise_cuboid(const Room& room) {
       low = glm::min(low, p);
       high = glm::max(high, p);
     }
+    for (const glm::dvec3& p : t.position) largest = glm::max(largest, glm::abs(p));
   }
   const glm::dvec3 size = high - low;
-  const glm::dvec3 tolerance = tolerances(*axes, size);
+  const glm::dvec3 tolerance = tolerances(*axes, size, largest);
   // An edge that is not well above the rounding has no length to speak of.
-  if (!(std::min({size.x, size.y, size.z}) > 0.0) || std::max({tolerance.x, tolerance.y, tolerance.z}) > 0.01)
+  if (!(std::min({size.x, size.y, size.z}) > 0.0) ||
+      std::max({tolerance.x, tolerance.y, tolerance.z}) > largest_tolerance)
     return std::nullopt;
 
   CuboidShape shape;
@@ -173,9 +210,9 @@ std::optional<CuboidShape> recognise_cuboid(const Room& room) {
     const int t = (face / 2 + 2) % 3;
     faces[face].push_back({glm::dvec2(p[0][s], p[0][t]), glm::dvec2(p[1][s], p[1][t]), glm::dvec2(p[2][s], p[2][t])});
   }
-  const double widest = std::max({tolerance.x, tolerance.y, tolerance.z});
-  for (const auto& face : faces) {
-    if (!tile_the_square(face, widest)) return std::nullopt;
+  for (std::size_t face = 0; face < 6; ++face) {
+    const int axis = static_cast<int>(face / 2);
+    if (!tile_the_square(faces[face], {tolerance[(axis + 1) % 3], tolerance[(axis + 2) % 3]})) return std::nullopt;
   }
   shape.corner = origin + low.x * (*axes)[0] + low.y * (*axes)[1] + low.z * (*axes)[2];
   for (int k = 0; k < 3; ++k) shape.edges[static_cast<std::size_t>(k)] = size[k] * (*axes)[static_cast<std::size_t>(k)];

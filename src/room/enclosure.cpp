@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -75,8 +76,27 @@ bool same_edge(const Edge& a, const Edge& b) {
   return a.from == b.from && a.to == b.to;
 }
 
+using Welded = std::array<std::uint32_t, 3>;
+
+// Leaves one of triangles with the same corners: a wall that is there twice, as exporters write one for each side,
+// stops light once, and its copies must not count as a shell. The others keep no corners of their own.
+void drop_copies(std::vector<Welded>& corners) {
+  const auto sorted = [&corners](std::size_t n) {
+    Welded c = corners[n];
+    std::sort(c.begin(), c.end());
+    return c;
+  };
+  std::vector<std::pair<Welded, std::size_t>> order;
+  order.reserve(corners.size());
+  for (std::size_t n = 0; n < corners.size(); ++n) order.emplace_back(sorted(n), n);
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (order[i].first == order[i - 1].first) corners[order[i].second] = {0, 0, 0};
+  }
+}
+
 // Edges of welded triangles, equal ones side by side. Triangles that welding has left without three corners have none.
-std::vector<Edge> sorted_edges(const std::vector<std::array<std::uint32_t, 3>>& corners) {
+std::vector<Edge> sorted_edges(const std::vector<Welded>& corners) {
   std::vector<Edge> edges;
   edges.reserve(3 * corners.size());
   for (std::size_t n = 0; n < corners.size(); ++n) {
@@ -98,14 +118,19 @@ std::optional<int> crossings(const std::array<glm::dvec3, 3>& triangle, const gl
   const glm::dvec3 c = triangle[2] - triangle[0];
   const glm::dvec3 p = glm::cross(direction, c);
   const double determinant = glm::dot(b, p);
-  if (determinant == 0.0) return 0;  // along its plane, or without area
+  if (determinant == 0.0) return 0;  // along its plane
+  // What is that thin has no area but rounding's, and a ray meets it once in 10¹².
+  const double longest = std::max(glm::length(b), glm::length(c));
+  if (glm::length(glm::cross(b, c)) <= 1e-12 * longest * longest) return 0;
   const glm::dvec3 from_corner = start - triangle[0];
   const glm::dvec3 q = glm::cross(from_corner, b);
   const double s = glm::dot(from_corner, p) / determinant;
   const double t = glm::dot(direction, q) / determinant;
   const double nearest = std::min({s, t, 1.0 - s - t});
-  constexpr double near_an_edge =
-      1e-9;  // far above the rounding of s and t, far below what rays in a fixed direction often meet
+  // s and t are sums of some six products, each rounded, over the determinant: uncertain for slivers and grazing rays.
+  // 10⁻⁹ more is far below what rays in a fixed direction often meet.
+  const double products = glm::length(from_corner) * glm::length(direction) * longest / std::abs(determinant);
+  const double near_an_edge = 1e-9 + 16.0 * std::numeric_limits<double>::epsilon() * products;
   if (nearest < -near_an_edge) return 0;
   if (nearest < near_an_edge) return std::nullopt;
   return glm::dot(c, q) / determinant > 0.0 ? 1 : 0;
@@ -131,10 +156,11 @@ Enclosure::Enclosure(const Room& room) {
   if (triangles.empty() || !(distance > 0.0)) return;
 
   Welder welder(low, distance);
-  std::vector<std::array<std::uint32_t, 3>> corners;
+  std::vector<Welded> corners;
   corners.reserve(triangles.size());
   for (const Triangle& t : triangles)
     corners.push_back({welder.number(t[0]), welder.number(t[1]), welder.number(t[2])});
+  drop_copies(corners);
 
   // Triangles that share an edge belong together; one odd edge opens all of them.
   const std::vector<Edge> edges = sorted_edges(corners);

@@ -18,7 +18,7 @@ void check_reflectance(double reflectance, const std::string& what) {
 
 std::string materials_of(const Room& room) {
   std::set<std::string> names;
-  for (const Surface& surface : room.surfaces) names.insert(quoted(surface.material));
+  for (const Surface& surface : room.surfaces) names.insert(in_quotes(surface.material));
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   return list;
@@ -27,7 +27,7 @@ std::string materials_of(const Room& room) {
 }  // namespace
 
 void set_reflectance(Room& room, const std::string& material, double reflectance) {
-  check_reflectance(reflectance, "The reflectance for material " + quoted(material));
+  check_reflectance(reflectance, "The reflectance for material " + in_quotes(material));
   std::size_t changed = 0;
   for (Surface& surface : room.surfaces) {
     if (surface.material != material) continue;
@@ -35,10 +35,10 @@ void set_reflectance(Room& room, const std::string& material, double reflectance
     ++changed;
   }
   if (changed == 0) {
-    throw InputError("There is no material " + quoted(material) + " in " + room.source + " (it has " +
+    throw InputError("There is no material " + in_quotes(material) + " in " + room.source + " (it has " +
                      materials_of(room) + "). Give one of these names.");
   }
-  room.mended.push_back("Material " + quoted(material) + ": reflectance set to " + to_text(reflectance) + " on " +
+  room.mended.push_back("Material " + in_quotes(material) + ": reflectance set to " + to_text(reflectance) + " on " +
                         to_text(changed, "surface") + ".");
 }
 
@@ -59,11 +59,11 @@ void limit_reflectance(Room& room, double highest) {
 void add_emitter(Room& room, Emitter emitter, Quantity quantity) {
   if (room.emitters.empty()) room.quantity = quantity;
   if (room.quantity != quantity) {
-    throw InputError("The light " + quoted(emitter.name) + " is in " + std::string(power_unit(quantity)) +
+    throw InputError("The light " + in_quotes(emitter.name) + " is in " + std::string(power_unit(quantity)) +
                      ", the emitters of " + room.source + " are in " + std::string(power_unit(room.quantity)) +
                      " (allowed: one unit for all). Give its power in " + std::string(power_unit(room.quantity)) + ".");
   }
-  room.mended.push_back("Emitter " + quoted(emitter.name) + " added: " + to_text(emitter.power) + " " +
+  room.mended.push_back("Emitter " + in_quotes(emitter.name) + " added: " + to_text(emitter.power) + " " +
                         std::string(power_unit(quantity)) + ".");
   room.emitters.push_back(std::move(emitter));
 }

@@ -1,6 +1,5 @@
 #include "room/nearest_tile.hpp"
 
-#include <algorithm>
 #include <cstddef>
 
 namespace lichtmc {

@@ -34,9 +34,9 @@ void require(bool sound, const Room& room, const std::string& what, double value
 }
 
 void check_surface(const Room& room, const Surface& surface) {
-  const std::string of = "of surface " + quoted(surface.name);
+  const std::string of = "of surface " + in_quotes(surface.name);
   require(surface.reflectance >= 0.0 && surface.reflectance <= 1.0, room,
-          "reflectance " + of + " (material " + quoted(surface.material) + ")", surface.reflectance, "0 to 1",
+          "reflectance " + of + " (material " + in_quotes(surface.material) + ")", surface.reflectance, "0 to 1",
           "Give the share of light that it reflects.");
   if (!surface.uvs.empty() && surface.uvs.size() != surface.positions.size()) {
     refuse(room, "number of texture coordinates " + of, std::to_string(surface.uvs.size()),
@@ -102,7 +102,7 @@ void check_shape(const Room& room, const SurfaceEmitter& shape, const std::strin
 }
 
 void check_receiver(const Room& room, const Receiver& receiver) {
-  const std::string of = "of receiver " + quoted(receiver.name);
+  const std::string of = "of receiver " + in_quotes(receiver.name);
   check_position(room, receiver.position, of);
   check_axis(room, receiver.normal, of);
   require(receiver.half_angle_deg >= 0.0 && receiver.half_angle_deg <= 90.0, room,
@@ -129,7 +129,7 @@ void check_room(const Room& room) {
                      "example --light point:0,2,0:1000lm.");
   }
   for (const Emitter& emitter : room.emitters) {
-    const std::string of = "of emitter " + quoted(emitter.name);
+    const std::string of = "of emitter " + in_quotes(emitter.name);
     require(emitter.power >= 0.0 && std::isfinite(emitter.power), room,
             "power in " + std::string(power_unit(room.quantity)) + " " + of, emitter.power,
             "a finite number, 0 or more", "Give its power.");

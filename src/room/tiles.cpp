@@ -57,7 +57,7 @@ void check_cells(const Room& room, const std::vector<Chart>& charts, double edge
   if (total <= most_cells) return;
   throw InputError("Tiles of " + to_text(edge_m) + " m divide the room into " + to_text(total) +
                    " cells (allowed: " + to_text(most_cells) + "), " + to_text(most) + " of them on the surface " +
-                   quoted(room.surfaces[worst].name) +
+                   in_quotes(room.surfaces[worst].name) +
                    ". Give --tile a greater length, or check that the room's coordinates are metres.");
 }
 

@@ -70,8 +70,8 @@ void check_settings_for(const Room& room, const Settings& settings) {
   if (settings.estimator == Estimator::absorption) {
     if (const Surface* surface = surface_that_absorbs_nothing(room)) {
       throw InputError(
-          "The estimator 'absorption' cannot see the surface " + quoted(surface->name) + " (material " +
-          quoted(surface->material) + ") of " + room.source +
+          "The estimator 'absorption' cannot see the surface " + in_quotes(surface->name) + " (material " +
+          in_quotes(surface->material) + ") of " + room.source +
           ": its reflectance is 1, so that it never absorbs. Use the estimator 'collision' or 'weight', or a "
           "reflectance below 1.");
     }

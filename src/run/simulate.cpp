@@ -49,7 +49,7 @@ StopReason run_until_stopped(Crew& crew, const Scores& scores, const Tiling& til
 std::vector<std::string> ignored_by_run(const Room& room) {
   std::vector<std::string> ignored = room.ignored;
   if (!room.receivers.empty()) {
-    ignored.push_back(to_text(room.receivers.size(), "receiver") + " (" + quoted(room.receivers.front().name) +
+    ignored.push_back(to_text(room.receivers.size(), "receiver") + " (" + in_quotes(room.receivers.front().name) +
                       (room.receivers.size() > 1 ? ", …" : "") + "): a forward run measures tiles, not points.");
   }
   return ignored;

@@ -30,8 +30,8 @@ struct Scene {
   // Tiles and lays out everything that a walk through `room` needs; the room is not needed afterwards.
   Scene(const Room& room, const Tiling& tiling, Engine engine);
 
+  Engine engine = Engine::embree;  // the one taken; set while the tracer is made, so it stands before it
   std::unique_ptr<Tracer> tracer;
-  Engine engine = Engine::embree;  // the one taken
   Misses misses = Misses::escape;
   std::vector<SurfaceOptics> surfaces;
   std::vector<std::uint32_t> tile_of_cell;  // every cell has a tile, empty ones the nearest

@@ -58,7 +58,8 @@ TEST_CASE("a room scaled by a power of two gives the same bits") {
 }
 
 TEST_CASE("a room a million metres away gives the same irradiance") {
-  for (const Engine engine : {Engine::cuboid, Engine::embree}) {
+  // (So far away that float coordinates could not make out the walls, the room is not taken for a cuboid.)
+  for (const Engine engine : {Engine::automatic, Engine::embree}) {
     const Result here = simulate(cube_at(1.0, glm::dvec3(0.0)), settings_of(Estimator::collision, engine, 1e6, 3));
     const Result there = simulate(cube_at(1.0, {1e6, -1e6, 1e6}), settings_of(Estimator::collision, engine, 1e6, 4));
     CHECK(there.lost_histories == 0);

@@ -1,0 +1,202 @@
+#include "gltf/accessor.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include "base/wide.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr const char* export_again = " Export the file again.";
+
+// Elements at equal distances in a buffer.
+struct Elements {
+  const unsigned char* first = nullptr;
+  std::size_t stride = 0;
+  std::size_t count = 0;
+};
+
+std::size_t component_size(const Document& document, int type, const std::string& where) {
+  const int size = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type));
+  if (size <= 0)
+    refuse(document, where + " has components of the unknown type " + std::to_string(type) + "." + export_again);
+  return static_cast<std::size_t>(size);
+}
+
+// The elements that a buffer view holds from an offset on; stride 0 means one directly after the other.
+Elements elements_in(const Document& document, long long view_index, std::size_t offset, std::size_t count,
+                     std::size_t size, std::size_t stride, const std::string& where) {
+  const auto& model = document.model;
+  const auto& view =
+      model.bufferViews[checked_index(document, view_index, model.bufferViews.size(), "the buffer view of " + where)];
+  const auto& bytes =
+      model.buffers[checked_index(document, view.buffer, model.buffers.size(), "the buffer of " + where)].data;
+  if (stride == 0) stride = size;
+  // In 128 bits nothing overflows.
+  const uint128 view_end = static_cast<uint128>(view.byteOffset) + view.byteLength;
+  const uint128 end = static_cast<uint128>(offset) + (count > 0 ? static_cast<uint128>(count - 1) * stride + size : 0);
+  if (view_end > bytes.size() || end > view.byteLength) {
+    refuse(document, where + " reaches beyond its buffer (" + std::to_string(count) + " elements from byte " +
+                         std::to_string(offset) + " on, the view has " + std::to_string(view.byteLength) +
+                         " bytes, the buffer " + std::to_string(bytes.size()) + ")." + export_again);
+  }
+  if (stride < size)
+    refuse(document,
+           where + " has elements that overlap (stride " + std::to_string(stride) + " bytes)." + export_again);
+  return {bytes.data() + view.byteOffset + offset, stride, count};
+}
+
+double component(const unsigned char* bytes, int type, bool normalized) {
+  const auto read = [bytes](auto value) {
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+  };
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return static_cast<double>(read(float{}));
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return read(std::uint8_t{}) / (normalized ? 255.0 : 1.0);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return read(std::uint16_t{}) / (normalized ? 65535.0 : 1.0);
+    default:  // TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT; callers let no other pass
+      return read(std::uint32_t{});
+  }
+}
+
+bool is_unsigned(int type) {
+  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+// Sparse elements replace some of the values.
+void overlay_sparse(const Document& document, const tinygltf::Accessor& accessor, std::size_t components,
+                    const std::string& where, std::vector<double>& values) {
+  const auto& sparse = accessor.sparse;
+  if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count ||
+      !is_unsigned(sparse.indices.componentType)) {
+    refuse(document, where + " has sparse elements that are not sound." + export_again);
+  }
+  const auto count = static_cast<std::size_t>(sparse.count);
+  const std::size_t index_size = component_size(document, sparse.indices.componentType, where);
+  const std::size_t value_size = component_size(document, accessor.componentType, where);
+  const Elements indices =
+      elements_in(document, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset), count,
+                  index_size, 0, where);
+  const Elements replaced =
+      elements_in(document, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count,
+                  components * value_size, 0, where);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto index =
+        static_cast<std::size_t>(component(indices.first + k * indices.stride, sparse.indices.componentType, false));
+    checked_index(document, static_cast<long long>(index), accessor.count, "a sparse element of " + where);
+    for (std::size_t c = 0; c < components; ++c) {
+      values[index * components + c] =
+          component(replaced.first + k * replaced.stride + c * value_size, accessor.componentType, accessor.normalized);
+    }
+  }
+}
+
+// All components of an accessor, element by element.
+std::vector<double> values_of(const Document& document, const tinygltf::Accessor& accessor, std::size_t components,
+                              const std::string& where) {
+  // What is read is held in memory as often as the count says; no count beyond what the file could hold.
+  constexpr std::size_t most = std::size_t{1} << 31;
+  if (accessor.count > most)
+    refuse(document,
+           where + " has " + std::to_string(accessor.count) + " elements (allowed: up to 2^31)." + export_again);
+  const std::size_t size = component_size(document, accessor.componentType, where);
+  if (accessor.bufferView < 0) {
+    if (!accessor.sparse.isSparse) {
+      refuse(
+          document,
+          where + " has no data (compressed by an extension that is not known here?). Export the file uncompressed.");
+    }
+    // Values that no buffer holds are 0; so many that no file would hold them are a fault.
+    std::size_t bytes = 0;
+    for (const auto& buffer : document.model.buffers) bytes += buffer.data.size();
+    constexpr std::size_t zeros_per_byte = 1000;
+    if (accessor.count / zeros_per_byte > bytes)
+      refuse(document, where + " has more elements than the file has room for." + export_again);
+    std::vector<double> values(accessor.count * components, 0.0);
+    overlay_sparse(document, accessor, components, where, values);
+    return values;
+  }
+  const auto& views = document.model.bufferViews;
+  const auto& view = views[checked_index(document, accessor.bufferView, views.size(), "the buffer view of " + where)];
+  const int stride = accessor.ByteStride(view);
+  if (stride <= 0)
+    refuse(document, where + " has elements at a distance that its component type does not allow." + export_again);
+  const Elements elements = elements_in(document, accessor.bufferView, accessor.byteOffset, accessor.count,
+                                        components * size, view.byteStride, where);
+  std::vector<double> values;
+  values.reserve(accessor.count * components);
+  for (std::size_t k = 0; k < elements.count; ++k) {
+    for (std::size_t c = 0; c < components; ++c) {
+      values.push_back(
+          component(elements.first + k * elements.stride + c * size, accessor.componentType, accessor.normalized));
+    }
+  }
+  if (accessor.sparse.isSparse) overlay_sparse(document, accessor, components, where, values);
+  return values;
+}
+
+const tinygltf::Accessor& accessor_of(const Document& document, int index, int type, const char* type_name,
+                                      const std::string& where) {
+  const auto& accessors = document.model.accessors;
+  const auto& accessor = accessors[checked_index(document, index, accessors.size(), "the accessor of " + where)];
+  if (accessor.type != type) refuse(document, where + " is not of type " + type_name + "." + export_again);
+  return accessor;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> read_positions(const Document& document, int index, const std::string& where) {
+  const auto& accessor = accessor_of(document, index, TINYGLTF_TYPE_VEC3, "VEC3", where);
+  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+    refuse(document, where + " are not floats (allowed: floats). Export the file without quantization.");
+  }
+  const std::vector<double> values = values_of(document, accessor, 3, where);
+  std::vector<glm::dvec3> positions(values.size() / 3);
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double value = values[3 * k + c];
+      if (!std::isfinite(value)) {
+        refuse(document, where + ": vertex " + std::to_string(k) + " lies at " +
+                             (std::isnan(value) ? "NaN" : "infinity") +
+                             " (allowed: finite numbers). Repair the mesh and export it again.");
+      }
+      positions[k][static_cast<glm::length_t>(c)] = value;
+    }
+  }
+  return positions;
+}
+
+std::vector<glm::dvec2> read_texture_coordinates(const Document& document, int index, const std::string& where) {
+  const auto& accessor = accessor_of(document, index, TINYGLTF_TYPE_VEC2, "VEC2", where);
+  const int type = accessor.componentType;
+  const bool integers = accessor.normalized && (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                                                type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+  if (type != TINYGLTF_COMPONENT_TYPE_FLOAT && !integers) {
+    refuse(document, where + " are neither floats nor normalized unsigned bytes or shorts." + export_again);
+  }
+  const std::vector<double> values = values_of(document, accessor, 2, where);
+  std::vector<glm::dvec2> coordinates(values.size() / 2);
+  for (std::size_t k = 0; k < coordinates.size(); ++k) coordinates[k] = {values[2 * k], values[2 * k + 1]};
+  return coordinates;
+}
+
+std::vector<std::uint32_t> read_indices(const Document& document, int index, std::size_t vertices,
+                                        const std::string& where) {
+  const auto& accessor = accessor_of(document, index, TINYGLTF_TYPE_SCALAR, "SCALAR", where);
+  if (!is_unsigned(accessor.componentType)) refuse(document, where + " are not unsigned integers." + export_again);
+  std::vector<std::uint32_t> indices;
+  for (const double value : values_of(document, accessor, 1, where)) {
+    indices.push_back(static_cast<std::uint32_t>(
+        checked_index(document, static_cast<long long>(value), vertices, "a vertex in " + where)));
+  }
+  return indices;
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,175 @@
+#include "gltf/lights.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "base/message.hpp"
+#include "chance/directions.hpp"
+#include "gltf/materials.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr const char* lights_extension = "KHR_lights_punctual";
+constexpr double pi = std::numbers::pi;
+
+const tinygltf::Value& empty_object() {
+  static const tinygltf::Value empty;
+  return empty;
+}
+
+const tinygltf::Value& member(const tinygltf::Value& object, const char* name) {
+  return object.IsObject() && object.Has(name) ? object.Get(name) : empty_object();
+}
+
+// The light's entry in the file's list, read raw: the parser of Debian 12 does not tie lights to nodes.
+const tinygltf::Value* find_light(const Document& document, const tinygltf::Node& node, const std::string& where) {
+  const auto on_node = node.extensions.find(lights_extension);
+  if (on_node == node.extensions.end()) return nullptr;
+  const auto in_file = document.model.extensions.find(lights_extension);
+  const tinygltf::Value& lights =
+      in_file == document.model.extensions.end() ? empty_object() : member(in_file->second, "lights");
+  const std::size_t count = lights.IsArray() ? lights.ArrayLen() : 0;
+  const double index = number_in(document, on_node->second, "light", -1.0, where);
+  return &lights.Get(static_cast<int>(checked_index(document, static_cast<long long>(index), count, "the light of " + where)));
+}
+
+// Luminance of the light's colour: its intensity is per colour channel.
+double colour_of(const Document& document, const tinygltf::Value& light, const std::string& where) {
+  const tinygltf::Value& colour = member(light, "color");
+  if (!colour.IsArray()) return 1.0;
+  double rgb[3] = {1.0, 1.0, 1.0};
+  if (colour.ArrayLen() != 3)
+    refuse(document, "the colour of the light of " + where + " does not have 3 components. Export the file again.");
+  for (int k = 0; k < 3; ++k) {
+    const tinygltf::Value& value = colour.Get(k);
+    if (!value.IsNumber())
+      refuse(document, "the colour of the light of " + where + " is not made of numbers. Export the file again.");
+    rgb[k] = value.GetNumberAsDouble();
+  }
+  return luminance(rgb[0], rgb[1], rgb[2]);
+}
+
+glm::dvec3 axis_of(const Document& document, const PlacedNode& placed) {
+  const glm::dvec3 forward = placed.forward();
+  const double length = glm::length(forward);
+  if (length > 0.0) return forward / length;
+  refuse(document, placed.label +
+                       " is scaled to nothing along Z, so that its light has no direction (allowed: a scale other than "
+                       "0). Set its scale.");
+}
+
+SpotEmitter read_spot(const Document& document, const tinygltf::Value& light, const PlacedNode& placed) {
+  SpotEmitter spot;
+  const tinygltf::Value& cones = member(light, "spot");
+  spot.position = placed.position();
+  spot.axis = axis_of(document, placed);
+  spot.inner = number_in(document, cones, "innerConeAngle", 0.0, placed.label);
+  spot.outer = number_in(document, cones, "outerConeAngle", pi / 4.0, placed.label);
+  constexpr double largest = pi / 2.0 * (1.0 + 1e-6);  // π/2 as a float may be rounded up
+  if (!(spot.inner >= 0.0 && spot.inner < spot.outer && spot.outer <= largest)) {
+    refuse(document, "the cone angles of the spot of " + placed.label + " are " + to_text(spot.inner) +
+                         " (inner) and " + to_text(spot.outer) +
+                         " rad (outer) (allowed: 0 ≤ inner < outer ≤ π/2). Set its size and blend.");
+  }
+  return spot;
+}
+
+// A point or spot light with the power that its intensity gives.
+std::optional<Emitter> read_punctual(const Document& document, const tinygltf::Value& light, const PlacedNode& placed,
+                                     std::vector<std::string>& ignored) {
+  const std::string type = member(light, "type").IsString() ? light.Get("type").Get<std::string>() : "";
+  if (type == "directional") {
+    ignored.push_back("The directional light of " + placed.label + " is not modelled: it has no place in a room.");
+    return std::nullopt;
+  }
+  const double intensity =
+      number_in(document, light, "intensity", 1.0, placed.label) * colour_of(document, light, placed.label);
+  if (!(intensity >= 0.0) || !std::isfinite(intensity)) {
+    refuse(document, "the intensity of the light of " + placed.label + " is " + to_text(intensity) +
+                         " cd (allowed: a finite number, 0 or more). Set its strength.");
+  }
+  if (light.Has("range"))
+    ignored.push_back("The range of the light of " + placed.label + " is not modelled: light does not end.");
+  Emitter emitter;
+  if (type == "point") {
+    emitter.power = 4.0 * pi * intensity;
+    emitter.shape = IsotropicEmitter{placed.position()};
+    return emitter;
+  }
+  if (type != "spot")
+    refuse(document, "the light of " + placed.label + " is of the type '" + type +
+                         "' (allowed: point, spot, directional). Export the file again.");
+  const SpotEmitter spot = read_spot(document, light, placed);
+  emitter.power = intensity * spot_solid_angle(spot.inner, spot.outer);
+  emitter.shape = spot;
+  return emitter;
+}
+
+}  // namespace
+
+std::optional<FileEmitter> read_light(const Document& document, const PlacedNode& placed,
+                                      std::vector<std::string>& ignored) {
+  const tinygltf::Node& node = document.model.nodes[placed.index];
+  const tinygltf::Value* light = find_light(document, node, placed.label);
+  const tinygltf::Value& of_light = light != nullptr ? member(*light, "extras") : empty_object();
+  const std::string light_label = "the light of " + placed.label;
+
+  // What stands on the node goes before what stands on the light, which several nodes may share.
+  const auto first = [](auto a, auto b) { return a ? a : b; };
+  const auto exponent =
+      first(exponent_in(document, node.extras, placed.label), exponent_in(document, of_light, light_label));
+  const auto power = first(power_in(document, node.extras, placed.label), power_in(document, of_light, light_label));
+  const auto unit = first(unit_in(document, node.extras, placed.label), unit_in(document, of_light, light_label));
+
+  FileEmitter result;
+  if (light != nullptr) {
+    auto emitter = read_punctual(document, *light, placed, ignored);
+    if (!emitter) return std::nullopt;
+    result.emitter = *emitter;
+  } else if (!exponent) {
+    return std::nullopt;
+  } else if (!power) {
+    refuse(document, placed.label +
+                         " has 'lambert_exponent' but neither a light nor a power. Set its custom property 'power' "
+                         "(and 'unit', \"lm\" or \"W\"), or give it a light.");
+  }
+  result.emitter.name = node.name.empty() ? placed.label : node.name;
+  result.quantity = unit.value_or(Quantity::photometric);
+  if (power) result.emitter.power = *power;
+  // The shape changes, the power stays.
+  if (exponent) result.emitter.shape = LambertEmitter{placed.position(), axis_of(document, placed), *exponent};
+  return result;
+}
+
+std::optional<Receiver> read_receiver(const Document& document, const PlacedNode& placed) {
+  const tinygltf::Node& node = document.model.nodes[placed.index];
+  const tinygltf::Value& extras = member(node.extras, "receiver");
+  if (!extras.IsObject()) {
+    if (node.extras.IsObject() && node.extras.Has("receiver")) {
+      refuse(document, "'receiver' of " + placed.label +
+                           " is not an object (allowed: {\"area\": m², \"fov\": degrees}). Set that custom property.");
+    }
+    return std::nullopt;
+  }
+  Receiver receiver;
+  receiver.name = node.name.empty() ? placed.label : node.name;
+  receiver.position = placed.position();
+  receiver.normal = axis_of(document, placed);
+  receiver.area_m2 = number_in(document, extras, "area", 1.0, placed.label);
+  receiver.half_angle_deg = number_in(document, extras, "fov", 90.0, placed.label);
+  if (!(receiver.half_angle_deg >= 0.0 && receiver.half_angle_deg <= 90.0)) {
+    refuse(document, "'fov' of the receiver " + placed.label + " is " + to_text(receiver.half_angle_deg) +
+                         " degrees (allowed: 0 to 90, the half angle). Set that custom property.");
+  }
+  if (!(receiver.area_m2 >= 0.0) || !std::isfinite(receiver.area_m2)) {
+    refuse(document, "'area' of the receiver " + placed.label + " is " + to_text(receiver.area_m2) +
+                         " m² (allowed: a finite number, 0 or more). Set that custom property.");
+  }
+  return receiver;
+}
+
+}  // namespace lichtmc

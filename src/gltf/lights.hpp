@@ -1,0 +1,29 @@
+// Emitters and receivers that hang on nodes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gltf/document.hpp"
+#include "gltf/nodes.hpp"
+#include "lichtmc/room.hpp"
+
+namespace lichtmc {
+
+// An emitter with the kind of its power.
+struct FileEmitter {
+  Emitter emitter;
+  Quantity quantity = Quantity::photometric;
+};
+
+// The emitter on a node: its KHR_lights_punctual light, or a generalized Lambert emitter made of extras alone. None
+// where the node has neither, or a directional light, which is noted in `ignored`. Throws InputError naming the node
+// and the value.
+std::optional<FileEmitter> read_light(const Document& document, const PlacedNode& placed,
+                                      std::vector<std::string>& ignored);
+
+// The receiver on a node with extras.receiver.
+std::optional<Receiver> read_receiver(const Document& document, const PlacedNode& placed);
+
+}  // namespace lichtmc

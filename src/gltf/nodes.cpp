@@ -1,0 +1,122 @@
+#include "gltf/nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "base/message.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+std::vector<std::size_t> roots_without_scene(const Document& document) {
+  const auto& nodes = document.model.nodes;
+  std::vector<bool> child(nodes.size(), false);
+  for (const auto& node : nodes) {
+    for (const int index : node.children)
+      child[checked_index(document, index, nodes.size(), "a child of " + label("node", node.name, 0))] = true;
+  }
+  std::vector<std::size_t> roots;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (!child[k]) roots.push_back(k);
+  }
+  return roots;
+}
+
+const tinygltf::Scene& find_scene(const Document& document, const std::string& name) {
+  const auto& model = document.model;
+  if (name.empty()) {
+    const int index = model.defaultScene < 0 ? 0 : model.defaultScene;
+    return model.scenes[checked_index(document, index, model.scenes.size(), "the default scene")];
+  }
+  const auto found =
+      std::find_if(model.scenes.begin(), model.scenes.end(), [&](const auto& scene) { return scene.name == name; });
+  if (found != model.scenes.end()) return *found;
+  std::string names;
+  for (const auto& scene : model.scenes) names += (names.empty() ? "" : ", ") + in_quotes(scene.name);
+  refuse(document, "there is no scene " + in_quotes(name) +
+                       " (allowed: " + (names.empty() ? "none, the file has no scenes" : names) +
+                       "). Give --scene one of these names, or leave it out.");
+}
+
+glm::dmat4 local_transform(const Document& document, const tinygltf::Node& node, const std::string& where) {
+  glm::dmat4 transform(1.0);
+  if (node.matrix.size() == 16) {
+    for (std::size_t k = 0; k < 16; ++k)
+      transform[static_cast<glm::length_t>(k / 4)][static_cast<glm::length_t>(k % 4)] = node.matrix[k];
+  } else {
+    const auto vector = [](const std::vector<double>& v, double otherwise) {
+      return v.size() == 3 ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(otherwise);
+    };
+    glm::dquat rotation(1.0, 0.0, 0.0, 0.0);
+    if (node.rotation.size() == 4) {
+      rotation = glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+      const double length = glm::length(rotation);
+      if (!(length > 0.0))
+        refuse(document, where + " has a rotation of length 0 (allowed: a unit quaternion). Set its rotation.");
+      rotation = rotation / length;  // float quaternions are of length 1 to 10⁻⁷
+    }
+    const glm::dvec3 scale = vector(node.scale, 1.0);
+    const glm::dmat3 turned = glm::mat3_cast(rotation);
+    transform = glm::dmat4(glm::dvec4(turned[0] * scale.x, 0.0), glm::dvec4(turned[1] * scale.y, 0.0),
+                           glm::dvec4(turned[2] * scale.z, 0.0), glm::dvec4(vector(node.translation, 0.0), 1.0));
+  }
+  return transform;
+}
+
+bool finite(const glm::dmat4& matrix) {
+  for (int k = 0; k < 4; ++k) {
+    for (int j = 0; j < 4; ++j) {
+      if (!std::isfinite(matrix[k][j])) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<PlacedNode> place_nodes(const Document& document, const std::string& scene) {
+  const auto& nodes = document.model.nodes;
+  struct Pending {
+    std::size_t node;
+    glm::dmat4 parent;
+  };
+  std::vector<Pending> pending;
+  if (document.model.scenes.empty() && scene.empty()) {
+    for (const std::size_t root : roots_without_scene(document)) pending.push_back({root, glm::dmat4(1.0)});
+    if (pending.empty() && !nodes.empty())
+      refuse(document, "every node is the child of another, in a circle. Export the file again.");
+  } else {
+    for (const int root : find_scene(document, scene).nodes) {
+      pending.push_back({checked_index(document, root, nodes.size(), "a node of the scene"), glm::dmat4(1.0)});
+    }
+  }
+  std::reverse(pending.begin(), pending.end());  // the last is taken first
+
+  std::vector<PlacedNode> placed;
+  std::vector<bool> seen(nodes.size(), false);
+  while (!pending.empty()) {
+    const Pending next = pending.back();
+    pending.pop_back();
+    const auto& node = nodes[next.node];
+    const std::string where = label("node", node.name, next.node);
+    if (seen[next.node]) {
+      refuse(document, where +
+                           " is reached twice: it has two parents or is its own ancestor (allowed: one parent). Export "
+                           "the file again.");
+    }
+    seen[next.node] = true;
+    const glm::dmat4 world = next.parent * local_transform(document, node, where);
+    if (!finite(world))
+      refuse(document, "the transform of " + where + " is not finite. Set its position, rotation and scale.");
+    placed.push_back({next.node, where, world});
+    for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
+      pending.push_back({checked_index(document, *child, nodes.size(), "a child of " + where), world});
+    }
+  }
+  return placed;
+}
+
+}  // namespace lichtmc
