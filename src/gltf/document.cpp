@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <sstream>
+
+#include <nlohmann/json.hpp>
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
@@ -87,16 +90,35 @@ std::string joined(const std::string& text) {
   return all.empty() ? "no reason is given" : all;
 }
 
-void check_extensions(const Document& document) {
-  for (const std::string& name : document.model.extensionsRequired) {
+// The names in a list of the file, as far as its JSON can be read at all; the parser says what is wrong with it
+// otherwise.
+std::vector<std::string> names_in(const nlohmann::json& json, const char* list) {
+  std::vector<std::string> names;
+  if (!json.is_object() || !json.contains(list) || !json[list].is_array()) return names;
+  for (const auto& name : json[list]) {
+    if (name.is_string()) names.push_back(name.get<std::string>());
+  }
+  return names;
+}
+
+// Looked at before parsing: a parser that does not know a required extension fails with other words.
+void check_extensions(const Document& document, const nlohmann::json& json) {
+  for (const std::string& name : names_in(json, "extensionsRequired")) {
     const bool known =
         std::any_of(known_extensions.begin(), known_extensions.end(), [&](const char* k) { return name == k; });
     if (known) continue;
     refuse(document, "the file requires the extension " + in_quotes(name) +
                          ", which is not known here (known: KHR_lights_punctual, KHR_materials_emissive_strength, "
-                         "KHR_materials_unlit). Export it "
-                         "without, for example uncompressed.");
+                         "KHR_materials_unlit). Export it without, for example uncompressed.");
   }
+}
+
+std::string advice_for(const nlohmann::json& json) {
+  for (const std::string& name : names_in(json, "extensionsUsed")) {
+    if (name.find("compression") != std::string::npos)
+      return " It uses the extension " + in_quotes(name) + ": export the file uncompressed.";
+  }
+  return export_again;
 }
 
 void check_version(const Document& document) {
@@ -128,12 +150,17 @@ Document load_document(const std::filesystem::path& path) {
   const auto size = static_cast<unsigned int>(bytes.size());
   const std::string folder = path.parent_path().string();
   bool parsed = false;
+  nlohmann::json json;
   try {
     if (is_binary(bytes)) {
       check_container(bytes, document.file);
+      json = nlohmann::json::parse(bytes.begin() + 20, bytes.begin() + 20 + word_at(bytes, 12), nullptr, false);
+      check_extensions(document, json);
       parsed = parser.LoadBinaryFromMemory(&document.model, &error, &warning,
                                            reinterpret_cast<const unsigned char*>(bytes.data()), size, folder);
     } else {
+      json = nlohmann::json::parse(bytes, nullptr, false);
+      check_extensions(document, json);
       parsed = parser.LoadASCIIFromString(&document.model, &error, &warning, bytes.data(), size, folder);
     }
   } catch (const InputError&) {
@@ -141,10 +168,10 @@ Document load_document(const std::filesystem::path& path) {
   } catch (const std::exception& reason) {
     error += reason.what();
   }
-  if (!parsed) refuse(document, "this is not a glTF 2.0 file that can be read (" + joined(error) + ")." + export_again);
+  if (!parsed)
+    refuse(document, "this is not a glTF 2.0 file that can be read (" + joined(error) + ")." + advice_for(json));
   document.warnings = lines_of(warning);
   check_version(document);
-  check_extensions(document);
   return document;
 }
 

@@ -34,7 +34,8 @@ const tinygltf::Value* find_light(const Document& document, const tinygltf::Node
       in_file == document.model.extensions.end() ? empty_object() : member(in_file->second, "lights");
   const std::size_t count = lights.IsArray() ? lights.ArrayLen() : 0;
   const double index = number_in(document, on_node->second, "light", -1.0, where);
-  return &lights.Get(static_cast<int>(checked_index(document, static_cast<long long>(index), count, "the light of " + where)));
+  return &lights.Get<tinygltf::Value::Array>()[checked_index(document, static_cast<long long>(index), count,
+                                                             "the light of " + where)];
 }
 
 // Luminance of the light's colour: its intensity is per colour channel.
@@ -44,8 +45,8 @@ double colour_of(const Document& document, const tinygltf::Value& light, const s
   double rgb[3] = {1.0, 1.0, 1.0};
   if (colour.ArrayLen() != 3)
     refuse(document, "the colour of the light of " + where + " does not have 3 components. Export the file again.");
-  for (int k = 0; k < 3; ++k) {
-    const tinygltf::Value& value = colour.Get(k);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const tinygltf::Value& value = colour.Get<tinygltf::Value::Array>()[k];
     if (!value.IsNumber())
       refuse(document, "the colour of the light of " + where + " is not made of numbers. Export the file again.");
     rgb[k] = value.GetNumberAsDouble();

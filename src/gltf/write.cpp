@@ -144,9 +144,10 @@ void Writer::add_surface(std::size_t k) {
   const std::size_t index_accessor = add_accessor(
       indices.data(), indices.size() * sizeof indices.front(),
       {{"componentType", unsigned_int_type}, {"count", indices.size()}, {"type", "SCALAR"}}, element_array_buffer);
+  const std::size_t material = material_of(k);
   json_["meshes"].push_back(
       {{"name", surface.name},
-       {"primitives", {{{"attributes", attributes}, {"indices", index_accessor}, {"material", material_of(k)}}}}});
+       {"primitives", {{{"attributes", attributes}, {"indices", index_accessor}, {"material", material}}}}});
   add_node({{"name", surface.name}, {"mesh", json_["meshes"].size() - 1}});
 }
 

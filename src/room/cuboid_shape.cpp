@@ -42,15 +42,21 @@ std::vector<Corners> solid_triangles(const Room& room) {
 // much for each of the three corners that say where the wall is.
 constexpr double rounding = 4.0 * float_noise;
 
+// A vector's direction. Exactly ±1 for one along an axis, because √(x²) = |x| in floating point; glm::normalize
+// multiplies by 1/√(x²), which is not.
+glm::dvec3 direction_of(const glm::dvec3& v) {
+  return v / glm::length(v);
+}
+
 // Vector area of all triangles that look along `direction` or against it, as a direction. Positions inside a wall and
 // their rounding cancel out of it: only its outline counts.
 glm::dvec3 common_normal(const std::vector<Corners>& triangles, const glm::dvec3& direction) {
   glm::dvec3 sum(0.0);
   for (const Corners& t : triangles) {
-    const double cosine = glm::dot(glm::normalize(t.cross), direction);
+    const double cosine = glm::dot(direction_of(t.cross), direction);
     if (std::abs(cosine) > 0.9) sum += cosine > 0.0 ? t.cross : -t.cross;
   }
-  return glm::normalize(sum);
+  return direction_of(sum);
 }
 
 // Directions of the edges: the normals of the wall with the largest triangle and of the wall with the largest one
@@ -58,16 +64,16 @@ glm::dvec3 common_normal(const std::vector<Corners>& triangles, const glm::dvec3
 std::optional<std::array<glm::dvec3, 3>> find_axes(const std::vector<Corners>& triangles) {
   const auto larger = [](const Corners& a, const Corners& b) { return glm::length(a.cross) < glm::length(b.cross); };
   const Corners& first = *std::max_element(triangles.begin(), triangles.end(), larger);
-  const glm::dvec3 n0 = common_normal(triangles, glm::normalize(first.cross));
+  const glm::dvec3 n0 = common_normal(triangles, direction_of(first.cross));
   const Corners* second = nullptr;
   for (const Corners& t : triangles) {
     // In a cuboid a normal is along n0 or perpendicular to it.
-    if (std::abs(glm::dot(glm::normalize(t.cross), n0)) > 0.5) continue;
+    if (std::abs(glm::dot(direction_of(t.cross), n0)) > 0.5) continue;
     if (second == nullptr || larger(*second, t)) second = &t;
   }
   if (second == nullptr) return std::nullopt;
-  const glm::dvec3 tilted = common_normal(triangles, glm::normalize(second->cross));
-  const glm::dvec3 n1 = glm::normalize(tilted - glm::dot(tilted, n0) * n0);
+  const glm::dvec3 tilted = common_normal(triangles, direction_of(second->cross));
+  const glm::dvec3 n1 = direction_of(tilted - glm::dot(tilted, n0) * n0);
   std::array<glm::dvec3, 3> axes{n0, n1, glm::cross(n0, n1)};
   // In the order and sense of the world's axes, as far as that goes.
   for (int k = 0; k < 3; ++k) {

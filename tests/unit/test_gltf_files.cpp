@@ -1,0 +1,91 @@
+// Files that the project did not write: those that are sound load with all their triangles, those that are broken are
+// refused.
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "lichtmc/error.hpp"
+#include "lichtmc/gltf.hpp"
+#include "support/catch.hpp"
+
+using namespace lichtmc;
+
+namespace {
+
+struct Entry {
+  std::string file, errors, codes, triangles;
+};
+
+// The list of files with the verdict of the Khronos validator and their triangle counts; empty where the folder is
+// absent.
+std::vector<Entry> entries(const std::string& folder) {
+  std::vector<Entry> list;
+  std::ifstream in(std::string(LICHTMC_ROOMS) + "/expected.tsv");
+  if (!in)
+    WARN("skipped: " << LICHTMC_ROOMS
+                     << "/expected.tsv is not there (set LICHTMC_ROOMS to the folder of the room files)");
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream fields(line);
+    Entry entry;
+    std::getline(fields, entry.file, '\t');
+    std::getline(fields, entry.errors, '\t');
+    std::getline(fields, entry.codes, '\t');
+    std::getline(fields, entry.triangles, '\t');
+    if (entry.file.rfind(folder, 0) == 0) list.push_back(entry);
+  }
+  return list;
+}
+
+// Triangles of a room, with those left out for want of an area.
+std::size_t triangles_of(const Room& room) {
+  std::size_t count = 0;
+  for (const Surface& surface : room.surfaces) count += surface.triangles.size();
+  for (const std::string& line : room.ignored) {
+    if (line.find("without area in") != std::string::npos) count += std::stoul(line);
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("sound files load with all their triangles or name the extension they need") {
+  for (const Entry& entry : entries("conformance/")) {
+    if (entry.errors != "0") continue;
+    INFO(entry.file);
+    const std::string path = std::string(LICHTMC_ROOMS) + "/" + entry.file;
+    try {
+      const Room room = read_gltf(path);
+      if (!room.ignored.empty() && entry.triangles == "0")
+        continue;  // instances and compressed views: named in `ignored`
+      CHECK(std::to_string(triangles_of(room)) == entry.triangles);
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      INFO(message);
+      const bool named =
+          message.find("extension") != std::string::npos || message.find("compressed") != std::string::npos ||
+          message.find("quantization") != std::string::npos || message.find("byteLength") != std::string::npos;
+      CHECK(named);
+    }
+  }
+}
+
+TEST_CASE("real rooms load") {
+  for (const Entry& entry : entries("real/")) {
+    INFO(entry.file);
+    const Room room = read_gltf(std::string(LICHTMC_ROOMS) + "/" + entry.file);
+    CHECK(triangles_of(room) > 0);
+  }
+}
+
+TEST_CASE("broken files are refused with a message or read without harm") {
+  for (const Entry& entry : entries("malformed/")) {
+    INFO(entry.file);
+    try {
+      read_gltf(std::string(LICHTMC_ROOMS) + "/" + entry.file);
+    } catch (const InputError& error) {
+      CHECK(std::string(error.what()).find(std::filesystem::path(entry.file).filename().string()) != std::string::npos);
+    }
+  }
+}

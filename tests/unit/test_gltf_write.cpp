@@ -1,0 +1,91 @@
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "lichtmc/cuboid.hpp"
+#include "lichtmc/error.hpp"
+#include "lichtmc/gltf.hpp"
+#include "support/catch.hpp"
+#include "support/gltf_text.hpp"
+
+using namespace lichtmc;
+using namespace lichtmc::test;
+
+namespace {
+
+// A room with everything that can be written; coordinates that floats hold exactly.
+Room full_room() {
+  Room room = make_cuboid({2.0, 1.5, 4.0}, {0.3, 0.85, 0.5, 0.5, 0.61, 0.7});
+  room.quantity = Quantity::radiometric;
+  room.surfaces[2].sides = Sides::both;
+  for (const glm::dvec3& axis :
+       {glm::dvec3(0, -1, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 0, 1), glm::dvec3(1, -2, 0.5)}) {
+    room.emitters.push_back({"beam", 2.5, LambertEmitter{{1, 1, 1}, axis, 7.5}});
+  }
+  room.emitters.push_back({"bulb", 3.0, IsotropicEmitter{{0.5, 1, 2}}});
+  room.emitters.push_back({"spot", 4.0, SpotEmitter{{0.5, 1, 2}, {0, -1, 0.1}, 0.25, 0.5}});
+  room.emitters.push_back({"ceiling", 6.0, SurfaceEmitter{1, 2.0}});
+  room.receivers.push_back({"eye", {1, 0.75, 1}, {0, 1, 0}, 45.0, 0.01});
+  return room;
+}
+
+}  // namespace
+
+TEST_CASE("a room written and read again is the same room") {
+  const TemporaryFolder folder;
+  const Room room = full_room();
+  for (const char* name : {"room.glb", "room.gltf"}) {
+    const auto file = folder.path() / name;
+    write_gltf(room, file);
+    const Room again = read_gltf(file);
+    CHECK(again.ignored.empty());
+    CHECK(again.quantity == room.quantity);
+    REQUIRE(again.surfaces.size() == room.surfaces.size());
+    for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
+      CHECK(again.surfaces[k].name == room.surfaces[k].name);
+      CHECK(again.surfaces[k].reflectance == room.surfaces[k].reflectance);
+      CHECK(again.surfaces[k].sides == room.surfaces[k].sides);
+      CHECK(again.surfaces[k].positions == room.surfaces[k].positions);
+      CHECK(again.surfaces[k].uvs == room.surfaces[k].uvs);
+      CHECK(again.surfaces[k].triangles == room.surfaces[k].triangles);
+    }
+    // Surfaces come first in the file, so its shining surface is the first emitter.
+    REQUIRE(again.emitters.size() == room.emitters.size());
+    CHECK(again.emitters[0].power == 6.0);
+    CHECK(std::get<SurfaceEmitter>(again.emitters[0].shape).surface == 1);
+    CHECK(std::get<SurfaceEmitter>(again.emitters[0].shape).exponent == 2.0);
+    for (std::size_t k = 0; k < 5; ++k) {
+      const auto& before = std::get<LambertEmitter>(room.emitters[k].shape);
+      const auto& after = std::get<LambertEmitter>(again.emitters[k + 1].shape);
+      CHECK(after.position == before.position);
+      CHECK(after.exponent == before.exponent);
+      // A quaternion and back: some roundings of numbers up to 1.
+      CHECK(glm::length(after.axis - glm::normalize(before.axis)) < 16 * 0x1p-53);
+      CHECK(again.emitters[k + 1].power == 2.5);
+    }
+    CHECK(std::get<IsotropicEmitter>(again.emitters[6].shape).position == glm::dvec3(0.5, 1, 2));
+    CHECK(std::get<SpotEmitter>(again.emitters[7].shape).inner == 0.25);
+    CHECK(again.emitters[7].power == 4.0);
+    REQUIRE(again.receivers.size() == 1);
+    CHECK(again.receivers[0].half_angle_deg == 45.0);
+    CHECK(glm::length(again.receivers[0].normal - glm::dvec3(0, 1, 0)) < 16 * 0x1p-53);
+  }
+}
+
+TEST_CASE("another ending is refused and nothing is left behind") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(write_gltf(full_room(), folder.path() / "room.obj"), InputError);
+  CHECK_THROWS_AS(write_gltf(full_room(), folder.path() / "none" / "room.glb"), RuntimeError);
+  CHECK(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_CASE("a file is replaced whole") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "room.glb";
+  std::ofstream(file) << "old";
+  write_gltf(full_room(), file);
+  CHECK(read_gltf(file).surfaces.size() == 6);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+}

@@ -1,0 +1,304 @@
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.hpp"
+#include "lichtmc/error.hpp"
+#include "lichtmc/output.hpp"
+#include "lichtmc/version.hpp"
+#include "output/tables.hpp"
+#include "support/catch.hpp"
+#include "support/small_result.hpp"
+
+using namespace lichtmc;
+using namespace lichtmc::test;
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::string content(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  REQUIRE(in);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> all;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) all.push_back(line);
+  return all;
+}
+
+std::set<std::string> files_below(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) names.insert(fs::relative(entry.path(), folder).string());
+  }
+  return names;
+}
+
+// Fields of a row of RFC 4180 without line breaks in fields.
+std::vector<std::string> fields(const std::string& row) {
+  std::vector<std::string> all(1);
+  bool quoted = false;
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (row[k] == '"') {
+      if (quoted && k + 1 < row.size() && row[k + 1] == '"') {
+        all.back() += row[k++];
+      } else {
+        quoted = !quoted;
+      }
+    } else if (row[k] == ',' && !quoted) {
+      all.emplace_back();
+    } else {
+      all.back() += row[k];
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("tiles.csv has the columns it promises and numbers that read back as the same") {
+  const Result result = make_result();
+  const auto rows = lines(tiles_csv(result));
+  REQUIRE(rows.size() == 7);
+  CHECK(rows[0] == "tile,surface,column,row,x,y,z,area,power,irradiance,standard_error,hits,unit");
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto row = fields(rows[i + 1]);
+    REQUIRE(row.size() == 13);
+    const Tile& tile = result.tiling.tiles[i];
+    const TileResult& figures = result.tiles[i];
+    CHECK(row[0] == std::to_string(i));
+    CHECK(row[1] == result.tiling.maps[tile.map].name);
+    CHECK(row[2] == std::to_string(tile.column));
+    CHECK(row[3] == std::to_string(tile.row));
+    CHECK(std::stod(row[4]) == tile.point.x);
+    CHECK(std::stod(row[5]) == tile.point.y);
+    CHECK(std::stod(row[6]) == tile.point.z);
+    CHECK(std::stod(row[7]) == tile.area_m2);
+    CHECK(std::stod(row[8]) == figures.power);
+    CHECK(std::stod(row[9]) == figures.irradiance);
+    CHECK((i == 2 ? row[10] == "nan" : std::stod(row[10]) == figures.standard_error));
+    CHECK(row[11] == std::to_string(figures.hits));
+    CHECK(row[12] == "W/m^2");
+  }
+}
+
+TEST_CASE("surfaces.csv has the columns it promises and quotes what needs it") {
+  Result result = make_result();
+  result.quantity = Quantity::photometric;
+  const auto rows = lines(surfaces_csv(result));
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0] ==
+        "name,material,reflectance,area,tiles,mean_irradiance,min_irradiance,max_irradiance,standard_error,power,"
+        "behind_share,hits,unit");
+  CHECK(rows[1] == "\"a \"\"b\"\", c/d\",\"grey, \"\"warm\"\"\",0.6,0.05,5,0.4,0,1,0.01,0.02,0,407,lx");
+  CHECK(rows[2] == "lamp.back,,0.1,0.5,1,0.2,0.2,0.2,nan,0.1,1,105,lx");
+}
+
+TEST_CASE("a CSV field is quoted where a reader needs it and only there") {
+  CHECK(csv_field("plain name") == "plain name");
+  CHECK(csv_field("") == "");
+  CHECK(csv_field("a,b") == "\"a,b\"");
+  CHECK(csv_field("a\"b") == "\"a\"\"b\"");
+  CHECK(csv_field("a\nb") == "\"a\nb\"");
+  CHECK(csv_field("a\rb") == "\"a\rb\"");
+}
+
+TEST_CASE("summary.json holds its keys in order with exact numbers and null for what is unknown") {
+  const Result result = make_result();
+  const std::string text = summary_json(make_room(), result);
+  const Json summary = Json::parse(text);
+  const std::vector<std::string> first_keys{"version",
+                                            "room",
+                                            "unit",
+                                            "engine",
+                                            "estimator",
+                                            "seed",
+                                            "threads",
+                                            "histories",
+                                            "impacts",
+                                            "rays",
+                                            "seconds",
+                                            "impacts_per_second",
+                                            "emitted",
+                                            "absorbed",
+                                            "escaped",
+                                            "residual",
+                                            "lost",
+                                            "incident",
+                                            "incident_standard_error",
+                                            "rms_relative_error",
+                                            "figure_of_merit",
+                                            "stopped_by",
+                                            "surfaces",
+                                            "receivers",
+                                            "ignored"};
+  std::vector<std::string> keys;
+  for (const auto& item : summary.items()) keys.push_back(item.key());
+  REQUIRE(keys.size() > first_keys.size());
+  keys.resize(first_keys.size());
+  CHECK(keys == first_keys);
+
+  CHECK(summary["version"] == std::string(version()));
+  CHECK(summary["room"] == "hall.glb");
+  CHECK(summary["unit"] == "W");
+  CHECK(summary["engine"] == "cuboid");
+  CHECK(summary["estimator"] == "weight");
+  CHECK(summary["seed"].get<std::uint64_t>() == std::numeric_limits<std::uint64_t>::max());
+  CHECK(summary["histories"] == 1000);
+  CHECK(summary["rays"] == 5001);
+  CHECK(summary["impacts_per_second"].get<double>() == 10000.0);
+  CHECK(summary["residual"].get<double>() == 0.1 + 0.2);
+  CHECK(summary["incident"].get<double>() == 5.0 / 3.0);
+  CHECK(summary["incident_standard_error"].is_null());
+  CHECK(summary["figure_of_merit"].is_null());
+  CHECK(summary["stopped_by"] == "max-time");
+  CHECK(summary["receivers"] == Json::array());
+  CHECK(summary["ignored"] == Json(result.ignored));
+  CHECK(summary["mended"] == Json(result.mended));
+  CHECK(summary["retraced"] == 1);
+  CHECK(summary["lost_histories"] == 2);
+  CHECK(summary["tiles_count"] == 6);
+  CHECK(summary["tiles_without_hits"] == 1);
+  CHECK(summary["tile_edge_m"].get<double>() == 0.1);
+  CHECK(summary["max_bounces"] == 12);
+  CHECK(text.find("\n  \"room\": ") != std::string::npos);
+}
+
+TEST_CASE("summary.json lists surfaces with their files and emitters with their kinds") {
+  const Json summary = Json::parse(summary_json(make_room(), make_result()));
+  const Json& surfaces = summary["surfaces"];
+  REQUIRE(surfaces.size() == 2);
+  CHECK(surfaces[0]["name"] == "a \"b\", c/d");
+  CHECK(surfaces[0]["file"] == "tiles/a__b___c_d.exr");
+  CHECK_FALSE(surfaces[0].contains("chart"));
+  CHECK(surfaces[1]["chart"].get<std::string>().find("it has no UVs") != std::string::npos);
+  CHECK(surfaces[1]["standard_error"].is_null());
+  CHECK(surfaces[1]["hits"] == 105);
+  const Json& emitters = summary["emitters"];
+  REQUIRE(emitters.size() == 4);
+  const std::array<const char*, 4> kinds{"isotropic", "spot", "lambert", "surface"};
+  for (std::size_t k = 0; k < 4; ++k) CHECK(emitters[k]["kind"] == kinds[k]);
+  CHECK(emitters[0]["name"] == "sun");
+  CHECK(emitters[0]["power"].get<double>() == 0.75);
+}
+
+TEST_CASE("summary.json has a unit for every column that has one") {
+  for (const Quantity quantity : {Quantity::radiometric, Quantity::photometric}) {
+    Result result = make_result();
+    result.quantity = quantity;
+    const Json units = Json::parse(summary_json(make_room(), result))["units"];
+    const std::string irradiance(irradiance_unit(quantity));
+    for (const char* column : {"irradiance", "standard_error", "mean_irradiance", "min_irradiance", "max_irradiance"})
+      CHECK(units[column] == irradiance);
+    for (const char* column : {"power", "emitted", "absorbed", "escaped", "residual", "lost", "incident"})
+      CHECK(units[column] == std::string(power_unit(quantity)));
+    for (const char* column : {"x", "y", "z", "tile_edge_m"}) CHECK(units[column] == "m");
+    CHECK(units["area"] == "m^2");
+    CHECK(units["seconds"] == "s");
+  }
+}
+
+TEST_CASE("summary.json is JSON whatever bytes the names hold and however short the run was") {
+  Result result = make_result();
+  result.room = "r\xFFm\n\"\\";
+  result.seconds = 0.0;
+  result.impacts = 0;
+  result.settings.max_bounces.reset();
+  const Json summary = Json::parse(summary_json(make_room(), result));
+  CHECK(summary["room"] == "r\xEF\xBF\xBDm\n\"\\");
+  CHECK(summary["impacts_per_second"].is_null());
+  CHECK(summary["max_bounces"].is_null());
+}
+
+TEST_CASE("the output folder holds exactly the files of this run") {
+  const Folder folder;
+  const std::set<std::string> expected{"summary.json", "surfaces.csv", "tiles.csv", "tiles/a__b___c_d.exr",
+                                       "tiles/lamp.back.exr"};
+  const fs::path out = folder.path() / "deep" / "out";
+  prepare_output(out);
+  CHECK(files_below(out).empty());
+  write_results(make_room(), make_result(), out);
+  CHECK(files_below(out) == expected);
+  CHECK(content(out / "tiles.csv") == tiles_csv(make_result()));
+  CHECK(content(out / "surfaces.csv") == surfaces_csv(make_result()));
+  CHECK(content(out / "summary.json") == summary_json(make_room(), make_result()));
+}
+
+TEST_CASE("an earlier run's maps go and what is not lichtmc's stays") {
+  const Folder folder;
+  fs::create_directories(folder.path() / "tiles" / "folder.exr");
+  for (const char* name : {"tiles/old.exr", "tiles/notes.txt", "tiles/folder.exr/inside.exr", "other.exr"})
+    std::ofstream(folder.path() / name) << "x";
+  prepare_output(folder.path());
+  CHECK(fs::exists(folder.path() / "tiles" / "old.exr"));
+  write_results(make_room(), make_result(), folder.path());
+  CHECK(files_below(folder.path()) == std::set<std::string>{"other.exr", "summary.json", "surfaces.csv", "tiles.csv",
+                                                            "tiles/a__b___c_d.exr", "tiles/folder.exr/inside.exr",
+                                                            "tiles/lamp.back.exr", "tiles/notes.txt"});
+}
+
+TEST_CASE("a run that cannot be written leaves no summary and no temporary file") {
+  const Folder folder;
+  write_results(make_room(), make_result(), folder.path());
+  // A folder stands where surfaces.csv is to be.
+  fs::remove(folder.path() / "surfaces.csv");
+  fs::create_directories(folder.path() / "surfaces.csv" / "x");
+  CHECK_THROWS_AS(write_results(make_room(), make_result(), folder.path()), RuntimeError);
+  CHECK_THROWS_WITH(write_results(make_room(), make_result(), folder.path()), ContainsSubstring("surfaces.csv"));
+  const auto left = files_below(folder.path());
+  CHECK(left.count("summary.json") == 0);
+  for (const std::string& name : left) CHECK(name.find("tmp") == std::string::npos);
+}
+
+TEST_CASE("an output folder that cannot be written is refused with its name and the reason") {
+  const Folder folder;
+  const fs::path file = folder.path() / "file";
+  std::ofstream(file) << "x";
+  for (const fs::path& wrong : {file, file / "below"}) {
+    CHECK_THROWS_AS(prepare_output(wrong), InputError);
+    CHECK_THROWS_WITH(prepare_output(wrong), ContainsSubstring(wrong.string()) &&
+                                                 ContainsSubstring("(not a directory)") &&
+                                                 ContainsSubstring("--output"));
+  }
+  CHECK(content(file) == "x");
+  fs::create_directories(folder.path() / "out");
+  std::ofstream(folder.path() / "out" / "tiles") << "x";
+  CHECK_THROWS_AS(prepare_output(folder.path() / "out"), InputError);
+  CHECK_THROWS_WITH(prepare_output(folder.path() / "out"), ContainsSubstring("tiles"));
+}
+
+TEST_CASE("an output folder without permission to write is refused with that reason") {
+  if (::geteuid() == 0) {
+    WARN("skipped: root may write everywhere");
+    return;
+  }
+  const Folder folder;
+  fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  CHECK_THROWS_WITH(prepare_output(folder.path()), ContainsSubstring("(permission denied)"));
+  fs::permissions(folder.path(), fs::perms::owner_all);
+}
+
+TEST_CASE("a file is replaced whole or stays as it was") {
+  const Folder folder;
+  const fs::path file = folder.path() / "a.txt";
+  write_file_atomically(file, "first");
+  write_file_atomically(file, std::string_view("\0\n", 2));
+  CHECK(content(file) == std::string("\0\n", 2));
+  CHECK_THROWS_AS(write_file_atomically(folder.path() / "none" / "a.txt", "x"), RuntimeError);
+  CHECK_THROWS_WITH(write_file_atomically(folder.path() / "none" / "a.txt", "x"), ContainsSubstring("none/a.txt"));
+  CHECK(files_below(folder.path()) == std::set<std::string>{"a.txt"});
+}
