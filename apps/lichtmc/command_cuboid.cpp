@@ -47,15 +47,12 @@ void write_cuboid(const CuboidOptions& options) {
 
 void add_cuboid_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("cuboid", "Write a cuboid room as glTF, to simulate or to start from");
-  command->description(
-      "Writes an empty cuboid room as a glTF file: one corner at the origin, extending to +X, +Y (up) and +Z, one "
-      "material per\n"
-      "reflectance. Reflectances are shares of the arriving light, 0 (black) to 1.\n");
   auto options = std::make_shared<CuboidOptions>();
-  command->add_option("--size", options->size, "Edges along X, Y (height) and Z in metres, for example --size 5 2.6 4")
+  command
+      ->add_option("--size", options->size, "The edges along X, Y (height) and Z in metres, for example --size 5 2.6 4")
       ->expected(3)
       ->required()
-      ->type_name("X Y Z");
+      ->type_name("EDGE");
   command->add_option("--reflectance", options->reflectance, "Reflectance of everything not named below")
       ->type_name("R")
       ->capture_default_str();
@@ -68,10 +65,14 @@ void add_cuboid_command(CLI::App& program) {
   command->add_option("--wall-z1", options->z1, "Reflectance of the wall opposite, at the far Z")->type_name("R");
   command->add_option("--light", options->lights, light_help)->type_name("LIGHT")->expected(1)->take_all();
   command->add_option("-o,--output", options->output, "File to write, .glb or .gltf")->type_name("FILE")->required();
-  command->footer(
-      "Example:\n  lichtmc cuboid --size 5 2.6 4 --walls 0.6 --ceiling 0.8 --floor 0.3 --light point:2.5,2.4,2:2000lm "
-      "-o room.glb\n"
-      "  lichtmc run room.glb");
+  command->footer(std::string("The room is empty: one corner at the origin, extending to +X, +Y (up) and +Z. "
+                              "Reflectances are shares of the\n"
+                              "arriving light, 0 (black) to 1.\n\n") +
+                  light_forms +
+                  "\nExample:\n  lichtmc cuboid --size 5 2.6 4 --walls 0.6 --ceiling 0.8 --floor 0.3 --light "
+                  "point:2.5,2.4,2:2000lm "
+                  "-o room.glb\n"
+                  "  lichtmc run room.glb");
   command->callback([options] { write_cuboid(*options); });
 }
 

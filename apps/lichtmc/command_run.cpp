@@ -204,7 +204,7 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->group(accuracy);
   command
       .add_option("--target-error", options.target_error,
-                  "Stop when the tiles' relative standard error (area-weighted rms) is at most this: 1% or 0.01")
+                  "Stop at this relative standard error of the tiles (area-weighted rms): 1% or 0.01")
       ->type_name("P")
       ->group(accuracy);
   command.add_option("--max-time", options.max_time, "Stop after this time: 60s, 5min, 2h")
@@ -223,12 +223,10 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->group(method);
   command
       .add_option("--max-bounces", options.max_bounces,
-                  "With --estimator weight: cut every history off after this many flights; what is cut off is reported "
-                  "as residual [no cut: unbiased Russian roulette]")
+                  "With --estimator weight: cut histories off after N flights [roulette, unbiased]")
       ->type_name("N")
       ->group(method);
-  command
-      .add_option("--seed", options.seed, "Number that selects the random numbers; the same seed gives the same digits")
+  command.add_option("--seed", options.seed, "Selects the random numbers: the same seed gives the same digits")
       ->type_name("S")
       ->capture_default_str()
       ->group(method);
@@ -261,7 +259,7 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->group(reading);
   command
       .add_option("--uv-set", options.uv_set,
-                  "Texture coordinates that tiles are laid out by, the n of TEXCOORD_n [1 if present, else 0]")
+                  "Texture coordinates for the tiles, the n of TEXCOORD_n [1 if present, else 0]")
       ->type_name("N")
       ->group(reading);
   command.add_option("--scene", options.scene, "Name of the scene to take [the file's default scene]")
@@ -276,14 +274,15 @@ void add_options(CLI::App& command, RunOptions& options) {
 void add_run_command(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("run", "Simulate a room: irradiance of every tile, with its standard error");
-  command->description(
-      "Follows light packets (photons) from the lamps of a room until they are absorbed or leave through an opening, "
-      "and writes the\n"
-      "irradiance (W/m^2) or illuminance (lx) of every tile of every surface with its standard error.\n");
   auto options = std::make_shared<RunOptions>();
   add_options(*command, *options);
   command->footer(
-      "Examples:\n"
+      std::string(
+          "Light packets (photons) fly from the lamps until they are absorbed or leave through an opening. Results: "
+          "the\n"
+          "irradiance (W/m^2) or illuminance (lx) of every tile of every surface, each with its standard error.\n\n") +
+      light_forms +
+      "\nExamples:\n"
       "  lichtmc run room.glb                                1 million photons, tiles of 0.1 m, results in room.out/\n"
       "  lichtmc run room.glb --target-error 2% --max-time 5min --tile 0.25\n"
       "  lichtmc run hall.glb --light point:5,3,5:8000lm --max-reflectance 0.9 -o out/hall\n"

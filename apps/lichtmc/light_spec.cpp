@@ -8,9 +8,13 @@
 
 namespace lichtmc::app {
 
-const char* const light_help =
-    "Add a light (repeatable): point:X,Y,Z:POWER or lambert:X,Y,Z:DX,DY,DZ:M:POWER; metres, Y up; POWER with unit, for "
-    "example point:2,2.4,1.5:1000lm or lambert:0.5,0.5,0.5:0,-1,0:5:1W";
+const char* const light_help = "Add a light (repeatable), in one of the forms below";
+
+const char* const light_forms =
+    "Lights (--light), positions in metres with Y up, power with its unit, lm or W:\n"
+    "  point:X,Y,Z:POWER                the same intensity in every direction, for example point:2,2.4,1.5:1000lm\n"
+    "  lambert:X,Y,Z:DX,DY,DZ:M:POWER   generalized Lambert emitter cos^M about a direction, for example\n"
+    "                                   lambert:0.5,0.5,0.5:0,-1,0:5:1W (M = 1: Lambert; large M: a narrow beam)\n";
 
 namespace {
 

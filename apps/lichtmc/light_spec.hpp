@@ -8,8 +8,9 @@
 
 namespace lichtmc::app {
 
-// Help text for --light.
+// Help for --light: its line in the list of options, and the forms that it takes.
 extern const char* const light_help;
+extern const char* const light_forms;
 
 // Adds an emitter for each description to a room:
 //   point:X,Y,Z:POWER                      the same intensity in every direction

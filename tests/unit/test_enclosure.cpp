@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -105,6 +106,25 @@ TEST_CASE("a cube encloses the points inside it and no others") {
       CHECK_FALSE(enclosure.encloses(corner + edge * glm::dvec3(0.5, -1e-6, 0.5)));
     }
   }
+}
+
+TEST_CASE("a point whose ray meets an edge or a corner is asked again in another direction") {
+  const Enclosure enclosure(cube());
+  // The first direction that encloses() takes, backwards from the diagonals and edges of the walls that it leads to.
+  const glm::dvec3 direction(0.57735, 0.21132, 0.78868);
+  int asked = 0;
+  for (int k = 0; k <= 32; ++k) {
+    const double s = k / 32.0;
+    for (const glm::dvec3 target : {glm::dvec3(s, s, 1.0), glm::dvec3(1.0 - s, s, 1.0), glm::dvec3(1.0, s, s),
+                                    glm::dvec3(1.0, s, 1.0 - s), glm::dvec3(1.0, s, 1.0), glm::dvec3(s, 1.0, 1.0)}) {
+      const glm::dvec3 start = target - 0.125 * direction;
+      if (std::min({start.x, start.y, start.z}) <= 0.0 || std::max({start.x, start.y, start.z}) >= 1.0) continue;
+      ++asked;
+      CAPTURE(target.x, target.y, target.z);
+      CHECK(enclosure.encloses(start));
+    }
+  }
+  CHECK(asked > 100);
 }
 
 TEST_CASE("a shell is closed whatever the winding and the surfaces that it is made of") {
