@@ -1,6 +1,7 @@
 #include "walk/launcher.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -25,6 +26,7 @@ std::vector<double> cumulative(const std::vector<double>& shares) {
 // Index of the share that 0 ≤ u < 1 falls into; shares of 0 are never chosen.
 std::size_t choose(const std::vector<double>& sums, double u) {
   const auto chosen = std::upper_bound(sums.begin(), sums.end(), u);
+  assert(chosen != sums.end());  // the last sum is 1
   return static_cast<std::size_t>(chosen - sums.begin());
 }
 

@@ -2,6 +2,7 @@
 // start.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -45,6 +46,7 @@ struct Scene {
     const std::uint32_t column = cell_index(facet.cell_0.x + s * facet.cell_s.x + t * facet.cell_t.x, surface.columns);
     const std::uint32_t row = cell_index(facet.cell_0.y + s * facet.cell_s.y + t * facet.cell_t.y, surface.rows);
     const std::size_t cell = surface.first_cell + std::size_t{row} * surface.columns + column;
+    assert(tile_of_cell[cell] != no_tile);  // a surface that was hit has an area, and so a tile
     return tile_of_cell[cell] + (behind ? surface.tiles_to_back : 0);
   }
 

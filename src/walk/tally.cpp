@@ -1,5 +1,7 @@
 #include "walk/tally.hpp"
 
+#include <cassert>
+
 namespace lichtmc {
 
 void Ends::add(const Ends& other) {
@@ -14,6 +16,7 @@ Totals::Totals(std::size_t tile_count, std::size_t map_count, Hits hits_are)
     : tiles(tile_count), hits(hits_are == Hits::apart ? tile_count : 0), maps(map_count), behind(map_count) {}
 
 void Totals::add(const Totals& other) {
+  assert(tiles.size() == other.tiles.size() && maps.size() == other.maps.size());
   histories += other.histories;
   impacts += other.impacts;
   traced.rays += other.traced.rays;
@@ -34,6 +37,7 @@ Tally::Tally(const std::vector<std::uint32_t>& map_of_tile, std::size_t maps, Hi
       totals_(map_of_tile.size(), maps, hits) {}
 
 void Tally::close_batch(std::uint32_t n) {
+  assert(n >= 1 && n <= batch_histories);
   std::uint64_t all = 0;
   for (const std::uint32_t tile : touched_) {
     const std::uint64_t score = batch_score_[tile];

@@ -1,7 +1,6 @@
 #include "walk/walk.hpp"
 
-#include <limits>
-#include <optional>
+#include <cassert>
 
 #include "chance/directions.hpp"
 #include "walk/wave.hpp"
@@ -33,6 +32,7 @@ class PolicyWalk final : public Walk {
       scatter();
     }
     tally.close_batch(n);
+    assert(every_history_has_ended(tally));
   }
 
  private:
@@ -125,6 +125,14 @@ class PolicyWalk final : public Walk {
       const glm::vec3 local = sample_lambert(wave_.words[i][0], wave_.words[i][1]);
       rays.set_direction(i, direction_from(facets[rays.facet[i]], rays.behind[i] != 0, local));
     }
+  }
+
+  // Emitted = absorbed + escaped + residual + lost, in integers.
+  static bool every_history_has_ended(const Tally& tally) {
+    const Totals& totals = tally.totals();
+    const Ends& ends = totals.ends;
+    const auto emitted = static_cast<int128>(totals.histories) * static_cast<int128>(Policy::units(1.0));
+    return ends.absorbed + ends.escaped + ends.residual + ends.lost == emitted;
   }
 
   const Scene* scene_;

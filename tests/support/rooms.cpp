@@ -54,11 +54,11 @@ Settings settings_of(Estimator estimator, Engine engine, double photons, std::ui
   return settings;
 }
 
-const SurfaceResult& surface_named(const Result& result, const std::string& name) {
+const SurfaceResult& surface_named(const Result& result, std::string_view name) {
   for (const SurfaceResult& surface : result.surfaces) {
     if (surface.name == name) return surface;
   }
-  throw std::logic_error("no surface " + name);
+  throw std::logic_error("no surface " + std::string(name));
 }
 
 std::vector<Compared> against(const Result& result, const std::string& map,

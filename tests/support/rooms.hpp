@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -29,7 +30,7 @@ Room without_surface(Room room, const std::string& name);
 // Settings for tests: threads and reports do not matter, the seed does.
 Settings settings_of(Estimator estimator, Engine engine, double photons, std::uint64_t seed, double tile_edge_m = 0.1);
 
-const SurfaceResult& surface_named(const Result& result, const std::string& name);
+const SurfaceResult& surface_named(const Result& result, std::string_view name);
 
 // Irradiance of the tiles of one map against an expectation for each tile. Hits follow Poisson's law, which is not near
 // enough to a normal one where few are expected: tiles that expect fewer than 50 hits are pooled into figures that
