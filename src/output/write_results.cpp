@@ -55,8 +55,8 @@ void remove_foreign_maps(const fs::path& folder, const std::set<std::string>& ou
   for (const fs::path& file : foreign) {
     fs::remove(file, error);
     if (error)
-      throw RuntimeError("Cannot remove the old tile map " + lichtmc::in_quotes(file.string()) + " (" + reason_of(error) +
-                         "). Remove it yourself.");
+      throw RuntimeError("Cannot remove the old tile map " + lichtmc::in_quotes(file.string()) + " (" +
+                         reason_of(error) + "). Remove it yourself.");
   }
 }
 

@@ -13,9 +13,9 @@
 namespace lichtmc {
 
 // The closed shells of a room: connected sets of triangles in which every edge belongs to an even number of triangles.
-// Corners are one where they lie within a millionth of the room's size of each other. Sheets with a rim, and meshes
-// whose neighbours meet in the middle of an edge, are not closed in this sense: the answer "not enclosed" is the safe
-// one.
+// Corners are one where they lie within a millionth of the room's size of each other. Triangles with the same corners
+// count once, whatever their winding. Sheets with a rim, and meshes whose neighbours meet in the middle of an edge, are
+// not closed in this sense: the answer "not enclosed" is the safe one.
 class Enclosure {
  public:
   explicit Enclosure(const Room& room);
