@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "lichtmc/cuboid.hpp"
+#include "lichtmc/error.hpp"
 #include "lichtmc/gltf.hpp"
 #include "light_spec.hpp"
 #include "quantities.hpp"
@@ -40,6 +41,11 @@ void write_cuboid(const CuboidOptions& options) {
   Room room = make_cuboid(size, reflectances(options));
   add_lights(room, options.lights);
   if (!room.emitters.empty()) check_room(room);
+  const std::filesystem::path folder = std::filesystem::path(options.output).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    throw InputError("There is no folder " + folder.string() + " to write " + options.output +
+                     " into. Make it, or choose another file with --output.");
+  }
   write_gltf(room, options.output);
 }
 

@@ -27,10 +27,10 @@ struct RunOptions {
   std::string room;
   std::string output;
   std::string estimator = "collision";
-  std::string photons = "1e6";
+  std::optional<std::string> photons;
   std::optional<std::string> target_error, max_time, max_bounces, unit, max_reflectance;
   std::string tile = "0.1";
-  std::uint64_t seed = 1;
+  std::string seed = "1";
   std::optional<int> threads;
   std::string engine = "auto";
   std::vector<std::string> lights;
@@ -60,7 +60,10 @@ Engine parse_engine(const std::string& text) {
 Settings parse_settings(const RunOptions& options) {
   Settings settings;
   settings.estimator = parse_estimator(options.estimator);
-  settings.photons = parse_count(options.photons, "--photons");
+  // Another stop rule alone decides by itself.
+  constexpr std::uint64_t no_limit = std::uint64_t{1} << 62;
+  if (options.target_error || options.max_time) settings.photons = no_limit;
+  if (options.photons) settings.photons = parse_count(*options.photons, "--photons");
   if (options.target_error) settings.target_error = parse_share(*options.target_error, "--target-error");
   if (options.max_time) settings.max_seconds = parse_seconds(*options.max_time, "--max-time");
   if (options.max_bounces) {
@@ -72,7 +75,7 @@ Settings parse_settings(const RunOptions& options) {
     settings.max_bounces = static_cast<std::uint32_t>(bounces);
   }
   settings.tile_edge_m = parse_number(options.tile, "--tile");
-  settings.seed = options.seed;
+  settings.seed = parse_seed(options.seed, "--seed");
   if (options.threads && *options.threads < 1) {
     throw InputError("The number of threads is " + std::to_string(*options.threads) +
                      " (allowed: 1 or more). Leave out --threads to use all processors.");
@@ -88,6 +91,7 @@ Room read_room(const RunOptions& options) {
   read.scene = options.scene;
   if (options.unit) read.quantity = parse_unit(*options.unit, "--unit");
   Room room = read_gltf(options.room, read);
+  if (options.unit) room.mended.push_back("Powers of the file are taken in " + *options.unit + ".");
   for (const std::string& change : options.reflectances) {
     const std::size_t equals = change.rfind('=');
     if (equals == std::string::npos) {
@@ -142,7 +146,7 @@ void warn_of_missed_target(const Settings& settings, const Result& result) {
   std::cerr << '\n';
 }
 
-void print_outcome(const Room& room, const Result& result, const std::filesystem::path& folder) {
+void print_outcome(const Result& result, const std::filesystem::path& folder) {
   const std::string unit(power_unit(result.quantity));
   const Balance& balance = result.balance;
   std::cerr << short_count(static_cast<double>(result.histories)) << " photons, "
@@ -150,17 +154,19 @@ void print_outcome(const Room& room, const Result& result, const std::filesystem
             << describe(result.stopped_by) << "; engine " << to_string(result.engine) << ", estimator "
             << to_string(result.settings.estimator) << ").\n";
   std::cerr << "Emitted " << figure(balance.emitted) << ' ' << unit << ": absorbed " << figure(balance.absorbed)
-            << ", escaped through openings " << figure(balance.escaped);
+            << ", left the room " << figure(balance.escaped);
   if (balance.residual != 0.0) std::cerr << ", residual " << figure(balance.residual);
   std::cerr << ", lost " << figure(balance.lost) << ".\n";
   std::cerr << result.tiles.size() << " tiles, relative standard error " << percent(result.rms_relative_error)
-            << " (area-weighted rms)";
-  if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " tiles were not hit";
+            << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of those that were hit)" : ")");
+  if (result.tiles_without_hits > 0)
+    std::cerr << "; " << result.tiles_without_hits << " were not hit, their error is unknown";
   std::cerr << ".\n";
   warn_of_missed_target(result.settings, result);
-  if (!room.ignored.empty()) {
-    std::cerr << "The room holds " << room.ignored.size() << " thing" << (room.ignored.size() == 1 ? "" : "s")
-              << " that are not modelled, for example: " << room.ignored.front()
+  for (const std::string& warning : result.warnings) std::cerr << "Warning: " << warning << '\n';
+  if (!result.ignored.empty()) {
+    std::cerr << "Not modelled: " << result.ignored.size() << (result.ignored.size() == 1 ? " thing" : " things")
+              << " in the room, for example: " << result.ignored.front()
               << " The list is in summary.json under \"ignored\".\n";
   }
   std::cerr << "Results are in " << folder.string()
@@ -187,7 +193,7 @@ void run(const RunOptions& options) {
     result = simulate(room, settings, control);
   }
   write_results(room, result, folder);
-  if (!options.quiet) print_outcome(room, result, folder);
+  if (!options.quiet) print_outcome(result, folder);
 }
 
 void add_options(CLI::App& command, RunOptions& options) {
@@ -198,9 +204,10 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->type_name("DIR");
 
   const std::string accuracy = "How long to simulate (the first rule to be met ends the run)";
-  command.add_option("--photons", options.photons, "Number of light packets: 1000000, 1e6, 10M, 2G")
+  command
+      .add_option("--photons", options.photons,
+                  "Number of light packets: 1000000, 1e6, 10M, 2G [1e6, or no limit where another rule is given]")
       ->type_name("N")
-      ->capture_default_str()
       ->group(accuracy);
   command
       .add_option("--target-error", options.target_error,
@@ -217,7 +224,8 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->capture_default_str()
       ->group(method);
   command
-      .add_option("--estimator", options.estimator, "What a photon scores: weight, collision or absorption (1, 2, 3)")
+      .add_option("--estimator", options.estimator,
+                  "weight, collision or absorption (or 1, 2, 3): same mean, other errors; collision suits most rooms")
       ->type_name("NAME")
       ->capture_default_str()
       ->group(method);

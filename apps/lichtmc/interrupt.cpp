@@ -1,5 +1,6 @@
 #include "interrupt.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 
@@ -8,7 +9,8 @@ namespace lichtmc::app {
 namespace {
 
 // A signal handler may do no more than set this; the watcher does the rest.
-volatile std::sig_atomic_t interrupted = 0;
+std::atomic<int> interrupted{0};
+static_assert(std::atomic<int>::is_always_lock_free);
 
 extern "C" void note_interrupt(int signal) {
   interrupted = 1;

@@ -1,6 +1,7 @@
 // The program lichtmc: reads the command line, runs a command, and turns errors into messages and exit status.
 #include <exception>
 #include <iostream>
+#include <string>
 
 #include "commands.hpp"
 #include "lichtmc/error.hpp"
@@ -14,6 +15,18 @@ constexpr int exit_wrong_input = 2;  // the command line or an input is wrong
 int fail(const std::exception& error, int status) {
   std::cerr << "lichtmc: " << error.what() << '\n';
   return status;
+}
+
+// A word that is no command is named, before the parser says only that a command is missing.
+void check_command(CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string names;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return;
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  throw lichtmc::InputError("There is no command '" + std::string(argv[1]) + "' (allowed: " + names +
+                            "). See lichtmc --help.");
 }
 
 }  // namespace
@@ -33,6 +46,7 @@ int main(int argc, char** argv) {
   lichtmc::app::add_run_command(program);
   lichtmc::app::add_cuboid_command(program);
   try {
+    check_command(program, argc, argv);
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help and --version
     return program.exit(asked);

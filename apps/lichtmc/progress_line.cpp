@@ -60,15 +60,16 @@ double ProgressLine::share_done(const Progress& progress) const {
 std::string ProgressLine::describe(const Progress& progress) const {
   const double share = share_done(progress);
   const double left = share > 0.0 ? progress.seconds * (1.0 - share) / share : 0.0;
-  std::string text = short_count(static_cast<double>(progress.histories)) + " of " +
-                     short_count(static_cast<double>(progress.target)) + " photons, " +
+  const bool limited = progress.target < std::uint64_t{1} << 62;
+  std::string text = short_count(static_cast<double>(progress.histories)) +
+                     (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") + " photons, " +
                      short_count(static_cast<double>(progress.impacts) / progress.seconds) + " impacts/s";
   if (progress.rms_relative_error > 0.0) {
     char error[48];
     std::snprintf(error, sizeof error, ", error %.2g %%", 100.0 * progress.rms_relative_error);
     text += error;
   }
-  return text + ", about " + short_time(left) + " left";
+  return share > 0.0 ? text + ", about " + short_time(left) + " left" : text;
 }
 
 void ProgressLine::update(const Progress& progress) {

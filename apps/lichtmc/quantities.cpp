@@ -61,16 +61,28 @@ std::uint64_t parse_count(std::string_view text, std::string_view option) {
   if (error == std::errc() && stop == text.data() + text.size() && count <= (std::uint64_t{1} << 63)) return count;
   constexpr std::array<Suffix, 6> suffixes{{{"", 1.0}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}, {"T", 1e12}, {"K", 1e3}}};
   double number = 0.0;
-  if (!scaled(text, suffixes, number) || number < 0.0 || number > 0x1p63 || number != std::floor(number)) {
+  const bool read = scaled(text, suffixes, number);
+  const double whole = std::round(number);
+  // 1.005M is 1004999.9999999999 in double: a product of two roundings may miss the whole number by as much.
+  if (!read || number < 0.0 || number > 0x1p63 || std::abs(number - whole) > 2.0 * 0x1p-53 * number)
     refuse(option, text, allowed);
-  }
-  return static_cast<std::uint64_t>(number);
+  return static_cast<std::uint64_t>(whole);
+}
+
+std::uint64_t parse_seed(std::string_view text, std::string_view option) {
+  std::uint64_t seed = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc() || stop != text.data() + text.size())
+    refuse(option, text, "a whole number from 0 to 18446744073709551615");
+  return seed;
 }
 
 double parse_share(std::string_view text, std::string_view option) {
   constexpr std::array<Suffix, 2> suffixes{{{"", 1.0}, {"%", 0.01}}};
   double number = 0.0;
   if (!scaled(text, suffixes, number)) refuse(option, text, "a share above 0, for example 1% or 0.01");
+  if (number >= 1.0 && text.back() != '%')
+    refuse(option, text, "a share below 1, or a percentage with %, for example 3% or 0.03");
   return number;
 }
 

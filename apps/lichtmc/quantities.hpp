@@ -19,7 +19,10 @@ double parse_number(std::string_view text, std::string_view option);
 // A count up to 2^63: "1000000", "1e6", "10k", "10M", "2G".
 std::uint64_t parse_count(std::string_view text, std::string_view option);
 
-// A share: "1%" or "0.01".
+// The seed: a whole number from 0 to 2^64 − 1.
+std::uint64_t parse_seed(std::string_view text, std::string_view option);
+
+// A share: "1%" or "0.01"; 1 and more only with the percent sign.
 double parse_share(std::string_view text, std::string_view option);
 
 // Seconds: "60", "60s", "5min", "2h".

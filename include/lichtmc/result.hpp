@@ -18,7 +18,8 @@ enum class StopReason { photons, target_error, max_time, interrupt };
 // "photons", "target-error", "max-time" or "interrupt".
 std::string_view to_string(StopReason reason);
 
-// One tile. A tile that nothing hit has irradiance 0 and standard error NaN: its error is unknown, not zero.
+// One tile. A tile that nothing hit has irradiance 0 and standard error NaN: its error is unknown, not zero. So it is
+// for every tile where fewer than two batches of 1024 histories were simulated.
 struct TileResult {
   double power = 0.0;           // incident power in W or lm
   double irradiance = 0.0;      // power / area in W/m² or lx
@@ -80,6 +81,8 @@ struct Result {
   Tiling tiling;
   std::vector<std::string> ignored;  // Room::ignored, and what of the room this run did not use
   std::vector<std::string> mended;   // Room::mended
+  std::vector<std::string>
+      warnings;  // what may make the figures mean something else than is thought, a sentence or two each
 };
 
 }  // namespace lichtmc

@@ -54,7 +54,7 @@ struct SpotEmitter {
   glm::dvec3 position{0.0};          // m
   glm::dvec3 axis{0.0, -1.0, 0.0};   // direction of the beam, any length but 0
   double inner = 0.0;                // rad, half angle of the cone of full intensity, 0 ≤ inner < outer
-  double outer = 0.785398163397448;  // rad, half angle of the cone that holds all light, outer ≤ π/2
+  double outer = 0.785398163397448;  // rad, half angle of the cone that holds all light, 1e-6 ≤ outer ≤ π/2
 };
 
 // Every point of a surface's front emits as a generalized Lambert emitter about the normal, uniform per area. With m =

@@ -50,7 +50,7 @@ class TemporaryFile {
     const int error = errno;
     if (!renamed_) ::unlink(path_.c_str());
     throw RuntimeError("Cannot write " + target_.string() + " (" + std::strerror(error) +
-                       "). Make room on the disk or choose another folder.");
+                       "). Check that its folder is there and has room, or choose another.");
   }
 
   std::filesystem::path target_;

@@ -1,7 +1,8 @@
 // Integers of 128 bits: sums that stay exact over the longest run.
 //
-// A tally counts in units of 2⁻³² of a score. 10¹² histories of 10⁴ impacts each reach 2⁸⁵ units; squares of a batch's
-// sum reach 2¹²⁰. Both are beyond 64 bits.
+// A batch of 1024 histories with k impacts each scores up to 2¹⁰·k·2²⁸ units (see walk/tally.hpp). Its square summed
+// over B batches stays below 2¹²⁸ while B·k² < 2⁵²: 4·10¹³ batches for k = 10, 4·10⁷ batches, or 5·10¹⁴ impacts, for k
+// = 10⁴.
 #pragma once
 
 namespace lichtmc {

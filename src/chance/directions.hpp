@@ -100,7 +100,8 @@ inline glm::dvec3 sample_spot(double inner, double outer, double u, double turns
 }
 
 inline double pdf_spot(double inner, double outer, double cos_polar) {
-  const double ramp = (cos_polar - std::cos(outer)) / (std::cos(inner) - std::cos(outer));
+  const double rim = versine(outer);
+  const double ramp = (rim - (1.0 - cos_polar)) / (rim - versine(inner));
   const double a = std::fmin(std::fmax(ramp, 0.0), 1.0);
   return a * a / spot_solid_angle(inner, outer);
 }

@@ -66,6 +66,10 @@ std::vector<glm::uvec3> read_triangles(const Document& document, const tinygltf:
 std::optional<Surface> read_primitive(const Document& document, const tinygltf::Primitive& primitive,
                                       const glm::dmat4& world, std::optional<int> uv_set, const std::string& where,
                                       std::vector<std::string>& ignored) {
+  if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+    refuse(document, "the mode of " + where + " is " + std::to_string(primitive.mode) +
+                         " (allowed: 0 to 6). Export the file again.");
+  }
   if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
     ignored.push_back("Points or lines of " + where + ": they have no area.");
     return std::nullopt;

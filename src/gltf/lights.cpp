@@ -34,8 +34,11 @@ const tinygltf::Value* find_light(const Document& document, const tinygltf::Node
       in_file == document.model.extensions.end() ? empty_object() : member(in_file->second, "lights");
   const std::size_t count = lights.IsArray() ? lights.ArrayLen() : 0;
   const double index = number_in(document, on_node->second, "light", -1.0, where);
-  return &lights.Get<tinygltf::Value::Array>()[checked_index(document, static_cast<long long>(index), count,
-                                                             "the light of " + where)];
+  if (!(index >= 0.0 && index < static_cast<double>(count)) || index != std::floor(index)) {
+    refuse(document, "the light of " + where + " is number " + to_text(index) + ", but there are " +
+                         std::to_string(count) + ". Export the file again.");
+  }
+  return &lights.Get<tinygltf::Value::Array>()[static_cast<std::size_t>(index)];
 }
 
 // Luminance of the light's colour: its intensity is per colour channel.
@@ -70,11 +73,12 @@ SpotEmitter read_spot(const Document& document, const tinygltf::Value& light, co
   spot.axis = axis_of(document, placed);
   spot.inner = number_in(document, cones, "innerConeAngle", 0.0, placed.label);
   spot.outer = number_in(document, cones, "outerConeAngle", pi / 4.0, placed.label);
+  constexpr double smallest = 1e-6;
   constexpr double largest = pi / 2.0 * (1.0 + 1e-6);  // π/2 as a float may be rounded up
-  if (!(spot.inner >= 0.0 && spot.inner < spot.outer && spot.outer <= largest)) {
+  if (!(spot.inner >= 0.0 && spot.inner < spot.outer && spot.outer >= smallest && spot.outer <= largest)) {
     refuse(document, "the cone angles of the spot of " + placed.label + " are " + to_text(spot.inner) +
                          " (inner) and " + to_text(spot.outer) +
-                         " rad (outer) (allowed: 0 ≤ inner < outer ≤ π/2). Set its size and blend.");
+                         " rad (outer) (allowed: 0 ≤ inner < outer, outer from 1e-6 to π/2). Set its size and blend.");
   }
   return spot;
 }
@@ -132,6 +136,9 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
     if (!emitter) return std::nullopt;
     result.emitter = *emitter;
   } else if (!exponent) {
+    if (power)
+      ignored.push_back("'power' of " + placed.label +
+                        ": the node has neither a light nor 'lambert_exponent', it does not shine.");
     return std::nullopt;
   } else if (!power) {
     refuse(document, placed.label +

@@ -110,6 +110,10 @@ void note_ignored_materials(const Document& document, const std::vector<bool>& u
       ignored.push_back(where + "its normal map is not modelled; surfaces are flat.");
     if (material.alphaMode == "BLEND" || material.alphaMode == "MASK")
       ignored.push_back(where + "transparency (alpha) is not modelled; it is opaque.");
+    if (material.occlusionTexture.index >= 0)
+      ignored.push_back(where + "its occlusion map is not used; occlusion is simulated.");
+    if (pbr.metallicRoughnessTexture.index >= 0)
+      ignored.push_back(where + "its metallic-roughness map is not modelled; it reflects diffusely.");
     if (pbr.metallicFactor > 0.0 && !given) ++metals;
     for (const auto& [name, value] : material.extensions) {
       if (name == strength_extension) continue;

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -62,7 +64,12 @@ class RoomReader {
       surface->reflectance = material.reflectance;
       surface->sides = material.sides;
       room_.surfaces.push_back(std::move(*surface));
-      if (material.emission) add_shining(*material.emission);
+      if (!material.emission) continue;
+      add_shining(*material.emission);
+      if (material.sides == Sides::both) {
+        room_.ignored.push_back("Surface " + in_quotes(room_.surfaces.back().name) +
+                                " is two-sided and shines: it shines on its front only.");
+      }
     }
   }
 
@@ -100,7 +107,9 @@ class RoomReader {
 
   std::string unique(const std::string& name) {
     std::string candidate = name;
-    for (int n = 2; !names_.insert(candidate).second; ++n) candidate = name + "_" + std::to_string(n);
+    // From the last number used on: a file may have as many nodes of one name as it likes.
+    for (int& n = last_number_[name]; !names_.insert(candidate).second;)
+      candidate = name + "_" + std::to_string(n == 0 ? n = 2 : ++n);
     return candidate;
   }
 
@@ -134,6 +143,7 @@ class RoomReader {
   std::vector<Quantity> quantities_;  // of the emitters
   std::vector<bool> used_materials_;
   std::set<std::string> names_;
+  std::map<std::string, int> last_number_;  // given to names that were taken
 };
 
 }  // namespace

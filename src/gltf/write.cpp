@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
@@ -122,7 +123,8 @@ std::size_t Writer::material_of(std::size_t k) {
     material["extras"]["lambert_exponent"] = shape->exponent;
     use_extension("KHR_materials_emissive_strength");
   }
-  const auto [entry, fresh] = materials_.try_emplace(material.dump(), json_["materials"].size());
+  const auto [entry, fresh] =
+      materials_.try_emplace(material.dump(-1, ' ', false, Json::error_handler_t::replace), json_["materials"].size());
   if (fresh) json_["materials"].push_back(std::move(material));
   return entry->second;
 }
@@ -237,7 +239,7 @@ void append_word(std::string& bytes, std::size_t value) {
 }
 
 std::string container(const Json& json, std::string buffer) {
-  std::string text = json.dump();
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   pad(text, ' ');
   pad(buffer, '\0');
   const std::size_t total = 12 + 8 + text.size() + (buffer.empty() ? 0 : 8 + buffer.size());
@@ -256,12 +258,37 @@ std::string container(const Json& json, std::string buffer) {
 
 }  // namespace
 
+namespace {
+
+// What a Room may hold and glTF cannot.
+void check_writable(const Room& room) {
+  std::vector<bool> shines(room.surfaces.size(), false);
+  for (const Emitter& emitter : room.emitters) {
+    const auto* lambert = std::get_if<LambertEmitter>(&emitter.shape);
+    const auto* surface = std::get_if<SurfaceEmitter>(&emitter.shape);
+    const double exponent = lambert != nullptr ? lambert->exponent : surface != nullptr ? surface->exponent : 0.0;
+    if (!std::isfinite(exponent) || !std::isfinite(emitter.power)) {
+      throw InputError("The power or exponent of emitter " + in_quotes(emitter.name) +
+                       " is not finite (a file holds finite numbers only). Use a large number, for example 1e30.");
+    }
+    if (surface == nullptr || surface->surface >= shines.size()) continue;
+    if (shines[surface->surface]) {
+      throw InputError("Surface " + in_quotes(room.surfaces[surface->surface].name) +
+                       " has two emitters (a file holds one for each surface). Add their powers.");
+    }
+    shines[surface->surface] = true;
+  }
+}
+
+}  // namespace
+
 void write_gltf(const Room& room, const std::filesystem::path& file) {
   const std::string ending = file.extension().string();
   if (ending != ".glb" && ending != ".gltf") {
     throw InputError("Cannot tell the form of " + file.string() + " by its ending '" + ending +
                      "' (allowed: .glb or .gltf). Give it one of these.");
   }
+  check_writable(room);
   Writer writer(room);
   if (ending == ".glb") {
     write_file_atomically(file, container(writer.json(), writer.buffer()));
@@ -270,7 +297,7 @@ void write_gltf(const Room& room, const std::filesystem::path& file) {
   if (!writer.buffer().empty()) {
     writer.json()["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(writer.buffer());
   }
-  write_file_atomically(file, writer.json().dump(1) + "\n");
+  write_file_atomically(file, writer.json().dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace lichtmc

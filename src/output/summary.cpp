@@ -122,6 +122,7 @@ std::string summary_json(const Room& room, const Result& result) {
                {"surfaces", surfaces_of(result)},
                {"receivers", Json::array()},
                {"ignored", result.ignored}};
+  summary["warnings"] = result.warnings;
   summary["mended"] = result.mended;
   summary["emitters"] = emitters_of(room);
   summary["tile_edge_m"] = result.settings.tile_edge_m;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <type_traits>
 
 #include <glm/geometric.hpp>
@@ -82,10 +83,11 @@ void check_shape(const Room& room, const LambertEmitter& shape, const std::strin
 void check_shape(const Room& room, const SpotEmitter& shape, const std::string& of) {
   check_position(room, shape.position, of);
   check_axis(room, shape.axis, of);
-  // Half a right angle too much by rounding is still π/2.
+  // π/2 as a float may be rounded up. Below 10⁻⁶ rad a cone is a pencil beam: what a Lambert emitter of large m is.
+  constexpr double smallest = 1e-6;
   constexpr double largest = std::numbers::pi / 2.0 * (1.0 + 1e-6);
-  require(shape.outer > 0.0 && shape.outer <= largest, room, "outer cone angle " + of, shape.outer,
-          "above 0, to π/2 = 1.5708 rad", "Give the half angle of the cone that holds its light.");
+  require(shape.outer >= smallest && shape.outer <= largest, room, "outer cone angle " + of, shape.outer,
+          "1e-6 to π/2 = 1.5708 rad", "Give the half angle of the cone that holds its light.");
   require(shape.inner >= 0.0 && shape.inner < shape.outer, room, "inner cone angle " + of, shape.inner,
           "0 to below the outer angle, " + lichtmc::to_text(shape.outer) + " rad",
           "Give the half angle of the cone of full intensity.");
@@ -115,7 +117,14 @@ void check_receiver(const Room& room, const Receiver& receiver) {
 }  // namespace
 
 void check_room(const Room& room) {
-  for (const Surface& surface : room.surfaces) check_surface(room, surface);
+  std::set<std::string> names;
+  for (const Surface& surface : room.surfaces) {
+    check_surface(room, surface);
+    if (!names.insert(surface.name).second) {
+      throw InputError("There are two surfaces of the name " + in_quotes(surface.name) + " in " + room.source +
+                       " (allowed: one of each name). Rename one.");
+    }
+  }
   const bool solid = std::any_of(room.surfaces.begin(), room.surfaces.end(),
                                  [](const Surface& surface) { return surface_area(surface) > 0.0; });
   if (!solid) {

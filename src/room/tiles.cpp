@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <unistd.h>
+
 #include <glm/geometric.hpp>
 
 #include "base/message.hpp"
@@ -19,6 +21,13 @@ namespace lichtmc {
 namespace {
 
 constexpr double most_cells = 0x1p31;
+
+// Memory of a run per cell and thread and of its tables, measured on rooms of 10⁶ to 10⁷ tiles: some 400 bytes.
+constexpr double bytes_per_cell = 400.0;
+
+double physical_memory() {
+  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
 
 // A cell's centre counts as on a triangle when it is outside by no more than this share of it: on an edge between two
 // triangles rounding must not put it on neither.
@@ -54,10 +63,12 @@ void check_cells(const Room& room, const std::vector<Chart>& charts, double edge
     most = count;
     worst = k;
   }
-  if (total <= most_cells) return;
+  const double memory = physical_memory();
+  const double allowed = memory > 0.0 ? std::min(most_cells, std::floor(memory / bytes_per_cell)) : most_cells;
+  if (total <= allowed) return;
   throw InputError("Tiles of " + to_text(edge_m) + " m divide the room into " + to_text(total) +
-                   " cells (allowed: " + to_text(most_cells) + "), " + to_text(most) + " of them on the surface " +
-                   in_quotes(room.surfaces[worst].name) +
+                   " cells (allowed: " + to_text(allowed) + ", what the machine's memory holds), " + to_text(most) +
+                   " of them on the surface " + in_quotes(room.surfaces[worst].name) +
                    ". Give --tile a greater length, or check that the room's coordinates are metres.");
 }
 

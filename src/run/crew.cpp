@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
+#include <system_error>
 #include <thread>
 
 #include "chance/moments.hpp"
+#include "lichtmc/error.hpp"
 
 namespace lichtmc {
 
@@ -31,7 +34,14 @@ void Crew::simulate_up_to(std::uint64_t end) {
   {
     // Threads of the run's own, as many as were asked for; the calling thread is one of them.
     std::vector<std::jthread> helpers;
-    for (std::size_t k = 1; k < workers_.size(); ++k) helpers.emplace_back([this, k, end] { work(*workers_[k], end); });
+    try {
+      for (std::size_t k = 1; k < workers_.size(); ++k)
+        helpers.emplace_back([this, k, end] { work(*workers_[k], end); });
+    } catch (const std::system_error& error) {
+      stop_ = true;  // those that have started end after their batch
+      throw RuntimeError("Cannot start " + std::to_string(workers_.size()) + " threads (" + error.what() +
+                         "). Give --threads a smaller number.");
+    }
     work(*workers_.front(), end);
   }
   if (failure_) std::rethrow_exception(failure_);
@@ -44,9 +54,12 @@ void Crew::work(Worker& worker, std::uint64_t end) {
       const std::uint64_t first = next_.fetch_add(batch_histories);
       if (first >= end) break;
       const auto n = static_cast<std::uint32_t>(std::min<std::uint64_t>(batch_histories, end - first));
-      const std::uint64_t impacts_before = worker.tally.totals().impacts;
-      worker.walk->simulate_batch(first, n, worker.tally, [this] { return should_stop(); });
-      report(worker.tally, impacts_before);
+      std::uint64_t told = worker.tally.totals().impacts;
+      worker.walk->simulate_batch(first, n, worker.tally, [&] {
+        report(worker.tally, told, 0);
+        return should_stop();
+      });
+      report(worker.tally, told, n);
     }
   } catch (...) {
     const std::lock_guard lock(mutex_);
@@ -67,14 +80,16 @@ bool Crew::should_stop() {
   return true;
 }
 
-void Crew::report(const Tally& tally, std::uint64_t impacts_before) {
+void Crew::report(const Tally& tally, std::uint64_t& told, std::uint32_t histories) {
   const std::lock_guard lock(mutex_);
-  impacts_done_ += tally.totals().impacts - impacts_before;
+  impacts_done_ += tally.totals().impacts - told;
+  told = tally.totals().impacts;
+  histories_done_ += histories;
   const Clock::time_point now = Clock::now();
   if (!control_->progress || now - reported_ < report_interval) return;
   reported_ = now;
   Progress progress;
-  progress.histories = std::min(next_.load(), settings_->photons);
+  progress.histories = histories_done_;
   progress.target = settings_->photons;
   progress.impacts = impacts_done_;
   progress.seconds = seconds();

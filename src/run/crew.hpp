@@ -46,7 +46,8 @@ class Crew {
 
   void work(Worker& worker, std::uint64_t end);
   bool should_stop();
-  void report(const Tally& tally, std::uint64_t impacts_before);
+  // Books what a worker has done since it last told, and shows it when it is time.
+  void report(const Tally& tally, std::uint64_t& told, std::uint32_t histories);
 
   const Settings* settings_;
   const Control* control_;
@@ -57,6 +58,7 @@ class Crew {
   std::optional<StopReason> stopped_;
   std::exception_ptr failure_;
   std::mutex mutex_;  // guards stopped_, failure_, the callback and what follows
+  std::uint64_t histories_done_ = 0;
   std::uint64_t impacts_done_ = 0;
   double rms_relative_error_;
   Clock::time_point began_;

@@ -103,6 +103,7 @@ void Scores::incident(const Totals& totals, double& power, double& standard_erro
   double mean = 0.0;
   double mean_square = 0.0;
   for (std::size_t m = 0; m < totals.maps.size(); ++m) {
+    if (totals.maps[m].sum == 0) continue;
     const double factor = factor_[tiling_->maps[m].surface];
     const double share = static_cast<double>(totals.maps[m].sum) / n;
     mean += share * factor;

@@ -6,7 +6,6 @@
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
-#include "room/enclosure.hpp"
 
 namespace lichtmc {
 
@@ -26,11 +25,6 @@ const Surface* surface_that_absorbs_nothing(const Room& room) {
     return surface.reflectance == 1.0 && has_area(surface);
   });
   return found == room.surfaces.end() ? nullptr : &*found;
-}
-
-bool nothing_absorbs(const Room& room) {
-  return std::all_of(room.surfaces.begin(), room.surfaces.end(),
-                     [](const Surface& surface) { return surface.reflectance == 1.0 || !has_area(surface); });
 }
 
 }  // namespace
@@ -60,9 +54,8 @@ void check_settings(const Settings& settings) {
   }
   constexpr unsigned most_threads = 4096;
   if (settings.threads > most_threads) {
-    throw InputError("The number of threads is " + std::to_string(settings.threads) +
-                     " (allowed: 0 for one per processor, to " + std::to_string(most_threads) +
-                     "). Give --threads a smaller number.");
+    throw InputError("The number of threads is " + std::to_string(settings.threads) + " (allowed: 1 to " +
+                     std::to_string(most_threads) + "). Give --threads a smaller number.");
   }
 }
 
@@ -75,15 +68,6 @@ void check_settings_for(const Room& room, const Settings& settings) {
           ": its reflectance is 1, so that it never absorbs. Use the estimator 'collision' or 'weight', or a "
           "reflectance below 1.");
     }
-  }
-  if (settings.max_bounces || !nothing_absorbs(room)) return;
-  if (Enclosure(room).has_closed_shell()) {
-    throw InputError(
-        "Nothing in the closed room " + room.source +
-        " absorbs light: every reflectance is 1 (allowed: at least one surface below 1), so that the light in it would "
-        "grow "
-        "without end. Give its materials a reflectance below 1, or cut the walk off with --estimator weight "
-        "--max-bounces N.");
   }
 }
 

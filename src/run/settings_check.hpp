@@ -9,8 +9,8 @@ namespace lichtmc {
 // Throws InputError naming the setting, its value, the legal range and what to do.
 void check_settings(const Settings& settings);
 
-// Throws InputError where the estimator cannot see the room (absorption with ρ = 1), or nothing in a closed room
-// absorbs so that the light in it would grow without end. The room must have passed check_room().
+// Throws InputError where the estimator cannot see the room: absorption with a surface of ρ = 1. The room must have
+// passed check_room().
 void check_settings_for(const Room& room, const Settings& settings);
 
 }  // namespace lichtmc

@@ -12,7 +12,9 @@
 #include "run/crew.hpp"
 #include "run/scores.hpp"
 #include "run/settings_check.hpp"
+#include "run/warnings.hpp"
 #include "walk/scene.hpp"
+#include "walk/trap.hpp"
 
 namespace lichtmc {
 
@@ -73,6 +75,16 @@ void fill_in(Result& result, const Room& room, const Totals& totals, const Score
   result.quantity = room.quantity;
   result.ignored = ignored_by_run(room);
   result.mended = room.mended;
+  result.warnings = warnings_of(room, result);
+}
+
+[[noreturn]] void refuse_trap(const Room& room) {
+  throw InputError(
+      "Nothing absorbs the light of an emitter in " + room.source +
+      ": it is shut in by surfaces whose reflectance is 1 (allowed: at least one below 1, or an opening), so that the "
+      "light would grow "
+      "without end. Give materials a reflectance below 1, for example with --max-reflectance 0.9, or cut the walk off "
+      "with --estimator weight --max-bounces N.");
 }
 
 Result simulate_checked(const Room& room, const Settings& settings, const Control& control) {
@@ -82,6 +94,7 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
   result.tiling = make_tiling(room, settings.tile_edge_m);
   const Scene scene(room, result.tiling, settings.engine);
   result.engine = scene.engine;
+  if (!settings.max_bounces && traps_light(scene, settings.seed)) refuse_trap(room);
   const Scores scores(room, result.tiling, settings.estimator);
 
   Crew crew(scene, settings, control, result.threads);
@@ -99,14 +112,14 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
 }  // namespace
 
 Result simulate(const Room& room, const Settings& settings, const Control& control) {
-  check_settings(settings);
-  check_room(room);
-  check_settings_for(room, settings);
   try {
+    check_settings(settings);
+    check_room(room);
+    check_settings_for(room, settings);
     return simulate_checked(room, settings, control);
   } catch (const std::bad_alloc&) {
-    throw RuntimeError("There is not enough memory for the tiles of " + room.source +
-                       ". Use larger tiles (--tile) or fewer threads.");
+    throw RuntimeError("There is not enough memory to simulate " + room.source +
+                       ". Use larger tiles (--tile) or fewer threads (--threads).");
   }
 }
 

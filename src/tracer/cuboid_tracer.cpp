@@ -208,9 +208,9 @@ std::optional<Facet> add_face(std::size_t axis, const std::vector<Piece>& pieces
   Facet facet;
   facet.surface = static_cast<std::uint32_t>(largest->surface);
   facet.normal[static_cast<glm::length_t>(axis)] = largest->front_along_axis ? 1.0F : -1.0F;
-  facet.cell_0 = glm::vec2(map.cell_0);
-  facet.cell_s = glm::vec2(map.slope[0]);
-  facet.cell_t = glm::vec2(map.slope[1]);
+  facet.cell_0 = map.cell_0;
+  facet.cell_s = map.slope[0];
+  facet.cell_t = map.slope[1];
   return facet;
 }
 

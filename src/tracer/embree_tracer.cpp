@@ -1,7 +1,7 @@
 // Flights through any room by Embree.
 //
 // Embree computes in float. Three things keep that from showing:
-//  * The room is moved to the origin and scaled by a power of two so that its largest half extent lies in (½, 1].
+//  * The room is moved to the origin and scaled by a power of two so that its largest half extent lies in [½, 1).
 //  * A hit point is computed in double from the facet's own corners, as Embree has them, and the barycentric
 //  coordinates of
 //    the hit: it lies in the facet's plane, however long the flight was (C. Waechter, N. Binder: A Fast and Robust
@@ -136,6 +136,11 @@ class EmbreeTracer final : public Tracer {
       if (excess > 0.0) {
         s -= 0.5 * excess;
         t -= 0.5 * excess;
+        // In the acute corner that took one of them below its margin; the other has more than enough.
+        const double s_lacks = std::max(from.margin.y - s, 0.0);
+        const double t_lacks = std::max(from.margin.z - t, 0.0);
+        s += s_lacks - t_lacks;
+        t += t_lacks - s_lacks;
       }
       const double side = rays.behind[i] != 0 ? -1.0 : 1.0;
       const glm::dvec3 point = glm::dvec3(from.corner) + s * glm::dvec3(from.edge_s) + t * glm::dvec3(from.edge_t);
@@ -169,19 +174,23 @@ class EmbreeTracer final : public Tracer {
     return hit;
   }
 
-  // A ray that found no surface in a closed room went exactly through an edge or a corner. Four rays beside it, a few
-  // steps away, cannot all do so; the nearest surface they meet is the one.
+  // A ray that found no surface in a closed room went exactly through an edge or a corner. Four rays beside it, about a
+  // step away, cannot all do so; the nearest surface they meet is the one. One of them may start behind a wall close by
+  // and meet its outside at once: what is met within some steps counts only where nothing else is.
   RTCRayHit retrace(EmbreeQuery& query, const glm::vec3& start, const glm::vec3& direction) const {
     const Frame beside = frame_about(glm::normalize(glm::dvec3(direction)));
     constexpr double distance = 4.0 * step_roundings;
     RTCRayHit nearest{};
     nearest.ray.tfar = std::numeric_limits<float>::infinity();
     nearest.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit touching = nearest;
     for (const glm::dvec3& shift : {beside.tangent, -beside.tangent, beside.bitangent, -beside.bitangent}) {
       const RTCRayHit hit = intersect(query, glm::vec3(glm::dvec3(start) + distance * shift), direction);
-      if (hit.hit.geomID != RTC_INVALID_GEOMETRY_ID && hit.ray.tfar < nearest.ray.tfar) nearest = hit;
+      if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
+      RTCRayHit& best = hit.ray.tfar < 8.0 * distance ? touching : nearest;
+      if (hit.ray.tfar < best.ray.tfar) best = hit;
     }
-    return nearest;
+    return nearest.hit.geomID != RTC_INVALID_GEOMETRY_ID ? nearest : touching;
   }
 
   void land(Rays& rays, std::size_t i, const RTCRayHit& hit) const {
@@ -235,13 +244,13 @@ void EmbreeTracer::add_facets(const Room& room, const Tiling& tiling) {
       const glm::dvec3 cross =
           glm::cross(scale_ * (surface.positions[triangle.y] - a), scale_ * (surface.positions[triangle.z] - a));
       const double length = glm::length(cross);
-      // A triangle without area is never hit; any normal will do.
+      // A triangle without area has no tile. Rounded to float it might become a sliver that is hit: it gets one corner
+      // only, and any normal.
       const Frame frame = frame_about(length > 0.0 ? cross / length : glm::dvec3(0.0, 1.0, 0.0));
       const auto& cells = tiling.cells[k][n];
       facets_.push_back({glm::vec3(frame.tangent), glm::vec3(frame.bitangent), glm::vec3(frame.normal),
-                         static_cast<std::uint32_t>(k), glm::vec2(cells[0]), glm::vec2(cells[1] - cells[0]),
-                         glm::vec2(cells[2] - cells[0])});
-      triangles.push_back(triangle + first_vertex);
+                         static_cast<std::uint32_t>(k), cells[0], cells[1] - cells[0], cells[2] - cells[0]});
+      triangles.push_back((length > 0.0 ? triangle : glm::uvec3(triangle.x)) + first_vertex);
       const glm::uvec3 corner = triangles.back();
       departures_.push_back(make_departure({vertices[corner.x], vertices[corner.y], vertices[corner.z]}, frame.normal));
     }

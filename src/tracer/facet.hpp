@@ -22,9 +22,9 @@ struct Facet {
   glm::vec3 normal{0.0F};
   std::uint32_t surface = 0;  // index into Room::surfaces
   // Place in the surface's grid, in cells: cell = cell_0 + s·cell_s + t·cell_t, x along the columns, y along the rows.
-  glm::vec2 cell_0{0.0F};
-  glm::vec2 cell_s{0.0F};
-  glm::vec2 cell_t{0.0F};
+  glm::dvec2 cell_0{0.0};
+  glm::dvec2 cell_s{0.0};
+  glm::dvec2 cell_t{0.0};
 };
 
 // A direction given in a facet's frame, third axis on the side named, in the tracer's coordinates.

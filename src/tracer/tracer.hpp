@@ -34,7 +34,7 @@ struct TraceCount {
 // Where the photons of a point emitter start.
 struct Start {
   glm::vec3 point{0.0F};  // tracer's coordinates
-  // The emitter touches these planes (normals times the step off a surface): a photon starts one step away from each,
+  // The emitter touches these planes (normals times the step off a surface): a photon starts this far from each,
   // on the side it flies to.
   std::vector<glm::vec3> steps;
   bool on_surface = false;  // it touches a surface, so that some of its light may leave the room at once

@@ -52,7 +52,7 @@ Launcher::Launcher(const Room& room, const Tracer& tracer) : facets_(&tracer.fac
       sources_.emplace_back(point_source(emitter, tracer));
     }
   }
-  // Shares of the largest first: powers near the limits of double would overflow or vanish in the sum.
+  // Shares of the largest first: tiny powers would lose their digits in the sum.
   const double largest = *std::max_element(powers.begin(), powers.end());
   for (double& power : powers) power /= largest;
   powers_up_to_ = cumulative(powers);

@@ -38,7 +38,6 @@ class Launcher {
   struct SurfaceSource {
     std::vector<double> areas_up_to;  // cumulative shares of the triangles' areas, the last is 1
     std::vector<TriangleOnFacet> triangles;
-    std::vector<std::uint8_t> behind;  // 1 where the triangle's front is its facet's back
     double exponent = 1.0;
   };
 

@@ -43,8 +43,10 @@ struct Scene {
   // The tile that a place on a facet belongs to.
   std::uint32_t tile_at(const Facet& facet, float s, float t, bool behind) const {
     const SurfaceOptics& surface = surfaces[facet.surface];
-    const std::uint32_t column = cell_index(facet.cell_0.x + s * facet.cell_s.x + t * facet.cell_t.x, surface.columns);
-    const std::uint32_t row = cell_index(facet.cell_0.y + s * facet.cell_s.y + t * facet.cell_t.y, surface.rows);
+    const std::uint32_t column =
+        cell_index(facet.cell_0.x + double{s} * facet.cell_s.x + double{t} * facet.cell_t.x, surface.columns);
+    const std::uint32_t row =
+        cell_index(facet.cell_0.y + double{s} * facet.cell_s.y + double{t} * facet.cell_t.y, surface.rows);
     const std::size_t cell = surface.first_cell + std::size_t{row} * surface.columns + column;
     assert(tile_of_cell[cell] != no_tile);  // a surface that was hit has an area, and so a tile
     return tile_of_cell[cell] + (behind ? surface.tiles_to_back : 0);
@@ -52,8 +54,8 @@ struct Scene {
 
  private:
   // A place that rounding puts beside the grid belongs to its outermost cells.
-  static std::uint32_t cell_index(float cell, std::uint32_t count) {
-    if (!(cell > 0.0F)) return 0;
+  static std::uint32_t cell_index(double cell, std::uint32_t count) {
+    if (!(cell > 0.0)) return 0;
     const auto index = static_cast<std::uint32_t>(cell);  // cells number fewer than 2³¹
     return index < count ? index : count - 1;
   }

@@ -10,6 +10,7 @@ namespace lichtmc {
 namespace {
 
 constexpr std::uint32_t abandon_interval = 1024;  // flights between two questions whether to go on
+constexpr std::uint32_t patience = 1'000'000;     // flights after which the answer counts
 
 template <class Policy>
 class PolicyWalk final : public Walk {
@@ -27,7 +28,7 @@ class PolicyWalk final : public Walk {
       score_on_tiles(tally);
       draw(flight + 1);
       survive_or_be_absorbed(tally);
-      const bool abandoned = (flight + 1) % abandon_interval == 0 && abandon();
+      const bool abandoned = (flight + 1) % abandon_interval == 0 && abandon() && flight >= patience;
       if (abandoned || flight + 1 == max_flights_) cut_off(tally.totals().ends);
       scatter();
     }

@@ -16,8 +16,8 @@
 
 namespace lichtmc {
 
-// Asked every thousand flights of a wave: true ends it, and what still flies is booked as residual. Only a room that
-// keeps light for very long gets there.
+// Asked every thousand flights of a wave. When it says true and the wave has flown a million times, the wave ends and
+// what still flies is booked as residual: only a room that keeps its light for ever, or nearly so, gets there.
 using Abandon = std::function<bool()>;
 
 class Walk {

@@ -1,0 +1,98 @@
+#include "run/warnings.hpp"
+
+#include <cstdio>
+#include <limits>
+#include <variant>
+
+#include <glm/common.hpp>
+
+#include "base/message.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string percent(double share) {
+  return short_number(100.0 * share) + " %";
+}
+
+struct Bounds {
+  glm::dvec3 low{std::numeric_limits<double>::infinity()};
+  glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+};
+
+Bounds bounds_of(const Room& room) {
+  Bounds bounds;
+  for (const Surface& surface : room.surfaces) {
+    for (const glm::uvec3& triangle : surface.triangles) {
+      for (int k = 0; k < 3; ++k) {
+        bounds.low = glm::min(bounds.low, surface.positions[triangle[k]]);
+        bounds.high = glm::max(bounds.high, surface.positions[triangle[k]]);
+      }
+    }
+  }
+  return bounds;
+}
+
+void warn_of_emitters_outside(const Room& room, std::vector<std::string>& warnings) {
+  const Bounds bounds = bounds_of(room);
+  for (const Emitter& emitter : room.emitters) {
+    std::visit(
+        [&](const auto& shape) {
+          if constexpr (requires { shape.position; }) {
+            const glm::dvec3& p = shape.position;
+            if (glm::min(p, bounds.low) == bounds.low && glm::max(p, bounds.high) == bounds.high) return;
+            std::string range;
+            for (int k = 0; k < 3; ++k)
+              range += (k > 0 ? ", " : "") + short_number(bounds.low[k]) + " to " + short_number(bounds.high[k]);
+            warnings.push_back("Emitter " + in_quotes(emitter.name) + " at (" + short_number(p.x) + ", " +
+                               short_number(p.y) + ", " + short_number(p.z) +
+                               ") m lies outside the room, which reaches from x, y, z = " + range +
+                               " m. Check its position; Y is up.");
+          }
+        },
+        emitter.shape);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const Room& room, const Result& result) {
+  std::vector<std::string> warnings;
+  const Balance& balance = result.balance;
+  warn_of_emitters_outside(room, warnings);
+  if (result.impacts == 0) {
+    warnings.push_back(
+        "No light met any surface. Check where the emitters are and which way they shine; a shining surface shines "
+        "from its front only.");
+  }
+  const bool roulette = result.settings.estimator == Estimator::weight && !result.settings.max_bounces;
+  constexpr double noticeable = 0.001;
+  if (!roulette && balance.residual > noticeable * balance.emitted) {
+    warnings.push_back(percent(balance.residual / balance.emitted) +
+                       " of the light was cut off while still in flight: every figure is too low by about as much. "
+                       "Allow more bounces or time, or lower "
+                       "the highest reflectances (--max-reflectance 0.9).");
+  }
+  if (result.lost_histories > 0) {
+    warnings.push_back(to_text(result.lost_histories, "photon") + " of " + std::to_string(result.histories) +
+                       " left a closed room by a numerical fault: their power is reported as lost.");
+  }
+  std::size_t perfect = 0;
+  for (const Surface& surface : room.surfaces) perfect += surface.reflectance == 1.0 ? 1 : 0;
+  if (perfect > 0) {
+    warnings.push_back(to_text(perfect, "surface") + " of " + std::to_string(room.surfaces.size()) +
+                       " reflect all light (reflectance 1; glTF's default is white). Real paint stays below 0.9: set "
+                       "the materials' custom property "
+                       "'reflectance', or use --max-reflectance 0.9.");
+  }
+  return warnings;
+}
+
+}  // namespace lichtmc
