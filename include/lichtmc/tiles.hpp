@@ -63,7 +63,7 @@ struct Tiling {
 // that is L metres long gets max(1, round(L / edge_m)) cells that way.
 //
 // The areas of a surface's tiles add up to the area of the surface. Throws InputError where edge_m is not a finite
-// number above 0 or the room would get more than 2^31 cells.
+// number above 0 or the room would get more than 2^31 cells or than the machine's memory holds.
 Tiling make_tiling(const Room& room, double edge_m);
 
 }  // namespace lichtmc

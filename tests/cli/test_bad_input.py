@@ -100,6 +100,9 @@ class BadOptions(ProgramTest):
             (["--tile", "nan"], ["--tile"]),
             (["--tile", "1e-7"], ["--tile"]),
             (["--target-error", "0"], ["--target-error"]),
+            (["--target-error", "3"], ["--target-error", "3%"]),
+            (["--seed", "-1"], ["--seed"]),
+            (["--seed", "99999999999999999999"], ["--seed"]),
             (["--max-time", "-1s"], ["--max-time"]),
             (["--max-bounces", "0", "--estimator", "weight"], ["--max-bounces"]),
             (["--max-bounces", "5"], ["--max-bounces", "weight"]),
@@ -137,12 +140,19 @@ class BadOptions(ProgramTest):
                 self.assertFalse(out.exists())
         self.refused("cuboid", "--size", "1", "1", "1", "-o", self.folder / "room.obj", says=["room.obj", ".glb"])
 
+    def test_tiles_beyond_the_memory(self):
+        message = self.refused("run", CUBE, "--tile", "1e-5", "-o", self.folder / "out", says=["--tile", "memory"])
+        self.assertIn("metres", message)
+
+    def test_cuboid_into_a_folder_that_is_not_there(self):
+        self.refused("cuboid", "--size", "1", "1", "1", "-o", self.folder / "none" / "room.glb", says=["none", "--output"])
+
     def test_engine_that_cannot_serve_the_room(self):
         self.refused("run", SCENES / "l_room.gltf", "--engine", "cuboid", "-o", self.folder / "out", says=["cuboid", "embree"])
 
     def test_no_command(self):
         self.refused(says=["--help"])
-        self.refused("walk", says=["--help"])
+        self.refused("walk", says=["walk", "run", "cuboid", "--help"])
 
     def test_output_folder_that_cannot_be_written(self):
         (self.folder / "file").write_text("")

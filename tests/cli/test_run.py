@@ -71,7 +71,7 @@ class Run(ProgramTest):
             self.assertEqual(summary["estimator"], name)
 
     def test_counts_as_people_write_them(self):
-        for text, count in ("2000", 2000), ("2e3", 2000), ("2k", 2000), ("0.003M", 3000):
+        for text, count in ("2000", 2000), ("2e3", 2000), ("2k", 2000), ("1.005k", 1005), ("0.003M", 3000):
             _, summary, _, _ = self.run_room("--photons", text)
             self.assertEqual(summary["histories"], count)
 
@@ -95,6 +95,21 @@ class Run(ProgramTest):
         self.assertEqual(summary["emitted"], 600)
         self.assertEqual(summary["unit"], "lm")
         self.assertEqual(len(summary["mended"]), 3)
+
+    def test_a_target_error_alone_is_not_ended_by_the_default_number_of_photons(self):
+        _, summary, _, _ = self.run_room("--target-error", "1.2%")
+        self.assertEqual(summary["stopped_by"], "target-error")
+        self.assertGreater(summary["histories"], 1_000_000)
+
+    def test_warnings(self):
+        _, summary, _, said = self.run_room("--photons", "2000", "--light", "point:5,.5,.5:1W", "--reflectance", "wall=1",
+                                            "--estimator", "weight", "--max-bounces", "3")
+        self.assertEqual(len(summary["warnings"]), 3)
+        for words in "outside the room", "cut off while still in flight", "reflect all light":
+            self.assertIn(words, said)
+        _, summary, _, said = self.run_room("--photons", "2000")
+        self.assertEqual(summary["warnings"], [])
+        self.assertNotIn("Warning", said)
 
     def test_quiet(self):
         done = lichtmc("run", CUBE, "-o", self.folder / "out", "--photons", "2000", "--quiet")
