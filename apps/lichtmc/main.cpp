@@ -12,8 +12,8 @@ namespace {
 constexpr int exit_failed = 1;       // the run failed: disk, memory, device
 constexpr int exit_wrong_input = 2;  // the command line or an input is wrong
 
-int fail(const std::exception& error, int status) {
-  std::cerr << "lichtmc: " << error.what() << '\n';
+int fail(const std::string& message, int status) {
+  std::cerr << "lichtmc: " << message << '\n';
   return status;
 }
 
@@ -29,9 +29,7 @@ void check_command(CLI::App& program, int argc, char** argv) {
                             "). See lichtmc --help.");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+void run_program(int argc, char** argv) {
   CLI::App program{
       "How much light arrives where in a room, and how sure is that number: lichtmc follows light packets from the\n"
       "lamps of a glTF room over its diffusely reflecting surfaces and measures the irradiance (W/m^2) or\n"
@@ -49,14 +47,23 @@ int main(int argc, char** argv) {
     check_command(program, argc, argv);
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help and --version
-    return program.exit(asked);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "lichtmc: " << error.what() << "\nSee lichtmc --help, or lichtmc COMMAND --help.\n";
-    return exit_wrong_input;
-  } catch (const lichtmc::InputError& error) {
-    return fail(error, exit_wrong_input);
-  } catch (const std::exception& error) {
-    return fail(error, exit_failed);
+    program.exit(asked);
   }
-  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    run_program(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return fail(std::string(error.what()) + "\nSee lichtmc --help, or lichtmc COMMAND --help.", exit_wrong_input);
+  } catch (const lichtmc::InputError& error) {
+    return fail(error.what(), exit_wrong_input);
+  } catch (const std::exception& error) {
+    return fail(error.what(), exit_failed);
+  } catch (...) {
+    return fail("an unknown fault. Please report it.", exit_failed);
+  }
 }
