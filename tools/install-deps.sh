@@ -8,6 +8,9 @@ packages=(
   libembree-dev                              # ray tracing (3.13 or 4.3)
   libglm-dev                                 # vectors of the public interface
   libtinygltf-dev                            # glTF
+  libdraco-dev                               # compressed meshes
+  libmeshoptimizer-dev                       # compressed meshes
+  libstb-dev                                 # pictures
   libopenexr-dev                             # tile maps as images
   libcli11-dev                               # the command line
   nlohmann-json3-dev                         # summary.json, glTF written

@@ -1,4 +1,5 @@
 // lichtmc run: the main job, irradiance of every tile of a room.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -146,6 +147,18 @@ void warn_of_missed_target(const Settings& settings, const Result& result) {
   std::cerr << '\n';
 }
 
+// One of those that matter most, and where the others are.
+void print_ignored(const std::vector<Ignored>& ignored) {
+  if (ignored.empty()) return;
+  const auto matters = [](const Ignored& thing) { return thing.effect == Effect::figures; };
+  const auto first = std::find_if(ignored.begin(), ignored.end(), matters);
+  const auto count = std::count_if(ignored.begin(), ignored.end(), matters);
+  std::cerr << "Not modelled: " << ignored.size() << (ignored.size() == 1 ? " thing" : " things") << " in the room, "
+            << count << " of which may change figures; for example: "
+            << (first == ignored.end() ? ignored.front() : *first).what
+            << " The list is in summary.json under \"ignored\".\n";
+}
+
 void print_outcome(const Result& result, const std::filesystem::path& folder) {
   const std::string unit(power_unit(result.quantity));
   const Balance& balance = result.balance;
@@ -164,11 +177,7 @@ void print_outcome(const Result& result, const std::filesystem::path& folder) {
   std::cerr << ".\n";
   warn_of_missed_target(result.settings, result);
   for (const std::string& warning : result.warnings) std::cerr << "Warning: " << warning << '\n';
-  if (!result.ignored.empty()) {
-    std::cerr << "Not modelled: " << result.ignored.size() << (result.ignored.size() == 1 ? " thing" : " things")
-              << " in the room, for example: " << result.ignored.front()
-              << " The list is in summary.json under \"ignored\".\n";
-  }
+  print_ignored(result.ignored);
   std::cerr << "Results are in " << folder.string()
             << ": surfaces.csv (one row per surface), tiles.csv, tiles/*.exr, summary.json.\n";
 }

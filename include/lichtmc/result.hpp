@@ -31,7 +31,7 @@ struct TileResult {
 struct SurfaceResult {
   std::string name;
   std::string material;
-  double reflectance = 0.0;
+  double reflectance = 0.0;  // with a map: its mean over the surface
   double area_m2 = 0.0;
   std::uint64_t tiles = 0;
   double mean_irradiance = 0.0;  // power / area in W/m² or lx
@@ -79,7 +79,7 @@ struct Result {
   std::vector<TileResult> tiles;        // as Tiling::tiles
   std::vector<SurfaceResult> surfaces;  // as Tiling::maps
   Tiling tiling;
-  std::vector<std::string> ignored;  // Room::ignored, and what of the room this run did not use
+  std::vector<Ignored> ignored;         // Room::ignored, and what of the room this run did not use
   std::vector<std::string> mended;   // Room::mended
   std::vector<std::string>
       warnings;  // what may make the figures mean something else than is thought, a sentence or two each

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -23,16 +24,32 @@ enum class Sides {
   both,  // front (counter-clockwise) and back have a map each
 };
 
-// A surface: a mesh of triangles with one reflectance. It reflects by Lambert's law on the side that is hit, whatever
-// the winding of its triangles; the winding only tells front from back.
+// How a map goes on beyond its edges.
+enum class Wrap { repeat, clamp, mirror };
+
+// Reflectance from point to point: values over texture coordinates u, v = 0 … 1, bilinear between their centres.
+struct ReflectanceMap {
+  std::string name;           // for messages: the picture it was made of
+  std::uint32_t columns = 0;  // ≥ 1, along u
+  std::uint32_t rows = 0;     // ≥ 1, along v; row 0 lies at v = 0
+  std::vector<float> values;  // ρ, 0 … 1, row by row
+  Wrap wrap_u = Wrap::repeat;
+  Wrap wrap_v = Wrap::repeat;
+};
+
+// A surface: a mesh of triangles with one reflectance, or a map of it. It reflects by Lambert's law on the side that is
+// hit, whatever the winding of its triangles; the winding only tells front from back.
 struct Surface {
   std::string name;          // unique in the room; names the tile map's file
   std::string material;      // for messages and tables; may be empty
-  double reflectance = 0.5;  // ρ, share of the arriving power that is reflected, 0 … 1
+  double reflectance = 0.5;  // ρ, share of the arriving power that is reflected, 0 … 1; with a map: its mean, for tables
   Sides sides = Sides::one;
   std::vector<glm::dvec3> positions;  // m, world coordinates
   std::vector<glm::dvec2> uvs;        // texture coordinates for the tiles: one per position, or none at all
   std::vector<glm::uvec3> triangles;  // three indices into positions; seen from the front counter-clockwise
+  std::optional<std::size_t> reflectance_map;  // index into Room::reflectance_maps: ρ from point to point
+  std::vector<glm::dvec2> reflectance_uvs;     // where on that map: one per position
+  std::size_t without_area = 0;       // triangles of the source that were left out, because they have no area
 };
 
 // Emits the same intensity in every direction: I = Φ/4π.
@@ -79,20 +96,34 @@ struct Receiver {
   double area_m2 = 1.0;              // for its gain H = E·A/Φ, ≥ 0
 };
 
+// Whether something matters for the figures.
+enum class Effect { none, figures };
+
+// What a room's source holds and the room does not model.
+struct Ignored {
+  std::string what;               // a sentence or two
+  Effect effect = Effect::none;  // whether figures may differ for it
+};
+
 struct Room {
   std::string source;  // where it came from, for messages: a file name, "cuboid", …
   Quantity quantity = Quantity::photometric;
   std::vector<Surface> surfaces;
   std::vector<Emitter> emitters;
   std::vector<Receiver> receivers;
-  std::vector<std::string> ignored;  // what the source holds and this room does not model, one sentence each
-  std::vector<std::string> mended;   // what was changed on request after reading, one sentence each
+  std::vector<ReflectanceMap> reflectance_maps;
+  std::vector<Ignored> ignored;     // what the source holds and this room does not model
+  std::vector<std::string> mended;  // what was changed on request after reading, one sentence each
 };
 
 // Whether a room can be simulated: at least one triangle with an area and one emitter; 0 ≤ ρ ≤ 1; finite positions;
 // indices in range; axes with a length; exponents, cones, powers and receivers in their ranges; the sum of powers above
 // 0. Throws InputError naming the room's source, the surface or emitter, the value and what is allowed.
 void check_room(const Room& room);
+
+// The mean of a surface's reflectance over its area; of one with a map by taking its triangles apart to about the map's
+// pixels.
+double mean_reflectance(const Room& room, const Surface& surface);
 
 // Area of a surface in m², one side.
 double surface_area(const Surface& surface);

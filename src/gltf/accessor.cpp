@@ -1,5 +1,6 @@
 #include "gltf/accessor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -56,6 +57,11 @@ double component(const unsigned char* bytes, int type, bool normalized) {
   switch (type) {
     case TINYGLTF_COMPONENT_TYPE_FLOAT:
       return static_cast<double>(read(float{}));
+    // −128 and −127 both stand for −1 (glTF 2.0 specification, section 3.6.2.2).
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return normalized ? std::max(read(std::int8_t{}) / 127.0, -1.0) : read(std::int8_t{});
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return normalized ? std::max(read(std::int16_t{}) / 32767.0, -1.0) : read(std::int16_t{});
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
       return read(std::uint8_t{}) / (normalized ? 255.0 : 1.0);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
@@ -63,6 +69,13 @@ double component(const unsigned char* bytes, int type, bool normalized) {
     default:  // TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT; callers let no other pass
       return read(std::uint32_t{});
   }
+}
+
+// The types of coordinates: floats, and with KHR_mesh_quantization bytes and shorts, normalized or not.
+bool is_coordinate(int type) {
+  return type == TINYGLTF_COMPONENT_TYPE_FLOAT || type == TINYGLTF_COMPONENT_TYPE_BYTE ||
+         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT ||
+         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
 }
 
 bool is_unsigned(int type) {
@@ -150,41 +163,53 @@ const tinygltf::Accessor& accessor_of(const Document& document, int index, int t
   return accessor;
 }
 
+// Coordinates as the file holds them, element by element.
+std::vector<double> coordinates(const Document& document, int index, int type, const char* type_name,
+                                std::size_t components, const std::string& where) {
+  const auto& accessor = accessor_of(document, index, type, type_name, where);
+  if (!is_coordinate(accessor.componentType))
+    refuse(document, where + " are neither floats, bytes nor shorts." + export_again);
+  return values_of(document, accessor, components, where);
+}
+
 }  // namespace
 
-std::vector<glm::dvec3> read_positions(const Document& document, int index, const std::string& where) {
-  const auto& accessor = accessor_of(document, index, TINYGLTF_TYPE_VEC3, "VEC3", where);
-  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
-    refuse(document, where + " are not floats (allowed: floats). Export the file without quantization.");
-  }
-  const std::vector<double> values = values_of(document, accessor, 3, where);
-  std::vector<glm::dvec3> positions(values.size() / 3);
-  for (std::size_t k = 0; k < positions.size(); ++k) {
+std::vector<glm::dvec3> read_vectors(const Document& document, int index, const std::string& where) {
+  const std::vector<double> values = coordinates(document, index, TINYGLTF_TYPE_VEC3, "VEC3", 3, where);
+  std::vector<glm::dvec3> vectors(values.size() / 3);
+  for (std::size_t k = 0; k < vectors.size(); ++k) {
     for (std::size_t c = 0; c < 3; ++c) {
       const double value = values[3 * k + c];
       if (!std::isfinite(value)) {
-        refuse(document, where + ": vertex " + std::to_string(k) + " lies at " +
-                             (std::isnan(value) ? "NaN" : "infinity") +
+        refuse(document, where + ": number " + std::to_string(k) + " is " + (std::isnan(value) ? "NaN" : "infinite") +
                              " (allowed: finite numbers). Repair the mesh and export it again.");
       }
-      positions[k][static_cast<glm::length_t>(c)] = value;
+      vectors[k][static_cast<glm::length_t>(c)] = value;
     }
   }
-  return positions;
+  return vectors;
+}
+
+std::vector<glm::dquat> read_rotations(const Document& document, int index, const std::string& where) {
+  const std::vector<double> values = coordinates(document, index, TINYGLTF_TYPE_VEC4, "VEC4", 4, where);
+  std::vector<glm::dquat> rotations;
+  for (std::size_t k = 0; k + 3 < values.size(); k += 4) {
+    const glm::dquat rotation(values[k + 3], values[k], values[k + 1], values[k + 2]);
+    const double length = glm::length(rotation);
+    if (!(length > 0.0) || !std::isfinite(length)) {
+      refuse(document, where + ": number " + std::to_string(k / 4) +
+                           " has no direction (allowed: quaternions of length 1)." + export_again);
+    }
+    rotations.push_back(rotation / length);  // stored values are of length 1 but for their rounding
+  }
+  return rotations;
 }
 
 std::vector<glm::dvec2> read_texture_coordinates(const Document& document, int index, const std::string& where) {
-  const auto& accessor = accessor_of(document, index, TINYGLTF_TYPE_VEC2, "VEC2", where);
-  const int type = accessor.componentType;
-  const bool integers = accessor.normalized && (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                                                type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
-  if (type != TINYGLTF_COMPONENT_TYPE_FLOAT && !integers) {
-    refuse(document, where + " are neither floats nor normalized unsigned bytes or shorts." + export_again);
-  }
-  const std::vector<double> values = values_of(document, accessor, 2, where);
-  std::vector<glm::dvec2> coordinates(values.size() / 2);
-  for (std::size_t k = 0; k < coordinates.size(); ++k) coordinates[k] = {values[2 * k], values[2 * k + 1]};
-  return coordinates;
+  const std::vector<double> values = coordinates(document, index, TINYGLTF_TYPE_VEC2, "VEC2", 2, where);
+  std::vector<glm::dvec2> places(values.size() / 2);
+  for (std::size_t k = 0; k < places.size(); ++k) places[k] = {values[2 * k], values[2 * k + 1]};
+  return places;
 }
 
 std::vector<std::uint32_t> read_indices(const Document& document, int index, std::size_t vertices,

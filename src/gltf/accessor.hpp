@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -13,12 +14,16 @@
 namespace lichtmc {
 
 // Each takes the number of an accessor and what it belongs to, for messages, and throws InputError where the accessor
-// does not exist, has another type than the specification allows there, or reaches beyond its buffer.
+// does not exist, has another type than the specification allows there, or reaches beyond its buffer. Integers are read
+// as KHR_mesh_quantization says: normalized ones as shares of their range, others as they are.
 
-// Positions (float VEC3). They must be finite.
-std::vector<glm::dvec3> read_positions(const Document& document, int accessor, const std::string& where);
+// Positions, or translations and scales of instances (VEC3). They must be finite.
+std::vector<glm::dvec3> read_vectors(const Document& document, int accessor, const std::string& where);
 
-// Texture coordinates (VEC2 of float, or of normalized unsigned bytes or shorts).
+// Rotations of instances (VEC4), made of length 1.
+std::vector<glm::dquat> read_rotations(const Document& document, int accessor, const std::string& where);
+
+// Texture coordinates (VEC2) as stored: a KHR_texture_transform is still to be applied.
 std::vector<glm::dvec2> read_texture_coordinates(const Document& document, int accessor, const std::string& where);
 
 // Indices (unsigned SCALAR), each below `vertices`.

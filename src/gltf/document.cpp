@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -13,6 +14,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/message.hpp"
+#include "base/wide.hpp"
+#include "gltf/decompress.hpp"
+#include "gltf/prepare.hpp"
 #include "lichtmc/error.hpp"
 
 namespace lichtmc {
@@ -21,9 +25,12 @@ namespace {
 
 constexpr const char* export_again = " Export the file again.";
 
-// Extensions without which a room can be read rightly as well, or that are read.
-constexpr std::array<const char*, 3> known_extensions{"KHR_lights_punctual", "KHR_materials_emissive_strength",
-                                                      "KHR_materials_unlit"};
+// Extensions that are read, or without which a room can be read rightly as well.
+constexpr std::array<const char*, 8> known_extensions{
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",
+    "KHR_materials_emissive_strength", "KHR_materials_unlit",
+    "KHR_mesh_quantization",      "KHR_texture_transform"};
 
 std::string read_bytes(const std::filesystem::path& path, const std::string& file) {
   std::error_code error;
@@ -70,9 +77,33 @@ void check_container(const std::string& bytes, const std::string& file) {
   }
 }
 
-bool skip_image(tinygltf::Image* /*image*/, const int /*index*/, std::string* /*error*/, std::string* /*warning*/,
-                int /*width*/, int /*height*/, const unsigned char* /*bytes*/, int /*size*/, void* /*user*/) {
+using Images = std::vector<std::vector<unsigned char>>;
+
+// Keeps an image as its file has it: only some are ever decoded. The place of one in a buffer the parser has not
+// checked: that comes later.
+bool keep_image(tinygltf::Image* image, const int index, std::string* /*error*/, std::string* /*warning*/,
+                int /*width*/, int /*height*/, const unsigned char* bytes, int size, void* user) {
+  Images& images = *static_cast<Images*>(user);
+  const auto k = static_cast<std::size_t>(index);
+  if (images.size() <= k) images.resize(k + 1);
+  if (image->bufferView < 0 && bytes != nullptr && size > 0) images[k].assign(bytes, bytes + size);
   return true;
+}
+
+void keep_images_in_buffers(Document& document) {
+  const auto& model = document.model;
+  for (std::size_t k = 0; k < model.images.size(); ++k) {
+    if (model.images[k].bufferView < 0) continue;
+    const std::string where = label("image", model.images[k].name, k);
+    const auto& view = model.bufferViews[checked_index(document, model.images[k].bufferView, model.bufferViews.size(),
+                                                       "the buffer view of " + where)];
+    const auto& bytes =
+        model.buffers[checked_index(document, view.buffer, model.buffers.size(), "the buffer of " + where)].data;
+    if (static_cast<uint128>(view.byteOffset) + view.byteLength > bytes.size())
+      refuse(document, where + " reaches beyond its buffer." + export_again);
+    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
+    document.images[k].assign(begin, begin + static_cast<std::ptrdiff_t>(view.byteLength));
+  }
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -104,21 +135,12 @@ std::vector<std::string> names_in(const nlohmann::json& json, const char* list) 
 // Looked at before parsing: a parser that does not know a required extension fails with other words.
 void check_extensions(const Document& document, const nlohmann::json& json) {
   for (const std::string& name : names_in(json, "extensionsRequired")) {
-    const bool known =
-        std::any_of(known_extensions.begin(), known_extensions.end(), [&](const char* k) { return name == k; });
-    if (known) continue;
-    refuse(document, "the file requires the extension " + in_quotes(name) +
-                         ", which is not known here (known: KHR_lights_punctual, KHR_materials_emissive_strength, "
-                         "KHR_materials_unlit). Export it without, for example uncompressed.");
+    if (is_known_extension(name)) continue;
+    std::string known;
+    for (const char* k : known_extensions) known += (known.empty() ? "" : ", ") + std::string(k);
+    refuse(document, "the file requires the extension " + in_quotes(name) + ", which is not known here (known: " + known +
+                         "). Export it without.");
   }
-}
-
-std::string advice_for(const nlohmann::json& json) {
-  for (const std::string& name : names_in(json, "extensionsUsed")) {
-    if (name.find("compression") != std::string::npos)
-      return " It uses the extension " + in_quotes(name) + ": export the file uncompressed.";
-  }
-  return export_again;
 }
 
 void check_version(const Document& document) {
@@ -132,46 +154,77 @@ void check_version(const Document& document) {
     refuse(document, "the file asks for glTF version '" + least + "' (allowed: 2.0)." + export_again);
 }
 
-}  // namespace
+// Where a file's JSON stands in its bytes.
+struct JsonText {
+  std::size_t offset = 0;
+  std::size_t size = 0;
+};
 
-Document load_document(const std::filesystem::path& path) {
-  Document document;
-  document.file = path.string();
-  const std::string bytes = read_bytes(path, document.file);
+void set_word(std::string& bytes, std::size_t offset, std::size_t value) {
+  for (std::size_t k = 0; k < 4; ++k) bytes[offset + k] = static_cast<char>(value >> (8 * k) & 0xFF);
+}
+
+// Puts other JSON in place of a file's own; the chunks behind it stay.
+void replace_json(std::string& bytes, bool binary, const JsonText& old, std::string text) {
+  if (binary) {
+    text.resize((text.size() + 3) / 4 * 4, ' ');  // chunks end at multiples of four bytes
+    const std::size_t length = word_at(bytes, 8) - old.size + text.size();
+    set_word(bytes, 12, text.size());
+    set_word(bytes, 8, length);
+  }
+  bytes.replace(old.offset, old.size, text);
+}
+
+// Everything that the parser reads, from bytes that have passed the checks before it.
+void parse(Document& document, const std::string& bytes, bool binary, const std::string& folder) {
   constexpr std::size_t largest = std::numeric_limits<std::int32_t>::max();  // the parser counts bytes in 32 bits
   if (bytes.size() > largest) {
-    throw InputError(document.file + ": the file has " + std::to_string(bytes.size()) +
-                     " bytes (allowed: up to 2147483647). Split the room.");
+    refuse(document,
+           "the file has " + std::to_string(bytes.size()) + " bytes (allowed: up to 2147483647). Split the room.");
   }
   tinygltf::TinyGLTF parser;
-  parser.SetImageLoader(skip_image, nullptr);
+  parser.SetImageLoader(keep_image, &document.images);
   std::string error;
   std::string warning;
   const auto size = static_cast<unsigned int>(bytes.size());
-  const std::string folder = path.parent_path().string();
   bool parsed = false;
-  nlohmann::json json;
   try {
-    if (is_binary(bytes)) {
-      check_container(bytes, document.file);
-      json = nlohmann::json::parse(bytes.begin() + 20, bytes.begin() + 20 + word_at(bytes, 12), nullptr, false);
-      check_extensions(document, json);
-      parsed = parser.LoadBinaryFromMemory(&document.model, &error, &warning,
-                                           reinterpret_cast<const unsigned char*>(bytes.data()), size, folder);
-    } else {
-      json = nlohmann::json::parse(bytes, nullptr, false);
-      check_extensions(document, json);
-      parsed = parser.LoadASCIIFromString(&document.model, &error, &warning, bytes.data(), size, folder);
-    }
-  } catch (const InputError&) {
-    throw;
+    parsed = binary ? parser.LoadBinaryFromMemory(&document.model, &error, &warning,
+                                                  reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
+                    : parser.LoadASCIIFromString(&document.model, &error, &warning, bytes.data(), size, folder);
   } catch (const std::exception& reason) {
     error += reason.what();
   }
   if (!parsed)
-    refuse(document, "this is not a glTF 2.0 file that can be read (" + joined(error) + ")." + advice_for(json));
+    refuse(document, "this is not a glTF 2.0 file that can be read (" + joined(error) + ")." + export_again);
   document.warnings = lines_of(warning);
+  document.images.resize(document.model.images.size());
+  keep_images_in_buffers(document);
+}
+
+}  // namespace
+
+bool is_known_extension(const std::string& name) {
+  return std::any_of(known_extensions.begin(), known_extensions.end(), [&](const char* known) { return name == known; });
+}
+
+Document load_document(const std::filesystem::path& path) {
+  Document document;
+  document.file = path.string();
+  std::string bytes = read_bytes(path, document.file);
+  const bool binary = is_binary(bytes);
+  if (binary) check_container(bytes, document.file);
+  const JsonText text = binary ? JsonText{20, word_at(bytes, 12)} : JsonText{0, bytes.size()};
+  if (nests_too_deep(bytes.data() + text.offset, bytes.data() + text.offset + text.size))
+    refuse(document, "its JSON is nested deeper than 256 levels." + std::string(export_again));
+  const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(text.offset);
+  nlohmann::json json = nlohmann::json::parse(begin, begin + static_cast<std::ptrdiff_t>(text.size), nullptr, false);
+  check_extensions(document, json);
+  if (make_readable(json)) replace_json(bytes, binary, text, json.dump());
+  parse(document, bytes, binary, path.parent_path().string());
   check_version(document);
+  decompress_views(document);
+  decompress_primitives(document);
   return document;
 }
 

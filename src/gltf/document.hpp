@@ -12,13 +12,18 @@ namespace lichtmc {
 struct Document {
   std::string file;  // as the user gave it, for messages
   tinygltf::Model model;
+  std::vector<std::vector<unsigned char>> images;  // the files of Model::images, not decoded; empty where one is missing
   std::vector<std::string> warnings;  // what the parser had to say, a line each
 };
 
-// Parses a .gltf or .glb file; which it is its first bytes say. Buffers are loaded, images are not.
+// Parses a .gltf or .glb file; which it is its first bytes say. Buffers and images are loaded, meshes that
+// EXT_meshopt_compression or KHR_draco_mesh_compression has compressed are plain ones afterwards.
 // Throws InputError where the file cannot be opened or is no glTF 2.x, where its GLB container is broken, a buffer is
-// missing, or an extension is required that is not known here.
+// missing, compressed data is damaged, or an extension is required that is not known here.
 Document load_document(const std::filesystem::path& file);
+
+// Whether everything that an extension says is read, or makes no difference for light.
+bool is_known_extension(const std::string& name);
 
 // "node 'lamp'", or "node 3" where it has no name.
 std::string label(const char* kind, const std::string& name, std::size_t index);

@@ -61,54 +61,102 @@ std::vector<glm::uvec3> read_triangles(const Document& document, const tinygltf:
   return triples(index, primitive.mode);
 }
 
+// The texture coordinates of a set, one per position, as a material's transform of them says.
+std::vector<glm::dvec2> read_uvs(const Document& document, const tinygltf::Primitive& primitive, int set,
+                                 const UvTransform& transform, std::size_t vertices, const std::string& where) {
+  std::vector<glm::dvec2> uvs = read_texture_coordinates(
+      document, primitive.attributes.at("TEXCOORD_" + std::to_string(set)), "the texture coordinates of " + where);
+  if (uvs.size() != vertices) {
+    refuse(document, where + " has " + to_text(vertices, "position") + " but " + std::to_string(uvs.size()) +
+                         " texture coordinates (allowed: as many). Export the file again.");
+  }
+  for (glm::dvec2& uv : uvs) uv = transform(uv);
+  return uvs;
+}
+
+UvTransform transform_of_set(const Material& material, int set) {
+  for (const TextureUse& use : material.textures) {
+    if (use.uv_set == set) return use.transform;
+  }
+  return {};
+}
+
+void note_what_is_left_out(const tinygltf::Primitive& primitive, const Material& material, const std::string& where,
+                           std::vector<Ignored>& ignored) {
+  if (primitive.attributes.count("COLOR_0") != 0) {
+    ignored.push_back({"Vertex colours of " + where + " are not read; its material alone says its reflectance.",
+                       Effect::figures});
+  }
+  if (primitive.attributes.count("JOINTS_0") != 0)
+    ignored.push_back({"The skin of " + where + " is not applied; the mesh is taken in its rest pose.", Effect::figures});
+  if (!primitive.targets.empty())
+    ignored.push_back({"Morph targets of " + where + " are not applied.", Effect::figures});
+  const auto& base = material.base_colour;
+  if (base && primitive.attributes.count("TEXCOORD_" + std::to_string(base->uv_set)) == 0) {
+    ignored.push_back({"The base colour texture of " + where + " has no texture coordinates (TEXCOORD_" +
+                           std::to_string(base->uv_set) + "): the base colour factor alone is its reflectance.",
+                       Effect::figures});
+  }
+}
+
 }  // namespace
 
-std::optional<Surface> read_primitive(const Document& document, const tinygltf::Primitive& primitive,
-                                      const glm::dmat4& world, std::optional<int> uv_set, const std::string& where,
-                                      std::vector<std::string>& ignored) {
+std::optional<Primitive> read_primitive(const Document& document, const tinygltf::Primitive& primitive,
+                                        const Material& material, std::optional<int> uv_set, const std::string& where,
+                                        std::vector<Ignored>& ignored) {
   if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
     refuse(document, "the mode of " + where + " is " + std::to_string(primitive.mode) +
                          " (allowed: 0 to 6). Export the file again.");
   }
   if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-    ignored.push_back("Points or lines of " + where + ": they have no area.");
+    ignored.push_back({"Points or lines of " + where + ": they have no area.", Effect::none});
     return std::nullopt;
   }
   const auto position = primitive.attributes.find("POSITION");
   if (position == primitive.attributes.end()) {
-    ignored.push_back(where + " has no positions: nothing is there.");
+    ignored.push_back({where + " has no positions: nothing is there.", Effect::none});
     return std::nullopt;
   }
-  Surface surface;
-  for (const glm::dvec3& local : read_positions(document, position->second, "the positions of " + where)) {
-    surface.positions.emplace_back(world * glm::dvec4(local, 1.0));
-  }
-  if (const auto n = choose_uv_set(document, primitive, uv_set)) {
-    surface.uvs = read_texture_coordinates(document, primitive.attributes.at("TEXCOORD_" + std::to_string(*n)),
-                                           "the texture coordinates of " + where);
-    if (surface.uvs.size() != surface.positions.size()) {
-      refuse(document, where + " has " + to_text(surface.positions.size(), "position") + " but " +
-                           std::to_string(surface.uvs.size()) +
-                           " texture coordinates (allowed: as many). Export the file again.");
+  Primitive result;
+  result.where = where;
+  result.positions = read_vectors(document, position->second, "the positions of " + where);
+  const std::size_t vertices = result.positions.size();
+  if (const auto set = choose_uv_set(document, primitive, uv_set))
+    result.uvs = read_uvs(document, primitive, *set, transform_of_set(material, *set), vertices, where);
+  const auto& base = material.base_colour;
+  if (base && primitive.attributes.count("TEXCOORD_" + std::to_string(base->uv_set)) != 0) {
+    result.reflectance_uvs = read_uvs(document, primitive, base->uv_set, base->transform, vertices, where);
+    for (const glm::dvec2& uv : result.reflectance_uvs) {
+      if (std::isfinite(uv.x) && std::isfinite(uv.y)) continue;
+      refuse(document, "the texture coordinates of " + where +
+                           " are not finite (allowed: finite numbers). Unwrap the mesh again, or give its material the "
+                           "custom property 'reflectance'.");
     }
   }
+  result.triangles = read_triangles(document, primitive, vertices, where);
+  note_what_is_left_out(primitive, material, where, ignored);
+  if (result.triangles.empty()) {
+    ignored.push_back({where + " has no triangles.", Effect::none});
+    return std::nullopt;
+  }
+  return result;
+}
+
+Surface place_primitive(const Primitive& primitive, const glm::dmat4& world) {
+  Surface surface;
+  surface.positions.reserve(primitive.positions.size());
+  for (const glm::dvec3& local : primitive.positions) surface.positions.emplace_back(world * glm::dvec4(local, 1.0));
+  surface.uvs = primitive.uvs;
+  surface.reflectance_uvs = primitive.reflectance_uvs;
   const bool mirrored = glm::determinant(glm::dmat3(world)) < 0.0;
-  std::size_t without_area = 0;
-  for (glm::uvec3 triangle : read_triangles(document, primitive, surface.positions.size(), where)) {
+  for (glm::uvec3 triangle : primitive.triangles) {
     if (!has_area(surface.positions[triangle.x], surface.positions[triangle.y], surface.positions[triangle.z])) {
-      ++without_area;
+      ++surface.without_area;
       continue;
     }
     if (mirrored) std::swap(triangle.y, triangle.z);
     surface.triangles.push_back(triangle);
   }
-  if (without_area > 0)
-    ignored.push_back(to_text(without_area, "triangle") + " without area in " + where + ": no light can fall on them.");
-  if (primitive.attributes.count("COLOR_0") != 0) ignored.push_back("Vertex colours of " + where + " are not read.");
-  if (primitive.attributes.count("JOINTS_0") != 0)
-    ignored.push_back("The skin of " + where + " is not applied; the mesh is taken in its rest pose.");
-  if (!primitive.targets.empty()) ignored.push_back("Morph targets of " + where + " are not applied.");
-  if (surface.triangles.empty()) return std::nullopt;
   return surface;
 }
 

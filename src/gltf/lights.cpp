@@ -85,10 +85,13 @@ SpotEmitter read_spot(const Document& document, const tinygltf::Value& light, co
 
 // A point or spot light with the power that its intensity gives.
 std::optional<Emitter> read_punctual(const Document& document, const tinygltf::Value& light, const PlacedNode& placed,
-                                     std::vector<std::string>& ignored) {
+                                     std::vector<Ignored>& ignored) {
   const std::string type = member(light, "type").IsString() ? light.Get("type").Get<std::string>() : "";
   if (type == "directional") {
-    ignored.push_back("The directional light of " + placed.label + " is not modelled: it has no place in a room.");
+    ignored.push_back({"The directional light of " + placed.label +
+                           " is not modelled: it has no place in a room. Put a shining surface (a material with "
+                           "emission) where daylight comes in, or a lamp.",
+                       Effect::figures});
     return std::nullopt;
   }
   const double intensity =
@@ -98,7 +101,8 @@ std::optional<Emitter> read_punctual(const Document& document, const tinygltf::V
                          " cd (allowed: a finite number, 0 or more). Set its strength.");
   }
   if (light.Has("range"))
-    ignored.push_back("The range of the light of " + placed.label + " is not modelled: light does not end.");
+    ignored.push_back({"The range of the light of " + placed.label + " is not modelled: light does not end.",
+                       Effect::figures});
   Emitter emitter;
   if (type == "point") {
     emitter.power = 4.0 * pi * intensity;
@@ -117,7 +121,7 @@ std::optional<Emitter> read_punctual(const Document& document, const tinygltf::V
 }  // namespace
 
 std::optional<FileEmitter> read_light(const Document& document, const PlacedNode& placed,
-                                      std::vector<std::string>& ignored) {
+                                      std::vector<Ignored>& ignored) {
   const tinygltf::Node& node = document.model.nodes[placed.index];
   const tinygltf::Value* light = find_light(document, node, placed.label);
   const tinygltf::Value& of_light = light != nullptr ? member(*light, "extras") : empty_object();
@@ -137,8 +141,10 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
     result.emitter = *emitter;
   } else if (!exponent) {
     if (power)
-      ignored.push_back("'power' of " + placed.label +
-                        ": the node has neither a light nor 'lambert_exponent', it does not shine.");
+      ignored.push_back({"'power' of " + placed.label +
+                             ": the node has neither a light nor 'lambert_exponent', it does not shine. Give it one of "
+                             "them, or remove 'power'.",
+                         Effect::figures});
     return std::nullopt;
   } else if (!power) {
     refuse(document, placed.label +

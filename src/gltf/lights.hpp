@@ -21,7 +21,7 @@ struct FileEmitter {
 // where the node has neither, or a directional light, which is noted in `ignored`. Throws InputError naming the node
 // and the value.
 std::optional<FileEmitter> read_light(const Document& document, const PlacedNode& placed,
-                                      std::vector<std::string>& ignored);
+                                      std::vector<Ignored>& ignored);
 
 // The receiver on a node with extras.receiver.
 std::optional<Receiver> read_receiver(const Document& document, const PlacedNode& placed);

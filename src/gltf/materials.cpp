@@ -10,19 +10,41 @@ namespace {
 
 constexpr const char* strength_extension = "KHR_materials_emissive_strength";
 
-std::string material_name(const tinygltf::Material& material, std::size_t index) {
+std::string name_of(const tinygltf::Material& material, std::size_t index) {
   return material.name.empty() ? "material_" + std::to_string(index) : material.name;
 }
 
-double read_reflectance(const Document& document, const tinygltf::Material& material, const std::string& where) {
+bool gives_reflectance(const tinygltf::Material& material) {
+  return material.extras.IsObject() && material.extras.Has("reflectance");
+}
+
+glm::dvec3 base_colour_factor(const tinygltf::Material& material) {
   const std::vector<double>& colour = material.pbrMetallicRoughness.baseColorFactor;
-  const bool given = material.extras.IsObject() && material.extras.Has("reflectance");
-  const double reflectance = given                ? number_in(document, material.extras, "reflectance", 0.0, where)
-                             : colour.size() >= 3 ? luminance(colour[0], colour[1], colour[2])
-                                                  : 1.0;
+  return colour.size() >= 3 ? glm::dvec3(colour[0], colour[1], colour[2]) : glm::dvec3(1.0);
+}
+
+double read_reflectance(const Document& document, const tinygltf::Material& material, const std::string& where) {
+  const glm::dvec3 colour = base_colour_factor(material);
+  const double reflectance = gives_reflectance(material)
+                                 ? number_in(document, material.extras, "reflectance", 0.0, where)
+                                 : luminance(colour.r, colour.g, colour.b);
   if (reflectance >= 0.0 && reflectance <= 1.0) return reflectance;
   refuse(document, "the reflectance of " + where + " is " + to_text(reflectance) +
                        " (allowed: 0 to 1). Set the material's custom property 'reflectance' or its base colour.");
+}
+
+std::vector<TextureUse> read_texture_uses(const Document& document, const tinygltf::Material& material,
+                                          const std::string& where) {
+  std::vector<TextureUse> uses;
+  const auto add = [&](const auto& info) {
+    if (info.index >= 0) uses.push_back(read_texture_use(document, info.index, info.texCoord, info.extensions, where));
+  };
+  add(material.pbrMetallicRoughness.baseColorTexture);
+  add(material.emissiveTexture);
+  add(material.normalTexture);
+  add(material.occlusionTexture);
+  add(material.pbrMetallicRoughness.metallicRoughnessTexture);
+  return uses;
 }
 
 std::optional<Emission> read_emission(const Document& document, const tinygltf::Material& material,
@@ -78,52 +100,69 @@ std::optional<double> exponent_in(const Document& document, const tinygltf::Valu
              " (allowed: 0 or more). Set that custom property: 0 uniform hemisphere, 1 Lambert, more for a beam.");
 }
 
-Material read_material(const Document& document, int index) {
-  if (index == -1) return {"(default)", 1.0, Sides::one, std::nullopt};
+std::string material_name(const Document& document, int index) {
+  if (index == -1) return "(default)";
   const auto& materials = document.model.materials;
   const std::size_t k = checked_index(document, index, materials.size(), "a mesh's material");
-  const std::string where = label("material", materials[k].name, k);
-  Material material;
-  material.name = material_name(materials[k], k);
-  material.reflectance = read_reflectance(document, materials[k], where);
-  material.sides = materials[k].doubleSided ? Sides::both : Sides::one;
-  material.emission = read_emission(document, materials[k], where);
-  return material;
+  return name_of(materials[k], k);
 }
 
-void note_ignored_materials(const Document& document, const std::vector<bool>& used,
-                            std::vector<std::string>& ignored) {
+Material read_material(const Document& document, int index, bool by_number) {
+  Material result;
+  result.name = material_name(document, index);
+  if (index == -1) return result;
+  const auto k = static_cast<std::size_t>(index);
+  const auto& material = document.model.materials[k];
+  const std::string where = label("material", material.name, k);
+  result.reflectance = read_reflectance(document, material, where);
+  result.factor = base_colour_factor(material);
+  result.textures = read_texture_uses(document, material, where);
+  if (material.pbrMetallicRoughness.baseColorTexture.index >= 0 && !gives_reflectance(material) && !by_number)
+    result.base_colour = result.textures.front();
+  result.sides = material.doubleSided ? Sides::both : Sides::one;
+  result.emission = read_emission(document, material, where);
+  return result;
+}
+
+void note_ignored_materials(const Document& document, const std::vector<bool>& used, std::vector<Ignored>& ignored) {
   const auto& materials = document.model.materials;
   std::size_t metals = 0;
   for (std::size_t k = 0; k < materials.size(); ++k) {
     if (!used[k]) continue;
     const auto& material = materials[k];
     const auto& pbr = material.pbrMetallicRoughness;
-    const std::string where = "Material " + in_quotes(material_name(material, k)) + ": ";
-    const bool given = material.extras.IsObject() && material.extras.Has("reflectance");
-    if (pbr.baseColorTexture.index >= 0 && !given)
-      ignored.push_back(where +
-                        "its base colour texture is not read; the base colour factor alone is its reflectance.");
-    if (material.emissiveTexture.index >= 0)
-      ignored.push_back(where + "its emissive texture is not read; it shines evenly.");
-    if (material.normalTexture.index >= 0)
-      ignored.push_back(where + "its normal map is not modelled; surfaces are flat.");
-    if (material.alphaMode == "BLEND" || material.alphaMode == "MASK")
-      ignored.push_back(where + "transparency (alpha) is not modelled; it is opaque.");
-    if (material.occlusionTexture.index >= 0)
-      ignored.push_back(where + "its occlusion map is not used; occlusion is simulated.");
-    if (pbr.metallicRoughnessTexture.index >= 0)
-      ignored.push_back(where + "its metallic-roughness map is not modelled; it reflects diffusely.");
-    if (pbr.metallicFactor > 0.0 && !given) ++metals;
+    const std::string where = "Material " + in_quotes(name_of(material, k)) + ": ";
+    const auto note = [&](bool present, Effect effect, const char* what) {
+      if (present) ignored.push_back({where + what, effect});
+    };
+    const bool shines = read_emission(document, material, where).has_value();
+    note(material.emissiveTexture.index >= 0 && shines, Effect::figures,
+         "its emissive texture is not read; it shines evenly, as its emissive factor says.");
+    note(material.normalTexture.index >= 0, Effect::none, "its normal map is not modelled; surfaces are flat.");
+    note(material.alphaMode == "BLEND" || material.alphaMode == "MASK", Effect::figures,
+         "transparency (alpha) is not modelled; it is opaque. Remove what light should pass.");
+    note(material.occlusionTexture.index >= 0, Effect::none,
+         "its occlusion map is not used; occlusion is simulated.");
+    note(pbr.metallicRoughnessTexture.index >= 0, Effect::none,
+         "its metallic-roughness map is not modelled; it reflects diffusely.");
+    if (pbr.metallicFactor > 0.0 && !gives_reflectance(material)) ++metals;
     for (const auto& [name, value] : material.extensions) {
-      if (name == strength_extension) continue;
-      ignored.push_back(where + "the extension " + name + " is not modelled; it reflects diffusely.");
+      if (name == strength_extension || name == "KHR_materials_unlit") continue;
+      const bool lets_light_through = name == "KHR_materials_transmission" ||
+                                      name == "KHR_materials_diffuse_transmission" || name == "KHR_materials_volume";
+      const bool colour_elsewhere = name == "KHR_materials_pbrSpecularGlossiness";
+      ignored.push_back({where + "the extension " + name + " is not modelled; it reflects diffusely" +
+                             (lets_light_through ? " and lets no light through. Remove panes that light should pass."
+                              : colour_elsewhere ? ", as its base colour says. Give it the custom property 'reflectance'."
+                                                 : "."),
+                         lets_light_through || colour_elsewhere ? Effect::figures : Effect::none});
     }
   }
   if (metals > 0) {
-    ignored.push_back(
-        to_text(metals, "material") + (metals == 1 ? " is" : " are") +
-        " metallic (glTF's default is metallicFactor 1): metal and gloss are not modelled, they reflect diffusely.");
+    ignored.push_back({to_text(metals, "material") + (metals == 1 ? " is" : " are") +
+                           " metallic (glTF's default is metallicFactor 1): metal and gloss are not modelled, they "
+                           "reflect diffusely. Where a real mirror is meant, figures near it differ.",
+                       Effect::figures});
   }
 }
 

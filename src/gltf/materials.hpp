@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "gltf/document.hpp"
+#include "gltf/textures.hpp"
 #include "lichtmc/room.hpp"
 
 namespace lichtmc {
@@ -37,16 +40,22 @@ struct Emission {
 
 struct Material {
   std::string name;
-  double reflectance = 1.0;
+  double reflectance = 1.0;               // of the whole material, or where `base_colour` cannot be read
+  std::optional<TextureUse> base_colour;  // where a texture says ρ point by point
+  glm::dvec3 factor{1.0};                 // that it is multiplied with, linear
+  std::vector<TextureUse> textures;       // all that the material uses, base colour first
   Sides sides = Sides::one;
   std::optional<Emission> emission;
 };
 
-// Reads material number `index`; −1 is glTF's default material, white. Throws InputError naming the material and the
-// value.
-Material read_material(const Document& document, int index);
+// Reads material number `index`; −1 is glTF's default material, white. `by_number`: ρ will be given as one number, no
+// texture is needed. Throws InputError naming the material and the value.
+Material read_material(const Document& document, int index, bool by_number);
 
-// What materials hold that is not modelled, one sentence each.
-void note_ignored_materials(const Document& document, const std::vector<bool>& used, std::vector<std::string>& ignored);
+// The name of material number `index`, as surfaces and tables have it.
+std::string material_name(const Document& document, int index);
+
+// What materials hold that is not modelled.
+void note_ignored_materials(const Document& document, const std::vector<bool>& used, std::vector<Ignored>& ignored);
 
 }  // namespace lichtmc

@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "base/message.hpp"
+#include "gltf/accessor.hpp"
 
 namespace lichtmc {
 
@@ -41,29 +42,32 @@ const tinygltf::Scene& find_scene(const Document& document, const std::string& n
                        "). Give --scene one of these names, or leave it out.");
 }
 
+// First scaled, then turned, then moved.
+glm::dmat4 transform_of(const glm::dvec3& translation, const glm::dquat& rotation, const glm::dvec3& scale) {
+  const glm::dmat3 turned = glm::mat3_cast(rotation);
+  return {glm::dvec4(turned[0] * scale.x, 0.0), glm::dvec4(turned[1] * scale.y, 0.0),
+          glm::dvec4(turned[2] * scale.z, 0.0), glm::dvec4(translation, 1.0)};
+}
+
 glm::dmat4 local_transform(const Document& document, const tinygltf::Node& node, const std::string& where) {
-  glm::dmat4 transform(1.0);
   if (node.matrix.size() == 16) {
+    glm::dmat4 transform(1.0);
     for (std::size_t k = 0; k < 16; ++k)
       transform[static_cast<glm::length_t>(k / 4)][static_cast<glm::length_t>(k % 4)] = node.matrix[k];
-  } else {
-    const auto vector = [](const std::vector<double>& v, double otherwise) {
-      return v.size() == 3 ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(otherwise);
-    };
-    glm::dquat rotation(1.0, 0.0, 0.0, 0.0);
-    if (node.rotation.size() == 4) {
-      rotation = glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-      const double length = glm::length(rotation);
-      if (!(length > 0.0))
-        refuse(document, where + " has a rotation of length 0 (allowed: a unit quaternion). Set its rotation.");
-      rotation = rotation / length;  // float quaternions are of length 1 to 10⁻⁷
-    }
-    const glm::dvec3 scale = vector(node.scale, 1.0);
-    const glm::dmat3 turned = glm::mat3_cast(rotation);
-    transform = glm::dmat4(glm::dvec4(turned[0] * scale.x, 0.0), glm::dvec4(turned[1] * scale.y, 0.0),
-                           glm::dvec4(turned[2] * scale.z, 0.0), glm::dvec4(vector(node.translation, 0.0), 1.0));
+    return transform;
   }
-  return transform;
+  const auto vector = [](const std::vector<double>& v, double otherwise) {
+    return v.size() == 3 ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(otherwise);
+  };
+  glm::dquat rotation(1.0, 0.0, 0.0, 0.0);
+  if (node.rotation.size() == 4) {
+    rotation = glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+    const double length = glm::length(rotation);
+    if (!(length > 0.0))
+      refuse(document, where + " has a rotation of length 0 (allowed: a unit quaternion). Set its rotation.");
+    rotation = rotation / length;  // float quaternions are of length 1 to 10⁻⁷
+  }
+  return transform_of(vector(node.translation, 0.0), rotation, vector(node.scale, 1.0));
 }
 
 bool finite(const glm::dmat4& matrix) {
@@ -77,7 +81,7 @@ bool finite(const glm::dmat4& matrix) {
 
 }  // namespace
 
-std::vector<PlacedNode> place_nodes(const Document& document, const std::string& scene) {
+std::vector<PlacedNode> place_nodes(const Document& document, const std::string& scene, const glm::dmat4& root_place) {
   const auto& nodes = document.model.nodes;
   struct Pending {
     std::size_t node;
@@ -85,12 +89,12 @@ std::vector<PlacedNode> place_nodes(const Document& document, const std::string&
   };
   std::vector<Pending> pending;
   if (document.model.scenes.empty() && scene.empty()) {
-    for (const std::size_t root : roots_without_scene(document)) pending.push_back({root, glm::dmat4(1.0)});
+    for (const std::size_t root : roots_without_scene(document)) pending.push_back({root, root_place});
     if (pending.empty() && !nodes.empty())
       refuse(document, "every node is the child of another, in a circle. Export the file again.");
   } else {
     for (const int root : find_scene(document, scene).nodes) {
-      pending.push_back({checked_index(document, root, nodes.size(), "a node of the scene"), glm::dmat4(1.0)});
+      pending.push_back({checked_index(document, root, nodes.size(), "a node of the scene"), root_place});
     }
   }
   std::reverse(pending.begin(), pending.end());  // the last is taken first
@@ -117,6 +121,41 @@ std::vector<PlacedNode> place_nodes(const Document& document, const std::string&
     }
   }
   return placed;
+}
+
+std::vector<glm::dmat4> mesh_places(const Document& document, const PlacedNode& placed) {
+  const auto& extensions = document.model.nodes[placed.index].extensions;
+  const auto found = extensions.find("EXT_mesh_gpu_instancing");
+  if (found == extensions.end()) return {placed.world};
+  const std::string where = "the instances of " + placed.label;
+  const tinygltf::Value& extension = found->second;
+  if (!extension.IsObject() || !extension.Has("attributes") || !extension.Get("attributes").IsObject())
+    refuse(document, where + " have no attributes. Export the file again.");
+  const tinygltf::Value& attributes = extension.Get("attributes");
+  std::size_t count = 0;
+  bool any = false;
+  const auto values = [&](const char* name, const auto& read, auto otherwise) {
+    std::vector<decltype(otherwise)> list;
+    if (!attributes.Has(name)) return list;
+    const auto accessor = static_cast<int>(number_in(document, attributes, name, -1.0, where));
+    list = read(document, accessor, std::string(name) + " of " + where);
+    if (any && list.size() != count)
+      refuse(document, where + " do not have as many values of each kind. Export the file again.");
+    any = true;
+    count = list.size();
+    return list;
+  };
+  const auto translations = values("TRANSLATION", read_vectors, glm::dvec3(0.0));
+  const auto rotations = values("ROTATION", read_rotations, glm::dquat(1.0, 0.0, 0.0, 0.0));
+  const auto scales = values("SCALE", read_vectors, glm::dvec3(1.0));
+  std::vector<glm::dmat4> places;
+  for (std::size_t k = 0; k < count; ++k) {
+    places.push_back(placed.world * transform_of(translations.empty() ? glm::dvec3(0.0) : translations[k],
+                                                 rotations.empty() ? glm::dquat(1.0, 0.0, 0.0, 0.0) : rotations[k],
+                                                 scales.empty() ? glm::dvec3(1.0) : scales[k]));
+    if (!finite(places.back())) refuse(document, where + ": a transform is not finite. Export the file again.");
+  }
+  return places;
 }
 
 }  // namespace lichtmc

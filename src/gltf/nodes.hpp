@@ -22,8 +22,12 @@ struct PlacedNode {
 };
 
 // All nodes of the scene with this name; of the default scene, or the first, where the name is empty; all nodes without
-// a parent and theirs where the file has no scenes. Parents come before their children. Throws InputError where there
-// is no such scene, a node has two parents or is its own ancestor, or a transform is not finite.
-std::vector<PlacedNode> place_nodes(const Document& document, const std::string& scene);
+// a parent and theirs where the file has no scenes. Parents come before their children. `root` comes before every
+// node's own transform. Throws InputError where there is no such scene, a node has two parents or is its own ancestor,
+// or a transform is not finite.
+std::vector<PlacedNode> place_nodes(const Document& document, const std::string& scene, const glm::dmat4& root);
+
+// The places of a node's mesh: the node's own, or those of its instances (EXT_mesh_gpu_instancing).
+std::vector<glm::dmat4> mesh_places(const Document& document, const PlacedNode& placed);
 
 }  // namespace lichtmc

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <numbers>
@@ -16,22 +17,48 @@ namespace lichtmc {
 
 namespace {
 
+// More triangles than any machine's memory holds as tiles: some hundreds of bytes each.
+constexpr std::size_t most_triangles = 200'000'000;
+
+// Comes before the transforms of all nodes: the file's unit of length, and its axes where Z is up.
+glm::dmat4 root_place(const Document& document, const ReadOptions& options) {
+  if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
+    refuse(document, "the scale is " + to_text(options.scale) +
+                         " (allowed: a finite number above 0). Give --scale the length of the file's unit in metres, "
+                         "for example 0.01 for centimetres.");
+  }
+  glm::dmat4 place(1.0);
+  if (options.up == UpAxis::z) {
+    place[1] = {0.0, 0.0, -1.0, 0.0};
+    place[2] = {0.0, 1.0, 0.0, 0.0};
+  }
+  for (int k = 0; k < 3; ++k) place[k] *= options.scale;
+  return place;
+}
+
 class RoomReader {
  public:
   RoomReader(const Document& document, const ReadOptions& options)
-      : document_(&document), options_(&options), used_materials_(document.model.materials.size(), false) {
+      : document_(&document),
+        options_(&options),
+        maps_(document),
+        used_materials_(document.model.materials.size(), false) {
     room_.source = document.file;
   }
 
   Room read() {
-    for (const PlacedNode& placed : place_nodes(*document_, options_->scene)) {
+    for (const PlacedNode& placed :
+         place_nodes(*document_, options_->scene, root_place(*document_, *options_))) {
       read_mesh(placed);
       if (auto light = read_light(*document_, placed, room_.ignored)) add_emitter(std::move(*light));
       if (auto receiver = read_receiver(*document_, placed)) room_.receivers.push_back(std::move(*receiver));
       note_node(placed);
     }
+    room_.reflectance_maps = maps_.take();
+    for (Surface& surface : room_.surfaces) surface.reflectance = mean_reflectance(room_, surface);
     note_ignored_materials(*document_, used_materials_, room_.ignored);
     note_file();
+    note_mending();
     choose_quantity();
     return std::move(room_);
   }
@@ -43,33 +70,58 @@ class RoomReader {
     if (node.mesh < 0) return;
     const std::size_t index = checked_index(*document_, node.mesh, model.meshes.size(), "the mesh of " + placed.label);
     const auto& mesh = model.meshes[index];
+    const std::vector<glm::dmat4> places = mesh_places(*document_, placed);
     for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
       const auto& primitive = mesh.primitives[k];
       std::string where = label("mesh", mesh.name, index);
       if (mesh.primitives.size() > 1) where += ", primitive " + std::to_string(k);
       where += " (" + placed.label + ")";
-      if (primitive.extensions.count("KHR_draco_mesh_compression") != 0) {
-        room_.ignored.push_back("The compressed form of " + where + " is not read; its uncompressed form is.");
-      }
-      auto surface = read_primitive(*document_, primitive, placed.world, options_->uv_set, where, room_.ignored);
-      if (!surface) continue;
-      const Material material = read_material(*document_, primitive.material);
+      const Material material = read_material(*document_, primitive.material, by_number(primitive.material));
       if (primitive.material >= 0) used_materials_[static_cast<std::size_t>(primitive.material)] = true;
+      const auto stored = read_primitive(*document_, primitive, material, options_->uv_set, where, room_.ignored);
+      if (!stored) continue;
       std::string name = !node.name.empty()   ? node.name
                          : !mesh.name.empty() ? mesh.name
                                               : "mesh_" + std::to_string(index);
       if (mesh.primitives.size() > 1) name += "." + (primitive.material >= 0 ? material.name : std::to_string(k));
-      surface->name = unique(name);
-      surface->material = material.name;
-      surface->reflectance = material.reflectance;
-      surface->sides = material.sides;
-      room_.surfaces.push_back(std::move(*surface));
-      if (!material.emission) continue;
-      add_shining(*material.emission);
-      if (material.sides == Sides::both) {
-        room_.ignored.push_back("Surface " + in_quotes(room_.surfaces.back().name) +
-                                " is two-sided and shines: it shines on its front only.");
-      }
+      for (const glm::dmat4& place : places) add_surface(place_primitive(*stored, place), name, material, where);
+    }
+  }
+
+  // Whether a material's reflectance will be given as a number.
+  bool by_number(int material) const {
+    const auto& names = options_->numbered_materials;
+    return std::find(names.begin(), names.end(), material_name(*document_, material)) != names.end();
+  }
+
+  void add_surface(Surface surface, const std::string& name, const Material& material, const std::string& where) {
+    if (surface.without_area > 0) {
+      room_.ignored.push_back({to_text(surface.without_area, "triangle") + " without area in " + where +
+                                   ": no light can fall on them.",
+                               Effect::none});
+    }
+    if (surface.triangles.empty()) return;
+    triangles_ += surface.triangles.size();
+    if (triangles_ > most_triangles) {
+      refuse(*document_, "the room has more than " + std::to_string(most_triangles) +
+                             " triangles, instances included. Split it, or simplify its meshes.");
+    }
+    surface.name = unique(name);
+    surface.material = material.name;
+    surface.reflectance = material.reflectance;
+    surface.sides = material.sides;
+    if (material.base_colour && !surface.reflectance_uvs.empty()) {
+      surface.reflectance_map =
+          maps_.find_or_make(material.base_colour->texture, material.factor, "material " + in_quotes(material.name));
+    }
+    room_.surfaces.push_back(std::move(surface));
+    if (!material.emission) return;
+    add_shining(*material.emission);
+    if (material.sides == Sides::both) {
+      room_.ignored.push_back({"Surface " + in_quotes(room_.surfaces.back().name) +
+                                   " is two-sided and shines: it shines on its front only. Where that is the wrong "
+                                   "side, turn its faces.",
+                               Effect::figures});
     }
   }
 
@@ -113,33 +165,41 @@ class RoomReader {
     return candidate;
   }
 
+  void note(std::string what, Effect effect) { room_.ignored.push_back({std::move(what), effect}); }
+
   void note_node(const PlacedNode& placed) {
     const auto& node = document_->model.nodes[placed.index];
-    if (node.camera >= 0) room_.ignored.push_back("The camera of " + placed.label + " is not used.");
+    if (node.camera >= 0) note("The camera of " + placed.label + " is not used.", Effect::none);
     for (const auto& [name, value] : node.extensions) {
-      if (name == "KHR_lights_punctual") continue;
-      room_.ignored.push_back("The extension " + name + " of " + placed.label + " is not applied.");
+      if (name == "KHR_lights_punctual" || name == "EXT_mesh_gpu_instancing") continue;
+      note("The extension " + name + " of " + placed.label + " is not applied.", Effect::none);
     }
   }
 
   void note_file() {
     const auto& model = document_->model;
-    if (model.scenes.size() > 1)
-      room_.ignored.push_back("The file has " + std::to_string(model.scenes.size()) +
-                              " scenes; one is read (--scene NAME chooses).");
-    if (!model.animations.empty())
-      room_.ignored.push_back(to_text(model.animations.size(), "animation") + ": the room is taken as it stands.");
-    for (const std::string& name : model.extensionsUsed) {
-      const bool read =
-          name == "KHR_lights_punctual" || name == "KHR_materials_emissive_strength" || name == "KHR_materials_unlit";
-      if (!read) room_.ignored.push_back("The file uses the extension " + name + ", which is not read.");
+    if (model.scenes.size() > 1) {
+      note("The file has " + std::to_string(model.scenes.size()) + " scenes; one is read (--scene NAME chooses).",
+           Effect::none);
     }
-    for (const std::string& warning : document_->warnings) room_.ignored.push_back("While reading: " + warning);
+    if (!model.animations.empty())
+      note(to_text(model.animations.size(), "animation") + ": the room is taken as it stands.", Effect::none);
+    for (const std::string& name : model.extensionsUsed) {
+      if (!is_known_extension(name)) note("The file uses the extension " + name + ", which is not read.", Effect::none);
+    }
+    for (const std::string& warning : document_->warnings) note("While reading: " + warning, Effect::none);
+  }
+
+  void note_mending() {
+    if (options_->scale != 1.0) room_.mended.push_back("Lengths multiplied by " + to_text(options_->scale) + ".");
+    if (options_->up == UpAxis::z) room_.mended.push_back("Turned: the file's Z axis points up.");
   }
 
   const Document* document_;
   const ReadOptions* options_;
   Room room_;
+  ReflectanceMaps maps_;
+  std::size_t triangles_ = 0;
   std::vector<Quantity> quantities_;  // of the emitters
   std::vector<bool> used_materials_;
   std::set<std::string> names_;

@@ -16,6 +16,7 @@
 #include "base/frame.hpp"
 #include "base/message.hpp"
 #include "chance/directions.hpp"
+#include "gltf/texture_image.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/gltf.hpp"
 #include "lichtmc/version.hpp"
@@ -38,6 +39,7 @@ class Writer {
     json_["asset"] = {{"version", "2.0"}, {"generator", "lichtmc " + std::string(version())}};
     json_["scene"] = 0;
     json_["scenes"] = Json::array({{{"nodes", Json::array()}}});
+    for (const ReflectanceMap& map : room.reflectance_maps) textures_.push_back(add_texture(map));
     for (std::size_t k = 0; k < room.surfaces.size(); ++k) add_surface(k);
     for (const Emitter& emitter : room.emitters) add_point_emitter(emitter);
     for (const Receiver& receiver : room.receivers) add_receiver(receiver);
@@ -49,6 +51,7 @@ class Writer {
   const std::string& buffer() const { return buffer_; }
 
  private:
+  std::size_t add_texture(const ReflectanceMap& map);
   void add_surface(std::size_t k);
   void add_point_emitter(const Emitter& emitter);
   void add_receiver(const Receiver& receiver);
@@ -70,6 +73,7 @@ class Writer {
   const Room* room_;
   Json json_;
   std::string buffer_;
+  std::vector<std::size_t> textures_;             // of the room's maps
   std::map<std::string, std::size_t> materials_;  // by their JSON text
 };
 
@@ -100,6 +104,34 @@ std::size_t Writer::add_vectors(const std::vector<std::array<float, N>>& vectors
   return add_accessor(vectors.data(), vectors.size() * sizeof vectors.front(), accessor, array_buffer);
 }
 
+int wrap_mode(Wrap wrap) {
+  switch (wrap) {
+    case Wrap::repeat:
+      return 10497;
+    case Wrap::clamp:
+      return 33071;
+    case Wrap::mirror:
+      return 33648;
+  }
+  return 0;
+}
+
+std::size_t Writer::add_texture(const ReflectanceMap& map) {
+  const std::string png = png_of(map);
+  const std::size_t offset = buffer_.size();
+  buffer_ += png;
+  buffer_.resize((buffer_.size() + 3) / 4 * 4, '\0');  // what follows is aligned
+  // Numbers first: a list that is new moves the others.
+  const std::size_t view = json_["bufferViews"].size();
+  const std::size_t image = json_["images"].size();
+  const std::size_t sampler = json_["samplers"].size();
+  json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", png.size()}});
+  json_["images"].push_back({{"name", map.name}, {"mimeType", "image/png"}, {"bufferView", view}});
+  json_["samplers"].push_back({{"wrapS", wrap_mode(map.wrap_u)}, {"wrapT", wrap_mode(map.wrap_v)}});
+  json_["textures"].push_back({{"source", image}, {"sampler", sampler}});
+  return json_["textures"].size() - 1;
+}
+
 const char* unit_of(const Room& room) {
   return room.quantity == Quantity::radiometric ? "W" : "lm";
 }
@@ -112,6 +144,12 @@ std::size_t Writer::material_of(std::size_t k) {
                  {{"baseColorFactor", {rho, rho, rho, 1.0}}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
                 {"doubleSided", surface.sides == Sides::both},
                 {"extras", {{"reflectance", rho}}}};
+  if (surface.reflectance_map) {
+    // The picture alone says the reflectance; it has the first texture coordinates.
+    material.erase("extras");
+    material["pbrMetallicRoughness"]["baseColorFactor"] = {1.0, 1.0, 1.0, 1.0};
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", textures_[*surface.reflectance_map]}};
+  }
   for (const Emitter& emitter : room_->emitters) {
     const auto* shape = std::get_if<SurfaceEmitter>(&emitter.shape);
     if (shape == nullptr || shape->surface != k) continue;
@@ -136,10 +174,12 @@ void Writer::add_surface(std::size_t k) {
   for (const glm::dvec3& p : surface.positions)
     positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
   Json attributes{{"POSITION", add_vectors<3>(positions, true)}};
-  if (!surface.uvs.empty()) {
+  // Those for the tiles come last, where they are looked for first.
+  for (const std::vector<glm::dvec2>* set : {&surface.reflectance_uvs, &surface.uvs}) {
+    if (set->empty()) continue;
     std::vector<std::array<float, 2>> uvs;
-    for (const glm::dvec2& uv : surface.uvs) uvs.push_back({static_cast<float>(uv.x), static_cast<float>(uv.y)});
-    attributes["TEXCOORD_0"] = add_vectors<2>(uvs, false);
+    for (const glm::dvec2& uv : *set) uvs.push_back({static_cast<float>(uv.x), static_cast<float>(uv.y)});
+    attributes[attributes.contains("TEXCOORD_0") ? "TEXCOORD_1" : "TEXCOORD_0"] = add_vectors<2>(uvs, false);
   }
   std::vector<std::uint32_t> indices;
   for (const glm::uvec3& t : surface.triangles) indices.insert(indices.end(), {t.x, t.y, t.z});

@@ -55,6 +55,12 @@ Json surfaces_of(const Result& result) {
   return surfaces;
 }
 
+Json texts_of(const std::vector<Ignored>& ignored) {
+  Json texts = Json::array();
+  for (const Ignored& thing : ignored) texts.push_back(thing.what);
+  return texts;
+}
+
 Json emitters_of(const Room& room) {
   Json emitters = Json::array();
   for (const Emitter& emitter : room.emitters) {
@@ -121,7 +127,7 @@ std::string summary_json(const Room& room, const Result& result) {
                {"stopped_by", std::string(to_string(result.stopped_by))},
                {"surfaces", surfaces_of(result)},
                {"receivers", Json::array()},
-               {"ignored", result.ignored}};
+               {"ignored", texts_of(result.ignored)}};
   summary["warnings"] = result.warnings;
   summary["mended"] = result.mended;
   summary["emitters"] = emitters_of(room);

@@ -1,10 +1,12 @@
 #include "lichtmc/mend.hpp"
 
+#include <cmath>
 #include <set>
 #include <utility>
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
+#include "room/reflectance.hpp"
 
 namespace lichtmc {
 
@@ -32,6 +34,8 @@ void set_reflectance(Room& room, const std::string& material, double reflectance
   for (Surface& surface : room.surfaces) {
     if (surface.material != material) continue;
     surface.reflectance = reflectance;
+    surface.reflectance_map.reset();
+    surface.reflectance_uvs.clear();
     ++changed;
   }
   if (changed == 0) {
@@ -44,16 +48,25 @@ void set_reflectance(Room& room, const std::string& material, double reflectance
 
 void limit_reflectance(Room& room, double highest) {
   check_reflectance(highest, "The highest reflectance");
-  std::size_t changed = 0;
+  std::set<const Surface*> above;
+  const HighestReflectance of_room(room);
   for (Surface& surface : room.surfaces) {
-    if (surface.reflectance <= highest) continue;
-    surface.reflectance = highest;
-    ++changed;
+    if (of_room.of(surface) > highest) above.insert(&surface);
   }
-  if (changed > 0) {
-    room.mended.push_back("Reflectances above " + to_text(highest) + " lowered to it on " +
-                          to_text(changed, "surface") + ".");
+  if (above.empty()) return;
+  // The float at or below the limit.
+  const float limit = std::nextafter(static_cast<float>(highest), 0.0F);
+  for (ReflectanceMap& map : room.reflectance_maps) {
+    for (float& value : map.values) {
+      if (double{value} > highest) value = limit;
+    }
   }
+  for (Surface& surface : room.surfaces) {
+    if (above.count(&surface) == 0) continue;
+    surface.reflectance = surface.reflectance_map ? mean_reflectance(room, surface) : highest;
+  }
+  room.mended.push_back("Reflectances above " + to_text(highest) + " lowered to it on " +
+                        to_text(above.size(), "surface") + ".");
 }
 
 void add_emitter(Room& room, Emitter emitter, Quantity quantity) {

@@ -19,8 +19,10 @@ bool finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+using lichtmc::to_text;
+
 std::string to_text(const glm::dvec3& v) {
-  return "(" + lichtmc::to_text(v.x) + ", " + lichtmc::to_text(v.y) + ", " + lichtmc::to_text(v.z) + ")";
+  return "(" + to_text(v.x) + ", " + to_text(v.y) + ", " + to_text(v.z) + ")";
 }
 
 // One fault of a room: "The reflectance of surface 'x' in room.glb is 2 (allowed: 0 to 1). Do this."
@@ -31,7 +33,38 @@ std::string to_text(const glm::dvec3& v) {
 
 void require(bool sound, const Room& room, const std::string& what, double value, const std::string& allowed,
              const std::string& remedy) {
-  if (!sound) refuse(room, what, lichtmc::to_text(value), allowed, remedy);
+  if (!sound) refuse(room, what, to_text(value), allowed, remedy);
+}
+
+void check_map(const Room& room, const ReflectanceMap& map) {
+  const std::string of = "of the reflectance map " + in_quotes(map.name);
+  if (map.columns == 0 || map.rows == 0 || map.values.size() != std::size_t{map.columns} * map.rows) {
+    refuse(room, "number of values " + of, std::to_string(map.values.size()),
+           "columns times rows, " + std::to_string(map.columns) + " × " + std::to_string(map.rows) + ", at least one",
+           "Give one for each place.");
+  }
+  for (const float value : map.values) {
+    require(value >= 0.0F && value <= 1.0F, room, "value " + of, double{value}, "0 to 1",
+            "Give the share of light that is reflected.");
+  }
+}
+
+void check_surface_map(const Room& room, const Surface& surface, const std::string& of) {
+  if (!surface.reflectance_map) return;
+  if (*surface.reflectance_map >= room.reflectance_maps.size()) {
+    refuse(room, "number of the reflectance map " + of, std::to_string(*surface.reflectance_map),
+           "below " + std::to_string(room.reflectance_maps.size()), "Let it name a map.");
+  }
+  if (surface.reflectance_uvs.size() != surface.positions.size()) {
+    refuse(room, "number of coordinates on its reflectance map " + of, std::to_string(surface.reflectance_uvs.size()),
+           std::to_string(surface.positions.size()) + ", one per position", "Give one for each position.");
+  }
+  for (const glm::dvec2& uv : surface.reflectance_uvs) {
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+      refuse(room, "coordinate on its reflectance map " + of, "(" + to_text(uv.x) + ", " + to_text(uv.y) + ")",
+             "finite numbers", "Unwrap the mesh again.");
+    }
+  }
 }
 
 void check_surface(const Room& room, const Surface& surface) {
@@ -43,6 +76,7 @@ void check_surface(const Room& room, const Surface& surface) {
     refuse(room, "number of texture coordinates " + of, std::to_string(surface.uvs.size()),
            std::to_string(surface.positions.size()) + ", one per position, or none", "Give one for each position.");
   }
+  check_surface_map(room, surface, of);
   for (const glm::uvec3& triangle : surface.triangles) {
     for (int k = 0; k < 3; ++k) {
       if (triangle[k] >= surface.positions.size()) {
@@ -89,7 +123,7 @@ void check_shape(const Room& room, const SpotEmitter& shape, const std::string& 
   require(shape.outer >= smallest && shape.outer <= largest, room, "outer cone angle " + of, shape.outer,
           "1e-6 to π/2 = 1.5708 rad", "Give the half angle of the cone that holds its light.");
   require(shape.inner >= 0.0 && shape.inner < shape.outer, room, "inner cone angle " + of, shape.inner,
-          "0 to below the outer angle, " + lichtmc::to_text(shape.outer) + " rad",
+          "0 to below the outer angle, " + to_text(shape.outer) + " rad",
           "Give the half angle of the cone of full intensity.");
 }
 
@@ -117,6 +151,7 @@ void check_receiver(const Room& room, const Receiver& receiver) {
 }  // namespace
 
 void check_room(const Room& room) {
+  for (const ReflectanceMap& map : room.reflectance_maps) check_map(room, map);
   std::set<std::string> names;
   for (const Surface& surface : room.surfaces) {
     check_surface(room, surface);

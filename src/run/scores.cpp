@@ -6,25 +6,21 @@
 
 namespace lichtmc {
 
-Scores::Scores(const Room& room, const Tiling& tiling, Estimator estimator)
-    : room_(&room),
-      tiling_(&tiling),
-      estimator_(estimator),
-      power_(total_power(room)),
-      unit_(estimator == Estimator::weight ? 1.0 / weight_units : 1.0) {
+Scores::Scores(const Room& room, const Tiling& tiling, const ScoreLaw& law)
+    : room_(&room), tiling_(&tiling), law_(law), power_(total_power(room)) {
   for (const Surface& surface : room.surfaces) {
     // A photon absorbed stands for the 1/(1 − ρ) impacts that a photon makes on such a surface until it is.
-    factor_.push_back(estimator == Estimator::absorption ? 1.0 / (1.0 - surface.reflectance) : 1.0);
+    factor_.push_back(law.per_absorption ? 1.0 / (1.0 - surface.reflectance) : 1.0);
   }
 }
 
 // Mean and error of a tile's, or a surface's, incident power.
 Estimate Scores::incident_power(const Moments& moments, std::size_t surface, std::uint64_t histories) const {
-  // An absorbed photon scores once: the error is that of a binomial law, known from the count alone.
-  Estimate result = estimator_ == Estimator::absorption
+  // A photon that scores at most once: the error is that of a binomial law, known from the count alone.
+  Estimate result = law_.at_most_one_per_history
                         ? estimate_binomial(static_cast<std::uint64_t>(moments.sum), histories)
                         : estimate(moments, histories);
-  const double scale = power_ * unit_ * factor_[surface];
+  const double scale = power_ * law_.unit * factor_[surface];
   result.mean *= scale;
   result.standard_error *= scale;
   return result;
@@ -80,7 +76,7 @@ std::vector<SurfaceResult> Scores::surfaces(const Totals& totals, const std::vec
 }
 
 Balance Scores::balance(const Totals& totals) const {
-  const double per_unit = power_ * unit_ / static_cast<double>(totals.histories);
+  const double per_unit = power_ * law_.unit / static_cast<double>(totals.histories);
   Balance balance;
   balance.emitted = power_;
   balance.absorbed = per_unit * static_cast<double>(totals.ends.absorbed);
@@ -91,10 +87,10 @@ Balance Scores::balance(const Totals& totals) const {
 }
 
 void Scores::incident(const Totals& totals, double& power, double& standard_error) const {
-  if (estimator_ != Estimator::absorption) {
+  if (!law_.at_most_one_per_history) {
     const Estimate all = estimate(totals.incident, totals.histories);
-    power = power_ * unit_ * all.mean;
-    standard_error = power_ * unit_ * all.standard_error;
+    power = power_ * law_.unit * all.mean;
+    standard_error = power_ * law_.unit * all.standard_error;
     return;
   }
   // Each history scores at most once, the factor of the surface that absorbed it: mean and mean square follow from the

@@ -7,16 +7,16 @@
 
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
-#include "lichtmc/settings.hpp"
 #include "lichtmc/tiles.hpp"
 #include "walk/tally.hpp"
+#include "walk/walk.hpp"
 
 namespace lichtmc {
 
 // Reads the totals of a run with one estimator in one room.
 class Scores {
  public:
-  Scores(const Room& room, const Tiling& tiling, Estimator estimator);
+  Scores(const Room& room, const Tiling& tiling, const ScoreLaw& law);
 
   // Power and irradiance of every tile, with error.
   std::vector<TileResult> tiles(const Totals& totals) const;
@@ -30,9 +30,8 @@ class Scores {
 
   const Room* room_;
   const Tiling* tiling_;
-  Estimator estimator_;
+  ScoreLaw law_;
   double power_;                // Φ, W or lm
-  double unit_;                 // score of one unit
   std::vector<double> factor_;  // per surface: impacts that a unit stands for
 };
 

@@ -6,6 +6,7 @@
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
+#include "room/reflectance.hpp"
 
 namespace lichtmc {
 
@@ -21,8 +22,9 @@ bool has_area(const Surface& surface) {
 }
 
 const Surface* surface_that_absorbs_nothing(const Room& room) {
-  const auto found = std::find_if(room.surfaces.begin(), room.surfaces.end(), [](const Surface& surface) {
-    return surface.reflectance == 1.0 && has_area(surface);
+  const HighestReflectance highest(room);
+  const auto found = std::find_if(room.surfaces.begin(), room.surfaces.end(), [&](const Surface& surface) {
+    return highest.of(surface) == 1.0 && has_area(surface);
   });
   return found == room.surfaces.end() ? nullptr : &*found;
 }
@@ -65,7 +67,8 @@ void check_settings_for(const Room& room, const Settings& settings) {
       throw InputError(
           "The estimator 'absorption' cannot see the surface " + in_quotes(surface->name) + " (material " +
           in_quotes(surface->material) + ") of " + room.source +
-          ": its reflectance is 1, so that it never absorbs. Use the estimator 'collision' or 'weight', or a "
+          ": its reflectance is 1" +
+          (surface->reflectance_map ? " in places of its texture" : "") + ", so that it never absorbs there. Use the estimator 'collision' or 'weight', or a "
           "reflectance below 1.");
     }
   }

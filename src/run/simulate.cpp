@@ -48,11 +48,12 @@ StopReason run_until_stopped(Crew& crew, const Scores& scores, const Tiling& til
   }
 }
 
-std::vector<std::string> ignored_by_run(const Room& room) {
-  std::vector<std::string> ignored = room.ignored;
+std::vector<Ignored> ignored_by_run(const Room& room) {
+  std::vector<Ignored> ignored = room.ignored;
   if (!room.receivers.empty()) {
-    ignored.push_back(to_text(room.receivers.size(), "receiver") + " (" + in_quotes(room.receivers.front().name) +
-                      (room.receivers.size() > 1 ? ", …" : "") + "): a forward run measures tiles, not points.");
+    ignored.push_back({to_text(room.receivers.size(), "receiver") + " (" + in_quotes(room.receivers.front().name) +
+                           (room.receivers.size() > 1 ? ", …" : "") + "): a forward run measures tiles, not points.",
+                       Effect::none});
   }
   return ignored;
 }
@@ -95,7 +96,7 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
   const Scene scene(room, result.tiling, settings.engine);
   result.engine = scene.engine;
   if (!settings.max_bounces && traps_light(scene, settings.seed)) refuse_trap(room);
-  const Scores scores(room, result.tiling, settings.estimator);
+  const Scores scores(room, result.tiling, score_law(settings.estimator, scene.has_maps()));
 
   Crew crew(scene, settings, control, result.threads);
   result.stopped_by = run_until_stopped(crew, scores, result.tiling, settings);

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 
 #include "base/message.hpp"
+#include "room/reflectance.hpp"
 
 namespace lichtmc {
 
@@ -85,10 +86,11 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result) {
                        " left a closed room by a numerical fault: their power is reported as lost.");
   }
   std::size_t perfect = 0;
-  for (const Surface& surface : room.surfaces) perfect += surface.reflectance == 1.0 ? 1 : 0;
+  const HighestReflectance highest(room);
+  for (const Surface& surface : room.surfaces) perfect += std::size_t{highest.of(surface) == 1.0};
   if (perfect > 0) {
     warnings.push_back(to_text(perfect, "surface") + " of " + std::to_string(room.surfaces.size()) +
-                       " reflect all light (reflectance 1; glTF's default is white). Real paint stays below 0.9: set "
+                       " reflect all light, as a whole or in places (reflectance 1; glTF's default is white). Real paint stays below 0.9: set "
                        "the materials' custom property "
                        "'reflectance', or use --max-reflectance 0.9.");
   }

@@ -250,6 +250,11 @@ std::unique_ptr<Tracer> make_cuboid_tracer(const Room& room, const Tiling& tilin
     why_not = "is not an empty cuboid";
     return nullptr;
   }
+  if (std::any_of(room.surfaces.begin(), room.surfaces.end(),
+                  [](const Surface& surface) { return surface.reflectance_map.has_value(); })) {
+    why_not = "has a texture for a reflectance";
+    return nullptr;
+  }
   std::array<std::vector<Piece>, 6> pieces;
   std::vector<std::vector<TriangleOnFacet>> triangles(room.surfaces.size());
   for (std::size_t k = 0; k < room.surfaces.size(); ++k) {

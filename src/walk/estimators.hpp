@@ -35,6 +35,22 @@ struct AbsorptionPolicy : CollisionPolicy {
   static constexpr bool scores_every_impact = false;
 };
 
+// Variant 3 where ρ changes from point to point: the factor belongs to the place, so it is scored there. The power that
+// ends stays that of a photon.
+struct MappedAbsorptionPolicy {
+  static constexpr Hits hits = Hits::apart;
+  static constexpr bool scores_every_impact = false;
+  static constexpr bool carries_weight = true;
+
+  static std::uint64_t units(double weight) { return static_cast<std::uint64_t>(weight * weight_units + 0.5); }
+  static bool survive(double reflectance, double chance, double& weight, Ends& ends) {
+    if (chance < reflectance) return true;
+    ends.absorbed += static_cast<int128>(units(1.0));
+    weight = 1.0 / (1.0 - reflectance);
+    return false;
+  }
+};
+
 // Variant 1: the photon is never absorbed, its weight falls by ρ at every impact. The units of its weight that are gone
 // have been absorbed; rounding the weight itself, not what is gone, keeps the balance exact.
 struct WeightPolicy {

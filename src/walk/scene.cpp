@@ -1,6 +1,7 @@
 #include "walk/scene.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include <glm/geometric.hpp>
 
@@ -67,6 +68,25 @@ std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engi
   return make_embree_tracer(room, tiling);
 }
 
+// Where facets lie on the maps of their surfaces. Facets of surfaces with a map are triangles, one each.
+std::vector<MapPlace> places_on_maps(const Room& room, const Tracer& tracer) {
+  std::vector<MapPlace> places;
+  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
+    const Surface& surface = room.surfaces[k];
+    if (!surface.reflectance_map) continue;
+    places.resize(tracer.facets().size());
+    for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
+      const glm::uvec3 corner = surface.triangles[n];
+      const TriangleOnFacet triangle = tracer.locate(k, n);
+      assert(triangle.st_0 == glm::vec2(0.0F) && triangle.st_1 == glm::vec2(1.0F, 0.0F));
+      const glm::dvec2 uv_0 = surface.reflectance_uvs[corner.x];
+      places[triangle.facet] = {&room.reflectance_maps[*surface.reflectance_map], uv_0,
+                                surface.reflectance_uvs[corner.y] - uv_0, surface.reflectance_uvs[corner.z] - uv_0};
+    }
+  }
+  return places;
+}
+
 }  // namespace
 
 Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make_tracer(room, tiling, asked, engine)) {
@@ -86,6 +106,10 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
     const std::vector<std::uint32_t> filled = nearest_tiles(map);
     tile_of_cell.insert(tile_of_cell.end(), filled.begin(), filled.end());
   }
+  map_places = places_on_maps(room, *tracer);
+  const HighestReflectance highest(room);
+  reflects_all_somewhere = std::any_of(room.surfaces.begin(), room.surfaces.end(),
+                                       [&](const Surface& surface) { return highest.of(surface) == 1.0; });
   map_of_tile.reserve(tiling.tiles.size());
   for (const Tile& tile : tiling.tiles) map_of_tile.push_back(tile.map);
 

@@ -13,6 +13,7 @@
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/tiles.hpp"
+#include "room/reflectance.hpp"
 #include "tracer/tracer.hpp"
 #include "walk/launcher.hpp"
 
@@ -27,18 +28,42 @@ struct SurfaceOptics {
   std::uint32_t tiles_to_back = 0;  // a back side's tile number less the front's; 0 where both sides share one map
 };
 
+// A facet's place on a reflectance map: (u, v) = uv_0 + s·uv_s + t·uv_t.
+struct MapPlace {
+  const ReflectanceMap* map = nullptr;  // null where the surface has one reflectance
+  glm::dvec2 uv_0{0.0};
+  glm::dvec2 uv_s{0.0};
+  glm::dvec2 uv_t{0.0};
+};
+
 struct Scene {
-  // Tiles and lays out everything that a walk through `room` needs; the room is not needed afterwards.
+  // Tiles and lays out everything that a walk through `room` needs; the room must outlive it.
   Scene(const Room& room, const Tiling& tiling, Engine engine);
 
   Engine engine = Engine::embree;  // the one taken; set while the tracer is made, so it stands before it
   std::unique_ptr<Tracer> tracer;
   Misses misses = Misses::escape;
   std::vector<SurfaceOptics> surfaces;
+  std::vector<MapPlace> map_places;         // per facet; empty where no surface has a map
   std::vector<std::uint32_t> tile_of_cell;  // every cell has a tile, empty ones the nearest
   std::vector<std::uint32_t> map_of_tile;
   std::size_t maps = 0;
+  bool reflects_all_somewhere = false;  // a surface, or a place of one, has ρ = 1
   std::unique_ptr<Launcher> launcher;
+
+  // Whether some surface's reflectance changes from point to point.
+  bool has_maps() const { return !map_places.empty(); }
+
+  // ρ where flight i ended. surface_reflectance() serves scenes without maps only, at no cost for what they lack.
+  double surface_reflectance(const Rays& rays, std::size_t i) const {
+    return surfaces[tracer->facets()[rays.facet[i]].surface].reflectance;
+  }
+  double reflectance(const Rays& rays, std::size_t i) const {
+    if (!has_maps() || map_places[rays.facet[i]].map == nullptr) return surface_reflectance(rays, i);
+    const MapPlace& place = map_places[rays.facet[i]];
+    const glm::dvec2 uv = place.uv_0 + double{rays.s[i]} * place.uv_s + double{rays.t[i]} * place.uv_t;
+    return reflectance_at(*place.map, uv.x, uv.y);
+  }
 
   // The tile that a place on a facet belongs to.
   std::uint32_t tile_at(const Facet& facet, float s, float t, bool behind) const {

@@ -8,9 +8,7 @@
 namespace lichtmc {
 
 bool traps_light(const Scene& scene, std::uint64_t seed) {
-  const bool perfect = std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
-                                   [](const SurfaceOptics& s) { return s.reflectance == 1.0; });
-  if (!perfect) return false;
+  if (!scene.reflects_all_somewhere) return false;
 
   constexpr std::uint32_t flights = 1'000'000;
   constexpr std::uint32_t flights_of_all = 1000;  // then a few stand for all that still fly
@@ -30,7 +28,7 @@ bool traps_light(const Scene& scene, std::uint64_t seed) {
     scene.tracer->trace(rays, scene.misses, count);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < rays.size; ++i) {
-      if (rays.facet[i] == no_facet || scene.surfaces[facets[rays.facet[i]].surface].reflectance < 1.0) continue;
+      if (rays.facet[i] == no_facet || scene.reflectance(rays, i) < 1.0) continue;
       wave.move(i, kept++);
     }
     rays.size = flight < flights_of_all ? kept : std::min(kept, few);

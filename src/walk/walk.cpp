@@ -12,7 +12,21 @@ namespace {
 constexpr std::uint32_t abandon_interval = 1024;  // flights between two questions whether to go on
 constexpr std::uint32_t patience = 1'000'000;     // flights after which the answer counts
 
-template <class Policy>
+// ρ where a flight ended, as a policy of the kernel: of the surface as a whole,
+struct SurfaceReflectance {
+  static double at(const Scene& scene, const Rays& rays, std::size_t i) {
+    return scene.surface_reflectance(rays, i);
+  }
+};
+
+// or of the place, in rooms with maps.
+struct MappedReflectance {
+  static double at(const Scene& scene, const Rays& rays, std::size_t i) {
+    return scene.reflectance(rays, i);
+  }
+};
+
+template <class Policy, class Reflectance>
 class PolicyWalk final : public Walk {
  public:
   PolicyWalk(const Scene& scene, std::uint64_t seed, std::uint32_t max_flights)
@@ -96,10 +110,9 @@ class PolicyWalk final : public Walk {
   // The surface that was hit decides what becomes of the photon; survivors close ranks.
   void survive_or_be_absorbed(Tally& tally) {
     Rays& rays = wave_.rays;
-    const std::vector<Facet>& facets = scene_->tracer->facets();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < rays.size; ++i) {
-      const double reflectance = scene_->surfaces[facets[rays.facet[i]].surface].reflectance;
+      const double reflectance = Reflectance::at(*scene_, rays, i);
       const double chance = unit_fine(wave_.words[i][2], wave_.words[i][3]);
       if (Policy::survive(reflectance, chance, wave_.weight[i], tally.totals().ends)) {
         if (kept != i) wave_.move(i, kept);
@@ -143,25 +156,41 @@ class PolicyWalk final : public Walk {
   Wave wave_;
 };
 
+template <class Policy>
+std::unique_ptr<Walk> walk_with(const Scene& scene, const Settings& settings, std::uint32_t max_flights) {
+  if (scene.has_maps())
+    return std::make_unique<PolicyWalk<Policy, MappedReflectance>>(scene, settings.seed, max_flights);
+  return std::make_unique<PolicyWalk<Policy, SurfaceReflectance>>(scene, settings.seed, max_flights);
+}
+
 }  // namespace
 
 std::unique_ptr<Walk> make_walk(const Scene& scene, const Settings& settings) {
   switch (settings.estimator) {
     case Estimator::collision:
-      return std::make_unique<PolicyWalk<CollisionPolicy>>(scene, settings.seed, 0);
+      return walk_with<CollisionPolicy>(scene, settings, 0);
     case Estimator::absorption:
-      return std::make_unique<PolicyWalk<AbsorptionPolicy>>(scene, settings.seed, 0);
+      if (scene.has_maps())
+        return std::make_unique<PolicyWalk<MappedAbsorptionPolicy, MappedReflectance>>(scene, settings.seed, 0);
+      return std::make_unique<PolicyWalk<AbsorptionPolicy, SurfaceReflectance>>(scene, settings.seed, 0);
     case Estimator::weight:
       break;
   }
-  if (settings.max_bounces) {
-    return std::make_unique<PolicyWalk<TruncatedWeightPolicy>>(scene, settings.seed, *settings.max_bounces);
-  }
-  return std::make_unique<PolicyWalk<RouletteWeightPolicy>>(scene, settings.seed, 0);
+  if (settings.max_bounces) return walk_with<TruncatedWeightPolicy>(scene, settings, *settings.max_bounces);
+  return walk_with<RouletteWeightPolicy>(scene, settings, 0);
 }
 
-Hits hits_of(Estimator estimator) {
-  return estimator == Estimator::weight ? WeightPolicy::hits : CollisionPolicy::hits;
+ScoreLaw score_law(Estimator estimator, bool has_maps) {
+  switch (estimator) {
+    case Estimator::collision:
+      return {CollisionPolicy::hits, 1.0, false, false};
+    case Estimator::absorption:
+      if (has_maps) return {MappedAbsorptionPolicy::hits, 1.0 / weight_units, false, false};
+      return {AbsorptionPolicy::hits, 1.0, true, true};
+    case Estimator::weight:
+      break;
+  }
+  return {WeightPolicy::hits, 1.0 / weight_units, false, false};
 }
 
 }  // namespace lichtmc

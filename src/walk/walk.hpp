@@ -36,7 +36,13 @@ class Walk {
 // A walk for one thread; the scene must outlive it.
 std::unique_ptr<Walk> make_walk(const Scene& scene, const Settings& settings);
 
-// How the tally of a walk counts hits.
-Hits hits_of(Estimator estimator);
+// How the integers that a walk scores are to be read.
+struct ScoreLaw {
+  Hits hits = Hits::are_the_score;
+  double unit = 1.0;                     // photons that a unit of the score stands for
+  bool per_absorption = false;           // a unit is an absorption: the surface's 1/(1 − ρ) is still to come
+  bool at_most_one_per_history = false;  // so that errors follow from the binomial law
+};
+ScoreLaw score_law(Estimator estimator, bool has_maps);
 
 }  // namespace lichtmc

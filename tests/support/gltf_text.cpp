@@ -47,7 +47,7 @@ json triangle_document() {
     "extensionsUsed": ["KHR_lights_punctual"],
     "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 10}]}}
   })");
-  const int positions = add_accessor(document, std::vector<float>{0, 0, 0, 0, 0, 1, 1, 0, 0}, "VEC3", 5126, 3);
+  const std::size_t positions = add_accessor(document, std::vector<float>{0, 0, 0, 0, 0, 1, 1, 0, 0}, "VEC3", 5126, 3);
   document["meshes"] = json::array(
       {{{"name", "triangle"}, {"primitives", {{{"attributes", {{"POSITION", positions}}}, {"material", 0}}}}}});
   return document;
@@ -71,7 +71,7 @@ std::string refusal(const json& document) {
 
 bool ignores(const Room& room, const std::string& text) {
   return std::any_of(room.ignored.begin(), room.ignored.end(),
-                     [&](const std::string& line) { return line.find(text) != std::string::npos; });
+                     [&](const Ignored& thing) { return thing.what.find(text) != std::string::npos; });
 }
 
 }  // namespace lichtmc::test

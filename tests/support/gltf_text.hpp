@@ -33,7 +33,7 @@ nlohmann::json triangle_document();
 // Appends an accessor with its own buffer to a document and returns its number. `type` "SCALAR", "VEC2", "VEC3";
 // component type as in glTF.
 template <class T>
-int add_accessor(nlohmann::json& document, const std::vector<T>& values, const char* type, int component_type,
+std::size_t add_accessor(nlohmann::json& document, const std::vector<T>& values, const char* type, int component_type,
                  std::size_t components);
 
 // What read_gltf() makes of a document.
@@ -48,7 +48,7 @@ bool ignores(const Room& room, const std::string& text);
 std::string base64_of(const void* data, std::size_t bytes);
 
 template <class T>
-int add_accessor(nlohmann::json& document, const std::vector<T>& values, const char* type, int component_type,
+std::size_t add_accessor(nlohmann::json& document, const std::vector<T>& values, const char* type, int component_type,
                  std::size_t components) {
   const std::size_t bytes = values.size() * sizeof(T);
   document["buffers"].push_back(
@@ -58,7 +58,7 @@ int add_accessor(nlohmann::json& document, const std::vector<T>& values, const c
                                    {"componentType", component_type},
                                    {"count", values.size() / components},
                                    {"type", type}});
-  return static_cast<int>(document["accessors"].size() - 1);
+  return document["accessors"].size() - 1;
 }
 
 }  // namespace lichtmc::test

@@ -2,6 +2,7 @@
 // refused.
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -41,33 +42,27 @@ std::vector<Entry> entries(const std::string& folder) {
 // Triangles of a room, with those left out for want of an area.
 std::size_t triangles_of(const Room& room) {
   std::size_t count = 0;
-  for (const Surface& surface : room.surfaces) count += surface.triangles.size();
-  for (const std::string& line : room.ignored) {
-    if (line.find("without area in") != std::string::npos) count += std::stoul(line);
-  }
+  for (const Surface& surface : room.surfaces) count += surface.triangles.size() + surface.without_area;
   return count;
+}
+
+// The validator counts a mesh once where it has many instances, and does not look into compressed buffers.
+std::string triangles_placed(const Entry& entry) {
+  const std::map<std::string, std::string> corrected{{"conformance/others/simple-instancing.glb", "1500"},
+                                                     {"conformance/others/BoxMeshopt.glb", "12"},
+                                                     {"conformance/others/BoxMeshopt.gltf", "12"}};
+  const auto found = corrected.find(entry.file);
+  return found == corrected.end() ? entry.triangles : found->second;
 }
 
 }  // namespace
 
-TEST_CASE("sound files load with all their triangles or name the extension they need") {
+TEST_CASE("sound files load with all their triangles") {
   for (const Entry& entry : entries("conformance/")) {
     if (entry.errors != "0") continue;
     INFO(entry.file);
-    const std::string path = std::string(LICHTMC_ROOMS) + "/" + entry.file;
-    try {
-      const Room room = read_gltf(path);
-      if (!room.ignored.empty() && entry.triangles == "0")
-        continue;  // instances and compressed views: named in `ignored`
-      CHECK(std::to_string(triangles_of(room)) == entry.triangles);
-    } catch (const InputError& error) {
-      const std::string message = error.what();
-      INFO(message);
-      const bool named =
-          message.find("extension") != std::string::npos || message.find("compressed") != std::string::npos ||
-          message.find("quantization") != std::string::npos || message.find("byteLength") != std::string::npos;
-      CHECK(named);
-    }
+    const Room room = read_gltf(std::string(LICHTMC_ROOMS) + "/" + entry.file);
+    CHECK(std::to_string(triangles_of(room)) == triangles_placed(entry));
   }
 }
 

@@ -100,7 +100,7 @@ TEST_CASE("texture coordinates come from the second set where there is one") {
   json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
   attributes["TEXCOORD_0"] = add_accessor(document, std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", 5126, 2);
   CHECK(read_document(document).surfaces[0].uvs[1] == glm::dvec2(1, 0));
-  const int second = add_accessor(document, std::vector<std::uint16_t>{0, 0, 0, 65535, 32768, 0}, "VEC2", 5123, 2);
+  const std::size_t second = add_accessor(document, std::vector<std::uint16_t>{0, 0, 0, 65535, 32768, 0}, "VEC2", 5123, 2);
   document["accessors"][static_cast<std::size_t>(second)]["normalized"] = true;
   document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = second;
   const Room room = read_document(document);
@@ -248,10 +248,10 @@ TEST_CASE("names are unique and scenes are chosen by name") {
 
 TEST_CASE("sparse elements replace values") {
   json document = triangle_document();
-  const int indices = add_accessor(document, std::vector<std::uint16_t>{2}, "SCALAR", 5123, 1);
-  const int values = add_accessor(document, std::vector<float>{3, 0, 0}, "VEC3", 5126, 3);
+  const std::size_t indices = add_accessor(document, std::vector<std::uint16_t>{2}, "SCALAR", 5123, 1);
+  const std::size_t values = add_accessor(document, std::vector<float>{3, 0, 0}, "VEC3", 5126, 3);
   const int base = document["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
-  const auto view = [&](int n) { return document["accessors"][static_cast<std::size_t>(n)]["bufferView"]; };
+  const auto view = [&](std::size_t n) { return document["accessors"][n]["bufferView"]; };
   const json sparse{{"count", 1},
                     {"indices", {{"bufferView", view(indices)}, {"componentType", 5123}}},
                     {"values", {{"bufferView", view(values)}}}};
@@ -284,5 +284,5 @@ TEST_CASE("positions that are no numbers are refused with their vertex") {
   json document = triangle_document();
   document["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = add_accessor(
       document, std::vector<float>{0, 0, 0, 0, std::numeric_limits<float>::quiet_NaN(), 1, 1, 0, 0}, "VEC3", 5126, 3);
-  CHECK_THAT(refusal(document), ContainsSubstring("vertex 1") && ContainsSubstring("triangle"));
+  CHECK_THAT(refusal(document), ContainsSubstring("number 1 is NaN") && ContainsSubstring("triangle"));
 }

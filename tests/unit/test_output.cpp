@@ -167,7 +167,8 @@ TEST_CASE("summary.json holds its keys in order with exact numbers and null for 
   CHECK(summary["figure_of_merit"].is_null());
   CHECK(summary["stopped_by"] == "max-time");
   CHECK(summary["receivers"] == Json::array());
-  CHECK(summary["ignored"] == Json(result.ignored));
+  REQUIRE(summary["ignored"].size() == result.ignored.size());
+  CHECK(summary["ignored"][0] == result.ignored[0].what);
   CHECK(summary["mended"] == Json(result.mended));
   CHECK(summary["retraced"] == 1);
   CHECK(summary["lost_histories"] == 2);

@@ -1,0 +1,147 @@
+// KHR_draco_mesh_compression: the triangles and attributes of a primitive, compressed together.
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <draco/compression/decode.h>
+
+#include "base/wide.hpp"
+#include "gltf/decompress.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr const char* extension_name = "KHR_draco_mesh_compression";
+constexpr const char* export_again = " Export the file again, or uncompressed.";
+
+// Appends values to the file as a buffer of its own; the number of the accessor that holds them.
+template <class T>
+int add_accessor(tinygltf::Model& model, const std::vector<T>& values, int components, int type, int component_type) {
+  tinygltf::Buffer buffer;
+  buffer.data.resize(values.size() * sizeof(T));
+  if (!values.empty()) std::memcpy(buffer.data.data(), values.data(), buffer.data.size());
+  tinygltf::BufferView view;
+  view.buffer = static_cast<int>(model.buffers.size());
+  view.byteLength = buffer.data.size();
+  tinygltf::Accessor accessor;
+  accessor.bufferView = static_cast<int>(model.bufferViews.size());
+  accessor.componentType = component_type;
+  accessor.type = type;
+  accessor.count = values.size() / static_cast<std::size_t>(components);
+  model.buffers.push_back(std::move(buffer));
+  model.bufferViews.push_back(std::move(view));
+  model.accessors.push_back(std::move(accessor));
+  return static_cast<int>(model.accessors.size() - 1);
+}
+
+std::unique_ptr<draco::Mesh> decode(const Document& document, const tinygltf::Value& extension,
+                                    const std::string& where) {
+  const auto& model = document.model;
+  const auto view_number = static_cast<long long>(number_in(document, extension, "bufferView", -1.0, where));
+  const auto& view =
+      model.bufferViews[checked_index(document, view_number, model.bufferViews.size(), "the buffer view of " + where)];
+  const auto& bytes =
+      model.buffers[checked_index(document, view.buffer, model.buffers.size(), "the buffer of " + where)].data;
+  if (static_cast<uint128>(view.byteOffset) + view.byteLength > bytes.size())
+    refuse(document, where + " reaches beyond its buffer." + export_again);
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()) + view.byteOffset, view.byteLength);
+  draco::Decoder decoder;
+  std::string reason;
+  try {
+    auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
+    if (mesh.ok()) return std::move(mesh).value();
+    reason = mesh.status().error_msg_string();
+  } catch (const std::exception& fault) {  // a length that no memory holds
+    reason = fault.what();
+  }
+  refuse(document, where + " cannot be decompressed (" + reason + "): its data is damaged." + export_again);
+}
+
+std::vector<std::uint32_t> indices_of(const draco::Mesh& mesh) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(std::size_t{3} * mesh.num_faces());
+  for (draco::FaceIndex face(0); face < mesh.num_faces(); ++face) {
+    for (const draco::PointIndex& point : mesh.face(face)) indices.push_back(point.value());
+  }
+  return indices;
+}
+
+// The values of an attribute, point by point. Integers become numbers as they are stored: whether they are shares of a
+// range the file's own accessor says, not Draco.
+std::vector<float> values_of(const Document& document, const draco::Mesh& mesh, draco::PointAttribute& attribute,
+                             int components, const std::string& where) {
+  attribute.set_normalized(false);
+  std::vector<float> values(std::size_t{mesh.num_points()} * static_cast<std::size_t>(components));
+  for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
+    float* value = values.data() + std::size_t{point.value()} * static_cast<std::size_t>(components);
+    if (!attribute.ConvertValue<float>(attribute.mapped_index(point), static_cast<std::int8_t>(components), value))
+      refuse(document, where + " has an attribute that cannot be read." + export_again);
+  }
+  return values;
+}
+
+// What a normalized integer is divided by; 1 for others.
+float range_of(const tinygltf::Accessor& accessor) {
+  if (!accessor.normalized) return 1.0F;
+  switch (accessor.componentType) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return 127.0F;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 255.0F;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return 32767.0F;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 65535.0F;
+    default:
+      return 1.0F;
+  }
+}
+
+void decompress(Document& document, tinygltf::Primitive& primitive, const std::string& where) {
+  auto& model = document.model;
+  const tinygltf::Value& extension = primitive.extensions.at(extension_name);
+  const std::unique_ptr<draco::Mesh> mesh = decode(document, extension, where);
+  primitive.indices =
+      add_accessor(model, indices_of(*mesh), 1, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+  primitive.mode = TINYGLTF_MODE_TRIANGLES;
+  if (!extension.Has("attributes") || !extension.Get("attributes").IsObject())
+    refuse(document, where + " names no attributes." + export_again);
+  for (auto& [name, index] : primitive.attributes) {
+    const bool needed = name == "POSITION" || name.rfind("TEXCOORD_", 0) == 0;
+    if (!needed || !extension.Get("attributes").Has(name)) continue;
+    const double id = number_in(document, extension.Get("attributes"), name.c_str(), -1.0, where);
+    const int number = id >= 0.0 && id < 0x1p31 ? mesh->GetAttributeIdByUniqueId(static_cast<std::uint32_t>(id)) : -1;
+    if (number < 0) refuse(document, where + " does not hold its attribute " + name + "." + export_again);
+    const auto& described =
+        model.accessors[checked_index(document, index, model.accessors.size(), "the accessor of " + name)];
+    const int components = name == "POSITION" ? 3 : 2;
+    std::vector<float> values = values_of(document, *mesh, *mesh->attribute(number), components, where);
+    const float range = range_of(described);
+    for (float& value : values) value /= range;
+    index = add_accessor(model, values, components, components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC2,
+                         TINYGLTF_COMPONENT_TYPE_FLOAT);
+  }
+}
+
+}  // namespace
+
+void decompress_primitives(Document& document) {
+  auto& meshes = document.model.meshes;
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    for (std::size_t k = 0; k < meshes[m].primitives.size(); ++k) {
+      tinygltf::Primitive& primitive = meshes[m].primitives[k];
+      if (primitive.extensions.count(extension_name) == 0) continue;
+      decompress(document, primitive,
+                 std::string(extension_name) + " of " + label("mesh", meshes[m].name, m) + ", primitive " +
+                     std::to_string(k));
+    }
+  }
+}
+
+}  // namespace lichtmc

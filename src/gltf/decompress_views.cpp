@@ -1,0 +1,123 @@
+// EXT_meshopt_compression: buffer views compressed byte by byte (A. Kapoulkine, glTF extension, 2020).
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <meshoptimizer.h>
+
+#include "gltf/decompress.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr const char* export_again = " Export the file again, or uncompressed.";
+
+// The codecs write no less than a bit for 256 bytes; a view that claims more is damaged, and no memory is taken for it.
+constexpr std::uint64_t most_bytes_per_byte = 2048;
+constexpr std::uint64_t bytes_for_nothing = 4096;
+
+enum class Mode { attributes, triangles, indices };
+
+struct Packed {
+  const unsigned char* data = nullptr;
+  std::size_t size = 0;
+  std::size_t stride = 0;
+  std::size_t count = 0;
+  Mode mode = Mode::attributes;
+  std::string filter;
+};
+
+std::uint64_t whole_number(const Document& document, const tinygltf::Value& object, const char* name, double otherwise,
+                           const std::string& where) {
+  const double value = number_in(document, object, name, otherwise, where);
+  if (value >= 0.0 && value < 0x1p32 && value == std::floor(value)) return static_cast<std::uint64_t>(value);
+  refuse(document, "'" + std::string(name) + "' of " + where + " is not a whole number below 2^32." + export_again);
+}
+
+std::string text_in(const tinygltf::Value& object, const char* name, const char* otherwise) {
+  return object.Has(name) && object.Get(name).IsString() ? object.Get(name).Get<std::string>() : otherwise;
+}
+
+Packed read_description(const Document& document, const tinygltf::Value& extension, const std::string& where) {
+  if (!extension.IsObject()) refuse(document, where + " is not an object." + export_again);
+  Packed packed;
+  const std::uint64_t buffer = whole_number(document, extension, "buffer", -1.0, where);
+  const std::uint64_t offset = whole_number(document, extension, "byteOffset", 0.0, where);
+  packed.size = whole_number(document, extension, "byteLength", -1.0, where);
+  packed.stride = whole_number(document, extension, "byteStride", -1.0, where);
+  packed.count = whole_number(document, extension, "count", -1.0, where);
+  const auto& buffers = document.model.buffers;
+  const auto& bytes =
+      buffers[checked_index(document, static_cast<long long>(buffer), buffers.size(), "the buffer of " + where)].data;
+  // Each is below 2³²: nothing overflows.
+  if (offset + packed.size > bytes.size()) refuse(document, where + " reaches beyond its buffer." + export_again);
+  packed.data = bytes.data() + offset;
+
+  const std::string mode = text_in(extension, "mode", "(none)");
+  packed.filter = text_in(extension, "filter", "NONE");
+  const std::size_t stride = packed.stride;
+  bool sound = false;
+  if (mode == "ATTRIBUTES") {
+    sound = stride > 0 && stride <= 256 && stride % 4 == 0;
+    if (packed.filter == "OCTAHEDRAL") sound = sound && (stride == 4 || stride == 8);
+    if (packed.filter == "QUATERNION") sound = sound && stride == 8;
+  } else if (mode == "TRIANGLES" || mode == "INDICES") {
+    packed.mode = mode == "TRIANGLES" ? Mode::triangles : Mode::indices;
+    sound = (stride == 2 || stride == 4) && packed.filter == "NONE" &&
+            (packed.mode == Mode::indices || packed.count % 3 == 0);
+  }
+  const bool known_filter = packed.filter == "NONE" || packed.filter == "OCTAHEDRAL" || packed.filter == "QUATERNION" ||
+                            packed.filter == "EXPONENTIAL";
+  if (!sound || !known_filter) {
+    refuse(document, where + " is not sound (mode " + mode + ", filter " + packed.filter + ", stride " +
+                         std::to_string(stride) + ", count " + std::to_string(packed.count) + ")." + export_again);
+  }
+  if (std::uint64_t{packed.count} * stride > most_bytes_per_byte * packed.size + bytes_for_nothing)
+    refuse(document, where + " has more elements than its data can hold." + export_again);
+  return packed;
+}
+
+std::vector<unsigned char> decompressed(const Document& document, const Packed& packed, const std::string& where) {
+  std::vector<unsigned char> bytes(packed.count * packed.stride);
+  int fault = 0;
+  switch (packed.mode) {
+    case Mode::attributes:
+      fault = meshopt_decodeVertexBuffer(bytes.data(), packed.count, packed.stride, packed.data, packed.size);
+      break;
+    case Mode::triangles:
+      fault = meshopt_decodeIndexBuffer(bytes.data(), packed.count, packed.stride, packed.data, packed.size);
+      break;
+    case Mode::indices:
+      fault = meshopt_decodeIndexSequence(bytes.data(), packed.count, packed.stride, packed.data, packed.size);
+      break;
+  }
+  if (fault != 0) refuse(document, where + " cannot be decompressed: its data is damaged." + export_again);
+  if (packed.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(bytes.data(), packed.count, packed.stride);
+  if (packed.filter == "QUATERNION") meshopt_decodeFilterQuat(bytes.data(), packed.count, packed.stride);
+  if (packed.filter == "EXPONENTIAL") meshopt_decodeFilterExp(bytes.data(), packed.count, packed.stride);
+  return bytes;
+}
+
+}  // namespace
+
+void decompress_views(Document& document) {
+  auto& model = document.model;
+  for (std::size_t k = 0; k < model.bufferViews.size(); ++k) {
+    auto& view = model.bufferViews[k];
+    const auto extension = view.extensions.find("EXT_meshopt_compression");
+    if (extension == view.extensions.end()) continue;
+    const std::string where = "EXT_meshopt_compression of " + label("buffer view", view.name, k);
+    const Packed packed = read_description(document, extension->second, where);
+    tinygltf::Buffer buffer;
+    buffer.data = decompressed(document, packed, where);
+    view.buffer = static_cast<int>(model.buffers.size());
+    view.byteOffset = 0;
+    view.byteLength = buffer.data.size();
+    model.buffers.push_back(std::move(buffer));
+  }
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,162 @@
+#include "gltf/textures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <stb/stb_image.h>
+
+#include "base/message.hpp"
+#include "gltf/materials.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr double most_pixels = 0x1p28;
+
+glm::dvec2 pair_in(const Document& document, const tinygltf::Value& object, const char* name,
+                   const glm::dvec2& otherwise, const std::string& where) {
+  if (!object.IsObject() || !object.Has(name)) return otherwise;
+  const tinygltf::Value& value = object.Get(name);
+  const bool numbers = value.IsArray() && value.ArrayLen() == 2 && value.Get(0).IsNumber() && value.Get(1).IsNumber();
+  if (!numbers) {
+    refuse(document, "'" + std::string(name) + "' of the texture transform of " + where +
+                         " is not made of two numbers. Export the file again.");
+  }
+  return {value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble()};
+}
+
+// IEC 61966-2-1: the share of light that an sRGB value of 0 … 1 stands for.
+double linear(double srgb) {
+  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+
+// Linear light of every value that a channel of n bits can have.
+template <class Channel>
+std::vector<double> linear_values() {
+  constexpr std::size_t count = std::size_t{1} << (8 * sizeof(Channel));
+  std::vector<double> values(count);
+  for (std::size_t k = 0; k < count; ++k) values[k] = linear(static_cast<double>(k) / static_cast<double>(count - 1));
+  return values;
+}
+
+template <class Channel>
+std::vector<float> luminances(const Channel* pixels, std::size_t count, const glm::dvec3& factor) {
+  const std::vector<double> light = linear_values<Channel>();
+  std::vector<float> values(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Channel* p = pixels + 3 * k;
+    // Factors slightly above 1 by rounding make no surface brighter than white.
+    values[k] = static_cast<float>(
+        std::min(luminance(factor.r * light[p[0]], factor.g * light[p[1]], factor.b * light[p[2]]), 1.0));
+  }
+  return values;
+}
+
+Wrap wrap_of(int mode) {
+  if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp;
+  if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirror;
+  return Wrap::repeat;
+}
+
+void decode(const Document& document, const std::vector<unsigned char>& bytes, const glm::dvec3& factor,
+            const std::string& what, ReflectanceMap& map) {
+  using Free = void (*)(void*);
+  const auto size = static_cast<int>(bytes.size());
+  int columns = 0;
+  int rows = 0;
+  int channels = 0;
+  const auto reason = [] {
+    const char* text = stbi_failure_reason();
+    return std::string(text != nullptr ? text : "no reason is given");
+  };
+  const auto refuse_image = [&](const std::string& fault) {
+    refuse(document, what + " cannot be read (" + fault +
+                         "; allowed: PNG or JPEG). Export its textures as PNG or JPEG, or give the material its "
+                         "reflectance: custom property 'reflectance', or --reflectance MATERIAL=R.");
+  };
+  if (stbi_info_from_memory(bytes.data(), size, &columns, &rows, &channels) == 0) refuse_image(reason());
+  if (double{1} * columns * rows > most_pixels)
+    refuse_image("it has " + std::to_string(columns) + " × " + std::to_string(rows) + " pixels, more than 2^28");
+  map.columns = static_cast<std::uint32_t>(columns);
+  map.rows = static_cast<std::uint32_t>(rows);
+  const std::size_t count = std::size_t{map.columns} * map.rows;
+  if (stbi_is_16_bit_from_memory(bytes.data(), size) != 0) {
+    const std::unique_ptr<stbi_us, Free> pixels(
+        stbi_load_16_from_memory(bytes.data(), size, &columns, &rows, &channels, 3), stbi_image_free);
+    if (!pixels) refuse_image(reason());
+    map.values = luminances(pixels.get(), count, factor);
+  } else {
+    const std::unique_ptr<stbi_uc, Free> pixels(
+        stbi_load_from_memory(bytes.data(), size, &columns, &rows, &channels, 3), stbi_image_free);
+    if (!pixels) refuse_image(reason());
+    map.values = luminances(pixels.get(), count, factor);
+  }
+}
+
+}  // namespace
+
+// The extension's own matrices, multiplied out.
+glm::dvec2 UvTransform::operator()(const glm::dvec2& uv) const {
+  const glm::dvec2 scaled = scale * uv;
+  const double c = std::cos(rotation);
+  const double s = std::sin(rotation);
+  return {c * scaled.x + s * scaled.y + offset.x, -s * scaled.x + c * scaled.y + offset.y};
+}
+
+TextureUse read_texture_use(const Document& document, int texture, int uv_set, const tinygltf::ExtensionMap& extensions,
+                            const std::string& where) {
+  TextureUse use{texture, uv_set, {}};
+  const auto extension = extensions.find("KHR_texture_transform");
+  if (extension == extensions.end()) return use;
+  const tinygltf::Value& values = extension->second;
+  const std::string what = "the texture transform of " + where;
+  use.transform.offset = pair_in(document, values, "offset", use.transform.offset, where);
+  use.transform.rotation = number_in(document, values, "rotation", 0.0, what);
+  use.transform.scale = pair_in(document, values, "scale", use.transform.scale, where);
+  const double set = number_in(document, values, "texCoord", uv_set, what);
+  if (!(set >= 0.0 && set < 1e6)) refuse(document, "'texCoord' of " + what + " is no number of a set. Export the file again.");
+  use.uv_set = static_cast<int>(set);
+  return use;
+}
+
+std::size_t ReflectanceMaps::find_or_make(int texture, const glm::dvec3& factor, const std::string& where) {
+  const auto [entry, fresh] = made_.try_emplace({texture, factor.r, factor.g, factor.b}, maps_.size());
+  if (!fresh) return entry->second;
+
+  const auto& model = document_->model;
+  const auto& used =
+      model.textures[checked_index(*document_, texture, model.textures.size(), "the base colour texture of " + where)];
+  if (used.source < 0) {
+    refuse(*document_, "the base colour texture of " + where +
+                           " has no image that can be read (allowed: PNG or JPEG). Export its textures as PNG or JPEG, "
+                           "or give the material its reflectance: custom property 'reflectance', or --reflectance "
+                           "MATERIAL=R.");
+  }
+  const std::size_t index =
+      checked_index(*document_, used.source, model.images.size(), "the image of the base colour texture of " + where);
+  const auto& image = model.images[index];
+  const std::string name = !image.name.empty() ? image.name : !image.uri.empty() ? image.uri : std::to_string(index);
+  const std::string what = "the image " + in_quotes(name) + ", base colour of " + where + ",";
+  if (document_->images[index].empty()) {
+    refuse(*document_, what +
+                           " is not there. Put it beside the room's file, or give the material its reflectance: custom "
+                           "property 'reflectance', or --reflectance MATERIAL=R.");
+  }
+  ReflectanceMap map;
+  map.name = name;
+  if (used.sampler >= 0) {
+    const auto& sampler =
+        model.samplers[checked_index(*document_, used.sampler, model.samplers.size(), "the sampler of " + where)];
+    map.wrap_u = wrap_of(sampler.wrapS);
+    map.wrap_v = wrap_of(sampler.wrapT);
+  }
+  decode(*document_, document_->images[index], factor, what, map);
+  maps_.push_back(std::move(map));
+  return entry->second;
+}
+
+}  // namespace lichtmc

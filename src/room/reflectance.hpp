@@ -1,0 +1,69 @@
+// Reflectance at a place of a map.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lichtmc/room.hpp"
+
+namespace lichtmc {
+
+// The two neighbouring values that a texture coordinate lies between, and how far it is from the first to the second.
+// Values are at the middle of their pixels: the first of n at 0.5/n (glTF 2.0 specification, section 3.8.3).
+struct Between {
+  std::uint32_t first = 0;
+  std::uint32_t second = 0;
+  double share = 0.0;
+};
+
+inline Between pixels_about(double coordinate, std::uint32_t count, Wrap wrap) {
+  // Into one round, or one round and back, of the picture: what is left are numbers of its own size.
+  double place = coordinate;
+  if (wrap == Wrap::repeat) {
+    place -= std::floor(place);
+  } else if (wrap == Wrap::mirror) {
+    place -= 2.0 * std::floor(0.5 * place);
+    if (place > 1.0) place = 2.0 - place;
+  } else {
+    place = place < 0.0 ? 0.0 : place > 1.0 ? 1.0 : place;
+  }
+  const double pixel = place * count - 0.5;
+  const double low = std::floor(pixel);
+  const std::uint32_t last = count - 1;
+  Between between;
+  between.share = pixel - low;
+  // Beyond the rim lies the other rim of a repeated picture, else the rim itself.
+  between.first = low >= 0.0 ? static_cast<std::uint32_t>(low) : (wrap == Wrap::repeat ? last : 0);
+  between.second = low + 1.0 < count ? static_cast<std::uint32_t>(low + 1.0) : (wrap == Wrap::repeat ? 0 : last);
+  return between;
+}
+
+// ρ at a place of a map; u and v are finite.
+inline double reflectance_at(const ReflectanceMap& map, double u, double v) {
+  const Between column = pixels_about(u, map.columns, map.wrap_u);
+  const Between row = pixels_about(v, map.rows, map.wrap_v);
+  const float* first = map.values.data() + std::size_t{row.first} * map.columns;
+  const float* second = map.values.data() + std::size_t{row.second} * map.columns;
+  const auto along = [&column](const float* values) {
+    return double{values[column.first]} +
+           column.share * (double{values[column.second]} - double{values[column.first]});
+  };
+  const double a = along(first);
+  return a + row.share * (along(second) - a);
+}
+
+// The highest reflectance that surfaces have anywhere; of one with a map it is the highest value of the map.
+class HighestReflectance {
+ public:
+  explicit HighestReflectance(const Room& room);
+  double of(const Surface& surface) const {
+    return surface.reflectance_map ? of_map_[*surface.reflectance_map] : surface.reflectance;
+  }
+
+ private:
+  std::vector<double> of_map_;
+};
+
+}  // namespace lichtmc
