@@ -12,32 +12,27 @@
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "lichtmc/error.hpp"
-#include "lichtmc/gltf.hpp"
-#include "lichtmc/mend.hpp"
 #include "lichtmc/output.hpp"
 #include "lichtmc/simulate.hpp"
 #include "light_spec.hpp"
 #include "progress_line.hpp"
 #include "quantities.hpp"
+#include "room_options.hpp"
 
 namespace lichtmc::app {
 
 namespace {
 
 struct RunOptions {
-  std::string room;
+  RoomOptions reading;
   std::string output;
   std::string estimator = "collision";
   std::optional<std::string> photons;
-  std::optional<std::string> target_error, max_time, max_bounces, unit, max_reflectance;
+  std::optional<std::string> target_error, max_time, max_bounces;
   std::string tile = "0.1";
   std::string seed = "1";
   std::optional<int> threads;
   std::string engine = "auto";
-  std::vector<std::string> lights;
-  std::vector<std::string> reflectances;
-  std::string scene;
-  std::optional<int> uv_set;
   bool quiet = false;
 };
 
@@ -84,27 +79,6 @@ Settings parse_settings(const RunOptions& options) {
   settings.threads = static_cast<unsigned>(options.threads.value_or(0));
   settings.engine = parse_engine(options.engine);
   return settings;
-}
-
-Room read_room(const RunOptions& options) {
-  ReadOptions read;
-  read.uv_set = options.uv_set;
-  read.scene = options.scene;
-  if (options.unit) read.quantity = parse_unit(*options.unit, "--unit");
-  Room room = read_gltf(options.room, read);
-  if (options.unit) room.mended.push_back("Powers of the file are taken in " + *options.unit + ".");
-  for (const std::string& change : options.reflectances) {
-    const std::size_t equals = change.rfind('=');
-    if (equals == std::string::npos) {
-      throw InputError(
-          "The value '" + change +
-          "' of --reflectance cannot be used (allowed: MATERIAL=R). Give it in that form, for example Wall=0.6.");
-    }
-    set_reflectance(room, change.substr(0, equals), parse_number(change.substr(equals + 1), "--reflectance " + change));
-  }
-  if (options.max_reflectance) limit_reflectance(room, parse_number(*options.max_reflectance, "--max-reflectance"));
-  add_lights(room, options.lights);
-  return room;
 }
 
 std::string percent(double share) {
@@ -184,10 +158,10 @@ void print_outcome(const Result& result, const std::filesystem::path& folder) {
 
 void run(const RunOptions& options) {
   const Settings settings = parse_settings(options);
-  const Room room = read_room(options);
+  const Room room = read_room(options.reading);
   check_room(room);
   const std::filesystem::path folder = options.output.empty()
-                                           ? std::filesystem::path(options.room).stem().concat(".out")
+                                           ? std::filesystem::path(options.reading.file).stem().concat(".out")
                                            : std::filesystem::path(options.output);
   prepare_output(folder);
 
@@ -206,9 +180,7 @@ void run(const RunOptions& options) {
 }
 
 void add_options(CLI::App& command, RunOptions& options) {
-  command.add_option("room", options.room, "glTF 2.0 file (.gltf or .glb), metres, Y up")
-      ->required()
-      ->type_name("ROOM");
+  add_room_argument(command, options.reading);
   command.add_option("-o,--output", options.output, "Folder for the results [name of ROOM with .out]")
       ->type_name("DIR");
 
@@ -257,32 +229,7 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->capture_default_str()
       ->group(method);
 
-  const std::string reading = "How to read the room";
-  command.add_option("--light", options.lights, light_help)
-      ->type_name("LIGHT")
-      ->expected(1)
-      ->take_all()
-      ->group(reading);
-  command.add_option("--reflectance", options.reflectances, "Set a material's reflectance, 0 to 1 (repeatable)")
-      ->type_name("MATERIAL=R")
-      ->expected(1)
-      ->take_all()
-      ->group(reading);
-  command.add_option("--max-reflectance", options.max_reflectance, "Lower every reflectance above this to it, 0 to 1")
-      ->type_name("R")
-      ->group(reading);
-  command.add_option("--unit", options.unit, "Take the file's powers in W or in lm [what the file says]")
-      ->type_name("W|lm")
-      ->group(reading);
-  command
-      .add_option("--uv-set", options.uv_set,
-                  "Texture coordinates for the tiles, the n of TEXCOORD_n [1 if present, else 0]")
-      ->type_name("N")
-      ->group(reading);
-  command.add_option("--scene", options.scene, "Name of the scene to take [the file's default scene]")
-      ->type_name("NAME")
-      ->group(reading);
-
+  add_room_options(command, options.reading);
   command.add_flag("--quiet", options.quiet, "No progress, no summary; only errors");
 }
 

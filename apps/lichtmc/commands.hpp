@@ -1,4 +1,5 @@
-// The commands of the program: one file each, which adds the command and its options to the command line.
+// The commands of the program: one file each, which adds the command and its options to the command line. A command
+// whose outcome is more than done or failed sets the exit status.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,5 +8,6 @@ namespace lichtmc::app {
 
 void add_run_command(CLI::App& program);
 void add_cuboid_command(CLI::App& program);
+void add_check_command(CLI::App& program, int& status);
 
 }  // namespace lichtmc::app

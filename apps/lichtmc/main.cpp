@@ -29,7 +29,8 @@ void check_command(CLI::App& program, int argc, char** argv) {
                             "). See lichtmc --help.");
 }
 
-void run_program(int argc, char** argv) {
+int run_program(int argc, char** argv) {
+  int status = 0;
   CLI::App program{
       "How much light arrives where in a room, and how sure is that number: lichtmc follows light packets from the\n"
       "lamps of a glTF room over its diffusely reflecting surfaces and measures the irradiance (W/m^2) or\n"
@@ -38,25 +39,26 @@ void run_program(int argc, char** argv) {
   program.set_version_flag("--version", std::string("lichtmc ") + std::string(lichtmc::version()));
   program.require_subcommand(1);
   program.footer(
-      "Start with:  lichtmc run room.glb\n"
+      "Start with:  lichtmc check room.glb, then lichtmc run room.glb\n"
       "More on a command:  lichtmc COMMAND --help\n"
       "Exit status: 0 done; 1 the run failed; 2 the command line or an input is wrong.");
   lichtmc::app::add_run_command(program);
   lichtmc::app::add_cuboid_command(program);
+  lichtmc::app::add_check_command(program, status);
   try {
     check_command(program, argc, argv);
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help and --version
     program.exit(asked);
   }
+  return status;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    run_program(argc, argv);
-    return 0;
+    return run_program(argc, argv);
   } catch (const CLI::ParseError& error) {
     return fail(std::string(error.what()) + "\nSee lichtmc --help, or lichtmc COMMAND --help.", exit_wrong_input);
   } catch (const lichtmc::InputError& error) {

@@ -66,4 +66,7 @@ struct Tiling {
 // number above 0 or the room would get more than 2^31 cells or than the machine's memory holds.
 Tiling make_tiling(const Room& room, double edge_m);
 
+// About how many bytes of memory a run with one thread takes for the tiles of a room.
+double memory_needed(const Tiling& tiling);
+
 }  // namespace lichtmc

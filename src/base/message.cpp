@@ -11,6 +11,12 @@ std::string to_text(double value) {
   return {text.data(), end};
 }
 
+std::string short_number(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3).ptr;
+  return {text.data(), end};
+}
+
 std::string to_text(std::size_t count, std::string_view singular) {
   std::string text = std::to_string(count) + " " + std::string(singular);
   if (count != 1) text += "s";

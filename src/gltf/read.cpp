@@ -95,12 +95,12 @@ class RoomReader {
   }
 
   void add_surface(Surface surface, const std::string& name, const Material& material, const std::string& where) {
-    if (surface.without_area > 0) {
-      room_.ignored.push_back({to_text(surface.without_area, "triangle") + " without area in " + where +
-                                   ": no light can fall on them.",
-                               Effect::none});
+    if (surface.triangles.empty()) {
+      note("No triangle of " + where + " has an area (of " + std::to_string(surface.without_area) +
+               "): no light can fall on it.",
+           Effect::none);
+      return;
     }
-    if (surface.triangles.empty()) return;
     triangles_ += surface.triangles.size();
     if (triangles_ > most_triangles) {
       refuse(*document_, "the room has more than " + std::to_string(most_triangles) +

@@ -1,32 +1,13 @@
-#include <cmath>
 #include <string>
-
-#include <nlohmann/json.hpp>
 
 #include "lichtmc/output.hpp"
 #include "lichtmc/version.hpp"
+#include "output/json.hpp"
 #include "output/tile_image.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// JSON has no word for what is not a number.
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-const char* kind_of(const Emitter& emitter) {
-  struct Kind {
-    const char* operator()(const IsotropicEmitter&) const { return "isotropic"; }
-    const char* operator()(const LambertEmitter&) const { return "lambert"; }
-    const char* operator()(const SpotEmitter&) const { return "spot"; }
-    const char* operator()(const SurfaceEmitter&) const { return "surface"; }
-  };
-  return std::visit(Kind{}, emitter.shape);
-}
 
 Json surfaces_of(const Result& result) {
   Json surfaces = Json::array();
@@ -59,14 +40,6 @@ Json texts_of(const std::vector<Ignored>& ignored) {
   Json texts = Json::array();
   for (const Ignored& thing : ignored) texts.push_back(thing.what);
   return texts;
-}
-
-Json emitters_of(const Room& room) {
-  Json emitters = Json::array();
-  for (const Emitter& emitter : room.emitters) {
-    emitters.push_back({{"name", emitter.name}, {"kind", kind_of(emitter)}, {"power", number(emitter.power)}});
-  }
-  return emitters;
 }
 
 // The unit of every figure in the summary and the tables.
@@ -138,8 +111,7 @@ std::string summary_json(const Room& room, const Result& result) {
   summary["retraced"] = result.retraced;
   summary["lost_histories"] = result.lost_histories;
   summary["units"] = units_of(result);
-  // Names in files may hold bytes that are no UTF-8; they are replaced, not refused at the end of a long run.
-  return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(summary);
 }
 
 }  // namespace lichtmc

@@ -1,24 +1,22 @@
 // Closed shells: from inside one, no light can leave through an opening.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "lichtmc/room.hpp"
+#include "room/welded_mesh.hpp"
 
 namespace lichtmc {
 
 // The closed shells of a room: connected sets of triangles in which every edge belongs to an even number of triangles.
-// Corners are one where they lie within a millionth of the room's size of each other. Triangles with the same corners
-// count once, whatever their winding. Sheets with a rim, and meshes whose neighbours meet in the middle of an edge, are
-// not closed in this sense: the answer "not enclosed" is the safe one.
+// Sheets with a rim, and meshes whose neighbours meet in the middle of an edge, are not closed in this sense: the answer
+// "not enclosed" is the safe one.
 class Enclosure {
  public:
-  explicit Enclosure(const Room& room);
+  explicit Enclosure(const Room& room) : Enclosure(WeldedMesh(room)) {}
+  explicit Enclosure(const WeldedMesh& mesh);
 
   bool has_closed_shell() const { return !shells_.empty(); }
 
@@ -27,8 +25,7 @@ class Enclosure {
   bool encloses(const glm::dvec3& point_m) const;
 
  private:
-  using Triangle = std::array<glm::dvec3, 3>;
-  using Shell = std::vector<Triangle>;
+  using Shell = std::vector<WeldedMesh::Corners>;
 
   std::vector<Shell> shells_;
 };

@@ -10,6 +10,7 @@
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
+#include "room/room_check.hpp"
 
 namespace lichtmc {
 
@@ -150,7 +151,7 @@ void check_receiver(const Room& room, const Receiver& receiver) {
 
 }  // namespace
 
-void check_room(const Room& room) {
+void check_surfaces(const Room& room) {
   for (const ReflectanceMap& map : room.reflectance_maps) check_map(room, map);
   std::set<std::string> names;
   for (const Surface& surface : room.surfaces) {
@@ -166,6 +167,9 @@ void check_room(const Room& room) {
     throw InputError("There is no triangle with an area in " + room.source +
                      " (allowed: at least one). Export the room's meshes with it, as triangles.");
   }
+}
+
+void check_emitters(const Room& room) {
   if (room.emitters.empty()) {
     throw InputError("There is no emitter in " + room.source +
                      " (allowed: at least one). Add a point or spot light or an emissive material to the room, or give "
@@ -183,6 +187,11 @@ void check_room(const Room& room) {
   require(power > 0.0 && std::isfinite(power), room,
           "sum of the emitters' powers in " + std::string(power_unit(room.quantity)), power, "a finite number above 0",
           "Give an emitter a power.");
+}
+
+void check_room(const Room& room) {
+  check_surfaces(room);
+  check_emitters(room);
   for (const Receiver& receiver : room.receivers) check_receiver(room, receiver);
 }
 

@@ -193,6 +193,12 @@ void add_back(Tiling& tiling, std::size_t first_tile) {
 
 }  // namespace
 
+double memory_needed(const Tiling& tiling) {
+  double cells = 0.0;
+  for (const TileMap& map : tiling.maps) cells += static_cast<double>(map.tile_of_cell.size());
+  return bytes_per_cell * cells;
+}
+
 Tiling make_tiling(const Room& room, double edge_m) {
   if (!(edge_m > 0.0) || !std::isfinite(edge_m)) {
     throw InputError("The tile edge is " + to_text(edge_m) +

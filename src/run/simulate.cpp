@@ -50,6 +50,11 @@ StopReason run_until_stopped(Crew& crew, const Scores& scores, const Tiling& til
 
 std::vector<Ignored> ignored_by_run(const Room& room) {
   std::vector<Ignored> ignored = room.ignored;
+  std::size_t without_area = 0;
+  for (const Surface& surface : room.surfaces) without_area += surface.without_area;
+  if (without_area > 0) {
+    ignored.push_back({to_text(without_area, "triangle") + " without area: no light can fall on them.", Effect::none});
+  }
   if (!room.receivers.empty()) {
     ignored.push_back({to_text(room.receivers.size(), "receiver") + " (" + in_quotes(room.receivers.front().name) +
                            (room.receivers.size() > 1 ? ", …" : "") + "): a forward run measures tiles, not points.",

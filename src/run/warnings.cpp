@@ -1,6 +1,5 @@
 #include "run/warnings.hpp"
 
-#include <cstdio>
 #include <limits>
 #include <variant>
 
@@ -12,12 +11,6 @@
 namespace lichtmc {
 
 namespace {
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 std::string percent(double share) {
   return short_number(100.0 * share) + " %";
@@ -41,7 +34,10 @@ Bounds bounds_of(const Room& room) {
   return bounds;
 }
 
-void warn_of_emitters_outside(const Room& room, std::vector<std::string>& warnings) {
+}  // namespace
+
+std::vector<OutsideEmitter> emitters_outside(const Room& room) {
+  std::vector<OutsideEmitter> outside;
   const Bounds bounds = bounds_of(room);
   for (const Emitter& emitter : room.emitters) {
     std::visit(
@@ -52,22 +48,21 @@ void warn_of_emitters_outside(const Room& room, std::vector<std::string>& warnin
             std::string range;
             for (int k = 0; k < 3; ++k)
               range += (k > 0 ? ", " : "") + short_number(bounds.low[k]) + " to " + short_number(bounds.high[k]);
-            warnings.push_back("Emitter " + in_quotes(emitter.name) + " at (" + short_number(p.x) + ", " +
-                               short_number(p.y) + ", " + short_number(p.z) +
-                               ") m lies outside the room, which reaches from x, y, z = " + range +
-                               " m. Check its position; Y is up.");
+            outside.push_back({"Emitter " + in_quotes(emitter.name) + " at (" + short_number(p.x) + ", " +
+                                   short_number(p.y) + ", " + short_number(p.z) +
+                                   ") m lies outside the room, which reaches from x, y, z = " + range + " m.",
+                               "Check its position; Y is up."});
           }
         },
         emitter.shape);
   }
+  return outside;
 }
-
-}  // namespace
 
 std::vector<std::string> warnings_of(const Room& room, const Result& result) {
   std::vector<std::string> warnings;
   const Balance& balance = result.balance;
-  warn_of_emitters_outside(room, warnings);
+  for (const OutsideEmitter& outside : emitters_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
   if (result.impacts == 0) {
     warnings.push_back(
         "No light met any surface. Check where the emitters are and which way they shine; a shining surface shines "

@@ -122,6 +122,10 @@ class CuboidTracer final : public Tracer {
     return false;
   }
 
+  glm::dvec3 world_point(const glm::vec3& point) const override {
+    return corner_ + glm::inverse(points_) * glm::dvec3(point);
+  }
+
   TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const override {
     return triangles_[surface][triangle];
   }

@@ -150,6 +150,8 @@ class EmbreeTracer final : public Tracer {
 
   Start start(const glm::dvec3& world_point_m) const override;
 
+  glm::dvec3 world_point(const glm::vec3& point) const override { return centre_ + glm::dvec3(point) / scale_; }
+
   TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const override {
     return {static_cast<std::uint32_t>(first_facet_[surface] + triangle), {0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}};
   }

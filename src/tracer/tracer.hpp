@@ -63,6 +63,9 @@ class Tracer {
   virtual Start start(const glm::dvec3& world_point_m) const = 0;
   virtual TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const = 0;
 
+  // A point in the tracer's coordinates → the world, in m.
+  virtual glm::dvec3 world_point(const glm::vec3& point) const = 0;
+
   const std::vector<Facet>& facets() const { return facets_; }
   // World direction → the tracer's coordinates.
   const glm::dmat3& directions() const { return directions_; }

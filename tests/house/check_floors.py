@@ -15,6 +15,7 @@ BELOW = {
     "tracer": ["base", "chance", "room"],
     "walk": ["base", "chance", "room", "tracer"],
     "run": ["base", "chance", "room", "tracer", "walk"],
+    "inspect": ["base", "chance", "room", "tracer", "walk", "run"],
     "gltf": ["base", "chance", "room"],
     "output": ["base", "chance", "room"],
 }
@@ -23,16 +24,19 @@ PUBLIC = {
     "error": "base", "units": "base", "version": "base",
     "room": "room", "cuboid": "room", "mend": "room", "tiles": "room",
     "settings": "room",  # plain data that every floor may read
-    "result": "run", "simulate": "run",
+    "result": "run", "simulate": "run", "inspect": "inspect",
     "gltf": "gltf", "output": "output",
 }
-WINGS_SEE_RESULTS = {"output": ["result"], "gltf": []}
+WINGS_SEE_RESULTS = {"output": ["result", "inspect"], "gltf": []}
 # Libraries that one file or folder alone may name.
 LIBRARIES = {
     r"embree\d?/": ["src/tracer/embree.hpp"],
     r"tiny_gltf": ["src/gltf/"],
     r"Imf|OpenEXR": ["src/output/", "tests/"],
     r"CLI/": ["apps/"],
+    r"draco/": ["src/gltf/"],
+    r"meshoptimizer": ["src/gltf/"],
+    r"stb/": ["src/gltf/", "src/output/"],
 }
 
 

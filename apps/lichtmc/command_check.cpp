@@ -1,0 +1,167 @@
+// lichtmc check: what is in a room's file, what will be modelled, and what looks wrong.
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "lichtmc/inspect.hpp"
+#include "light_spec.hpp"
+#include "quantities.hpp"
+#include "room_options.hpp"
+
+namespace lichtmc::app {
+
+namespace {
+
+struct CheckOptions {
+  RoomOptions reading;
+  std::string tile = "0.1";
+  bool json = false;
+  bool strict = false;
+};
+
+constexpr int exit_done = 0;
+constexpr int exit_warned = 1;
+constexpr int exit_unusable = 2;
+
+std::string figure(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string row(const char* name, const std::string& text) {
+  char line[32];
+  std::snprintf(line, sizeof line, "  %-12s", name);
+  return line + text + "\n";
+}
+
+std::string point(const glm::dvec3& p) {
+  return "(" + figure(p.x) + ", " + figure(p.y) + ", " + figure(p.z) + ")";
+}
+
+// Materials with what they reflect and how much of the room they cover.
+void print_materials(const Inspection& facts) {
+  struct Cover {
+    double low = 1.0;
+    double high = 0.0;
+    double area = 0.0;
+  };
+  std::map<std::string, Cover> covers;
+  for (const SurfaceFacts& surface : facts.surfaces) {
+    Cover& cover = covers[surface.material];
+    cover.low = std::min(cover.low, surface.reflectance);
+    cover.high = std::max(cover.high, surface.reflectance);
+    cover.area += surface.area_m2;
+  }
+  std::cout << "\nMaterials (reflectance, area)\n";
+  for (const auto& [name, cover] : covers) {
+    const bool several = figure(cover.low) != figure(cover.high);
+    std::cout << "  " << (name.empty() ? "(no name)" : name) << ": "
+              << (several ? figure(cover.low) + " to " + figure(cover.high) : figure(cover.high)) << ", "
+              << figure(cover.area) << " m^2\n";
+  }
+}
+
+void print_emitters(const Room& room) {
+  constexpr std::size_t shown = 20;
+  const std::string unit(power_unit(room.quantity));
+  std::cout << "\nEmitters (" << room.emitters.size() << ", together " << figure(total_power(room)) << ' ' << unit
+            << ")\n";
+  for (std::size_t k = 0; k < std::min(shown, room.emitters.size()); ++k)
+    std::cout << "  " << room.emitters[k].name << ": " << figure(room.emitters[k].power) << ' ' << unit << '\n';
+  if (room.emitters.size() > shown)
+    std::cout << "  … and " << room.emitters.size() - shown << " more (--json lists all)\n";
+}
+
+void print_facts(const Room& room, const Inspection& facts) {
+  const glm::dvec3 size = facts.high - facts.low;
+  std::cout << room.source << '\n';
+  std::cout << row("Size", figure(size.x) + " x " + figure(size.y) + " x " + figure(size.z) + " m (x, height y, z), from " +
+                               point(facts.low) + " to " + point(facts.high));
+  std::cout << row("Meshes", std::to_string(facts.triangles) + " triangles in " + std::to_string(facts.surfaces.size()) +
+                                 " surfaces; " + std::to_string(facts.tiles) + " tiles");
+  std::cout << row("Shape", std::string(facts.cuboid ? "empty cuboid, " : "") + (facts.convex ? "convex, " : "not convex, ") +
+                                (facts.closed ? "closed" : "not closed"));
+  std::cout << row("Receivers", std::to_string(room.receivers.size()));
+  for (const std::string& change : room.mended) std::cout << row("Mended", change);
+  print_materials(facts);
+  print_emitters(room);
+}
+
+// A finding: what is there, and below it what to do.
+void print_finding(const char* word, const Finding& finding) {
+  std::cout << word << ": " << finding.text << "\n    -> " << finding.advice << '\n';
+}
+
+void print_findings(const Inspection& facts) {
+  constexpr std::size_t most_of_a_topic = 5;
+  std::cout << '\n';
+  std::map<std::string, std::size_t> notes;  // by topic
+  for (const Finding& finding : facts.findings) {
+    switch (finding.severity) {
+      case Severity::fault:
+        print_finding("FAULT", finding);
+        break;
+      case Severity::warning:
+        print_finding("Warning", finding);
+        break;
+      case Severity::note:
+        if (++notes[finding.topic] <= most_of_a_topic) print_finding("Note", finding);
+        break;
+    }
+  }
+  for (const auto& [topic, count] : notes) {
+    if (count > most_of_a_topic)
+      std::cout << "Note: " << count - most_of_a_topic << " more like these (" << topic << "); --json lists all.\n";
+  }
+  const std::size_t faults = facts.count(Severity::fault);
+  const std::size_t warnings = facts.count(Severity::warning);
+  std::cout << '\n'
+            << (faults > 0 ? "'lichtmc run' would refuse this room as it is: "
+                           : "'lichtmc run' takes this room with the same options: ")
+            << faults << (faults == 1 ? " fault, " : " faults, ") << warnings
+            << (warnings == 1 ? " warning.\n" : " warnings.\n");
+}
+
+int check(const CheckOptions& options) {
+  const Room room = read_room(options.reading);
+  const Inspection facts = inspect(room, parse_number(options.tile, "--tile"));
+  if (options.json) {
+    std::cout << inspection_json(room, facts);
+  } else {
+    print_facts(room, facts);
+    print_findings(facts);
+  }
+  if (facts.count(Severity::fault) > 0) return exit_unusable;
+  return options.strict && facts.count(Severity::warning) > 0 ? exit_warned : exit_done;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& program, int& status) {
+  CLI::App* command =
+      program.add_subcommand("check", "Look a room over: what will be modelled, what looks wrong, what to do");
+  auto options = std::make_shared<CheckOptions>();
+  add_room_argument(*command, options->reading);
+  command->add_flag("--json", options->json, "Everything as JSON, for programs");
+  command->add_flag("--strict", options->strict, "Exit with 1 where there is a warning");
+  command->add_option("--tile", options->tile, "Edge of a tile in metres")->type_name("M")->capture_default_str();
+  add_room_options(*command, options->reading);
+  command->footer(
+      std::string("Some hundred thousand rays are shot to see whether light leaves the room and which side of its faces "
+                  "it meets.\n\n") +
+      light_forms +
+      "\nExamples:\n"
+      "  lichtmc check room.glb\n"
+      "  lichtmc check hall.glb --scale 0.01 --light point:5,3,5:8000lm --max-reflectance 0.9\n"
+      "Exit status: 0 the room can be simulated, perhaps with warnings; 1 with --strict, there are warnings; 2 it "
+      "cannot.");
+  command->callback([options, &status] { status = check(*options); });
+}
+
+}  // namespace lichtmc::app

@@ -1,0 +1,102 @@
+#include "room_options.hpp"
+
+#include <utility>
+
+#include "lichtmc/error.hpp"
+#include "lichtmc/gltf.hpp"
+#include "lichtmc/mend.hpp"
+#include "light_spec.hpp"
+#include "quantities.hpp"
+
+namespace lichtmc::app {
+
+namespace {
+
+// A material with the reflectance that it is to have.
+struct NewReflectance {
+  std::string material;
+  double value = 0.0;
+};
+
+NewReflectance parse_reflectance(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string::npos) {
+    throw InputError(
+        "The value '" + text +
+        "' of --reflectance cannot be used (allowed: MATERIAL=R). Give it in that form, for example Wall=0.6.");
+  }
+  return {text.substr(0, equals), parse_number(text.substr(equals + 1), "--reflectance " + text)};
+}
+
+UpAxis parse_up(const std::string& text) {
+  if (text == "y" || text == "Y") return UpAxis::y;
+  if (text == "z" || text == "Z") return UpAxis::z;
+  throw InputError("The axis '" + text + "' of --up is not known (allowed: y or z). Give the axis that points up.");
+}
+
+}  // namespace
+
+void add_room_argument(CLI::App& command, RoomOptions& options) {
+  command.add_option("room", options.file, "glTF 2.0 file (.gltf or .glb), metres, Y up")
+      ->required()
+      ->type_name("ROOM");
+}
+
+void add_room_options(CLI::App& command, RoomOptions& options) {
+  const std::string reading = "How to read the room";
+  command.add_option("--light", options.lights, light_help)
+      ->type_name("LIGHT")
+      ->expected(1)
+      ->take_all()
+      ->group(reading);
+  command.add_option("--reflectance", options.reflectances, "Set a material's reflectance, 0 to 1 (repeatable)")
+      ->type_name("MATERIAL=R")
+      ->expected(1)
+      ->take_all()
+      ->group(reading);
+  command.add_option("--max-reflectance", options.max_reflectance, "Lower every reflectance above this to it, 0 to 1")
+      ->type_name("R")
+      ->group(reading);
+  command
+      .add_option("--scale", options.scale,
+                  "Metres that a unit of the file is: 0.01 for a file in centimetres, 0.0254 for inches [1]")
+      ->type_name("F")
+      ->group(reading);
+  command.add_option("--up", options.up, "Axis of the file that points up: y as in glTF, or z")
+      ->type_name("y|z")
+      ->capture_default_str()
+      ->group(reading);
+  command.add_option("--unit", options.unit, "Take the file's powers in W or in lm [what the file says]")
+      ->type_name("W|lm")
+      ->group(reading);
+  command
+      .add_option("--uv-set", options.uv_set,
+                  "Texture coordinates for the tiles, the n of TEXCOORD_n [1 if present, else 0]")
+      ->type_name("N")
+      ->group(reading);
+  command.add_option("--scene", options.scene, "Name of the scene to take [the file's default scene]")
+      ->type_name("NAME")
+      ->group(reading);
+}
+
+Room read_room(const RoomOptions& options) {
+  std::vector<NewReflectance> reflectances;
+  ReadOptions read;
+  read.uv_set = options.uv_set;
+  read.scene = options.scene;
+  read.up = parse_up(options.up);
+  if (options.scale) read.scale = parse_number(*options.scale, "--scale");
+  if (options.unit) read.quantity = parse_unit(*options.unit, "--unit");
+  for (const std::string& text : options.reflectances) {
+    reflectances.push_back(parse_reflectance(text));
+    read.numbered_materials.push_back(reflectances.back().material);
+  }
+  Room room = read_gltf(options.file, read);
+  if (options.unit) room.mended.push_back("Powers of the file are taken in " + *options.unit + ".");
+  for (const NewReflectance& change : reflectances) set_reflectance(room, change.material, change.value);
+  if (options.max_reflectance) limit_reflectance(room, parse_number(*options.max_reflectance, "--max-reflectance"));
+  add_lights(room, options.lights);
+  return room;
+}
+
+}  // namespace lichtmc::app

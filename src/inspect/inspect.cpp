@@ -1,0 +1,150 @@
+#include "lichtmc/inspect.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "inspect/findings.hpp"
+#include "inspect/guesses.hpp"
+#include "inspect/probe.hpp"
+#include "lichtmc/error.hpp"
+#include "room/convexity.hpp"
+#include "room/cuboid_shape.hpp"
+#include "room/reflectance.hpp"
+#include "room/room_check.hpp"
+#include "room/welded_mesh.hpp"
+#include "walk/scene.hpp"
+#include "walk/trap.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+void find_bounds(const Room& room, Inspection& facts) {
+  bool first = true;
+  for (const Surface& surface : room.surfaces) {
+    facts.triangles += surface.triangles.size();
+    facts.triangles_without_area += surface.without_area;
+    for (const glm::uvec3& t : surface.triangles) {
+      for (int k = 0; k < 3; ++k) {
+        const glm::dvec3& p = surface.positions[t[k]];
+        facts.low = first ? p : glm::min(facts.low, p);
+        facts.high = first ? p : glm::max(facts.high, p);
+        first = false;
+      }
+    }
+  }
+}
+
+void look_at_mesh(const WeldedMesh& mesh, Inspection& facts) {
+  constexpr std::size_t places = 5;
+  facts.duplicate_triangles = mesh.copies().size();
+  for_each_edge(mesh.edges(), [&](std::size_t first, std::size_t end) {
+    if (end - first != 1) return;
+    const WeldedEdge& edge = mesh.edges()[first];
+    if (facts.open_edges++ < places)
+      facts.open_edge_places.push_back(0.5 * (mesh.places()[edge.from] + mesh.places()[edge.to]));
+  });
+  facts.convex = is_convex(mesh);
+}
+
+void look_at_surfaces(const Room& room, Inspection& facts) {
+  const HighestReflectance highest(room);
+  for (const Surface& surface : room.surfaces) {
+    SurfaceFacts& one = facts.surfaces.emplace_back();
+    one.name = surface.name;
+    one.material = surface.material;
+    one.reflectance = surface.reflectance;
+    one.highest_reflectance = highest.of(surface);
+    one.area_m2 = surface_area(surface);
+    one.triangles = surface.triangles.size();
+    one.triangles_without_area = surface.without_area;
+    one.sides = surface.sides;
+  }
+}
+
+void look_at_tiles(const Tiling& tiling, double tile_edge_m, Inspection& facts) {
+  for (const TileMap& map : tiling.maps) {
+    SurfaceFacts& surface = facts.surfaces[map.surface];
+    surface.chart = map.chart;
+    surface.chart_reason = map.chart_reason;
+    // Cells are about as large as asked for; what that is exactly depends on the chart.
+    if (map.side == Side::front && surface.area_m2 > 0.0)
+      surface.cells_over_area = static_cast<double>(map.tile_of_cell.size()) * tile_edge_m * tile_edge_m / surface.area_m2;
+  }
+  for (const Tile& tile : tiling.tiles) ++facts.surfaces[tiling.maps[tile.map].surface].tiles;
+  facts.tiles = tiling.tiles.size();
+  facts.memory_bytes = memory_needed(tiling);
+}
+
+// The tiles as asked for; where they are more than memory holds that is a fault, and rays do with a tile for a surface.
+Tiling tiling_within_memory(const Room& room, double tile_edge_m, Inspection& facts) {
+  try {
+    return make_tiling(room, tile_edge_m);
+  } catch (const InputError& fault) {
+    if (!(tile_edge_m > 0.0) || !std::isfinite(tile_edge_m)) throw;
+    add_fault(fault.what(), "tiles", facts.findings);
+    return make_tiling(room, std::numeric_limits<double>::max());
+  }
+}
+
+// The room with light in it: its own, where that is sound, else a lamp at a place inside.
+Room room_for_probe(const Room& room, bool lit, const glm::dvec3& inside) {
+  Room copy = room;
+  if (!lit) copy.emitters = {{"probe", 1.0, IsotropicEmitter{inside}}};
+  return copy;
+}
+
+void shoot_rays(const Room& room, const Tiling& tiling, bool own_light, Inspection& facts) {
+  facts.inside = find_inside(room, *make_embree_tracer(room, tiling), facts.low, facts.high);
+  const Room lit = room_for_probe(room, own_light, facts.inside);
+  const Scene scene(lit, tiling, Engine::embree);
+  facts.closed = scene.misses == Misses::retrace;
+  const ProbeResult result = probe(lit, scene, facts.low, facts.high);
+  facts.flights = result.flights;
+  facts.flights_that_left = result.left;
+  facts.openings = result.openings;
+  for (std::size_t k = 0; k < facts.surfaces.size(); ++k) {
+    if (result.impacts[k] == 0) continue;
+    facts.surfaces[k].seen_from_behind =
+        static_cast<double>(result.behind[k]) / static_cast<double>(result.impacts[k]);
+  }
+  if (traps_light(scene, 1)) add_trap(facts.findings);
+}
+
+}  // namespace
+
+std::size_t Inspection::count(Severity severity) const {
+  return static_cast<std::size_t>(std::count_if(
+      findings.begin(), findings.end(), [severity](const Finding& finding) { return finding.severity == severity; }));
+}
+
+Inspection inspect(const Room& room, double tile_edge_m) {
+  check_surfaces(room);
+  Inspection facts;
+  bool own_light = true;
+  try {
+    check_room(room);
+  } catch (const InputError& fault) {
+    own_light = false;
+    add_fault(fault.what(), "emitters", facts.findings);
+  }
+  find_bounds(room, facts);
+  look_at_mesh(WeldedMesh(room), facts);
+  facts.cuboid = recognise_cuboid(room).has_value();
+  facts.looks_z_up = looks_z_up(room, facts.high - facts.low);
+  if (const auto unit = guess_unit(facts.high - facts.low)) facts.suggested_scale = unit->metres;
+  look_at_surfaces(room, facts);
+  const Tiling tiling = tiling_within_memory(room, tile_edge_m, facts);
+  look_at_tiles(tiling, tile_edge_m, facts);
+  shoot_rays(room, tiling, own_light, facts);
+  add_findings(room, facts);
+  std::stable_sort(facts.findings.begin(), facts.findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+  return facts;
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,114 @@
+#include <string>
+
+#include "lichtmc/inspect.hpp"
+#include "lichtmc/version.hpp"
+#include "output/json.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+Json point(const glm::dvec3& p) {
+  return {number(p.x), number(p.y), number(p.z)};
+}
+
+const char* word_for(Severity severity) {
+  switch (severity) {
+    case Severity::note:
+      return "note";
+    case Severity::warning:
+      return "warning";
+    case Severity::fault:
+      return "fault";
+  }
+  return "";
+}
+
+Json surfaces_of(const Inspection& inspection) {
+  Json surfaces = Json::array();
+  for (const SurfaceFacts& s : inspection.surfaces) {
+    Json entry{{"name", s.name},
+               {"material", s.material},
+               {"reflectance", number(s.reflectance)},
+               {"highest_reflectance", number(s.highest_reflectance)},
+               {"area", number(s.area_m2)},
+               {"two_sided", s.sides == Sides::both},
+               {"triangles", s.triangles},
+               {"triangles_without_area", s.triangles_without_area},
+               {"tiles", s.tiles},
+               {"cells_over_area", number(s.cells_over_area)},
+               {"seen_from_behind", number(s.seen_from_behind)}};
+    if (s.chart == ChartSource::engine) entry["chart"] = "made by lichtmc: " + s.chart_reason;
+    surfaces.push_back(entry);
+  }
+  return surfaces;
+}
+
+Json openings_of(const Inspection& inspection) {
+  Json openings = Json::array();
+  for (const Opening& opening : inspection.openings) {
+    openings.push_back({{"side", opening.side},
+                        {"share", number(opening.share)},
+                        {"place", point(opening.place)},
+                        {"from", opening.from}});
+  }
+  return openings;
+}
+
+Json receivers_of(const Room& room) {
+  Json receivers = Json::array();
+  for (const Receiver& r : room.receivers) {
+    receivers.push_back({{"name", r.name},
+                         {"position", point(r.position)},
+                         {"normal", point(r.normal)},
+                         {"fov", number(r.half_angle_deg)},
+                         {"area", number(r.area_m2)}});
+  }
+  return receivers;
+}
+
+}  // namespace
+
+std::string inspection_json(const Room& room, const Inspection& inspection) {
+  Json findings = Json::array();
+  for (const Finding& finding : inspection.findings) {
+    findings.push_back({{"severity", word_for(finding.severity)},
+                        {"topic", finding.topic},
+                        {"text", finding.text},
+                        {"advice", finding.advice}});
+  }
+  Json places = Json::array();
+  for (const glm::dvec3& p : inspection.open_edge_places) places.push_back(point(p));
+  const Json json{{"version", std::string(version())},
+                  {"room", room.source},
+                  {"unit", std::string(power_unit(room.quantity))},
+                  {"usable", inspection.count(Severity::fault) == 0},
+                  {"faults", inspection.count(Severity::fault)},
+                  {"warnings", inspection.count(Severity::warning)},
+                  {"low", point(inspection.low)},
+                  {"high", point(inspection.high)},
+                  {"suggested_scale", number(inspection.suggested_scale)},
+                  {"suggested_up", inspection.looks_z_up ? "z" : "y"},
+                  {"triangles", inspection.triangles},
+                  {"triangles_without_area", inspection.triangles_without_area},
+                  {"duplicate_triangles", inspection.duplicate_triangles},
+                  {"open_edges", inspection.open_edges},
+                  {"open_edge_places", places},
+                  {"cuboid", inspection.cuboid},
+                  {"convex", inspection.convex},
+                  {"closed", inspection.closed},
+                  {"inside", point(inspection.inside)},
+                  {"flights", inspection.flights},
+                  {"flights_that_left", inspection.flights_that_left},
+                  {"openings", openings_of(inspection)},
+                  {"tiles", inspection.tiles},
+                  {"memory_bytes", number(inspection.memory_bytes)},
+                  {"surfaces", surfaces_of(inspection)},
+                  {"emitters", emitters_of(room)},
+                  {"receivers", receivers_of(room)},
+                  {"mended", room.mended},
+                  {"findings", findings}};
+  return json_text(json);
+}
+
+}  // namespace lichtmc
