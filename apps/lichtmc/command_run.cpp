@@ -147,7 +147,7 @@ void print_outcome(const Result& result, const std::filesystem::path& folder) {
   std::cerr << result.tiles.size() << " tiles, relative standard error " << percent(result.rms_relative_error)
             << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of those that were hit)" : ")");
   if (result.tiles_without_hits > 0)
-    std::cerr << "; " << result.tiles_without_hits << " were not hit, their error is unknown";
+    std::cerr << "; " << result.tiles_without_hits << " were not hit";
   std::cerr << ".\n";
   warn_of_missed_target(result.settings, result);
   for (const std::string& warning : result.warnings) std::cerr << "Warning: " << warning << '\n';

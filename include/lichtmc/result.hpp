@@ -18,8 +18,9 @@ enum class StopReason { photons, target_error, max_time, interrupt };
 // "photons", "target-error", "max-time" or "interrupt".
 std::string_view to_string(StopReason reason);
 
-// One tile. A tile that nothing hit has irradiance 0 and standard error NaN: its error is unknown, not zero. So it is
-// for every tile where fewer than two batches of 1024 histories were simulated.
+// One tile. A tile that nothing hit has irradiance 0 and the standard error of 1.148 hits: the truth lies between 0 and
+// that with the probability of one standard error, 68 %. Where fewer than two batches of 1024 histories were simulated
+// the standard errors of tiles that were hit are NaN: unknown.
 struct TileResult {
   double power = 0.0;           // incident power in W or lm
   double irradiance = 0.0;      // power / area in W/m² or lx

@@ -17,7 +17,7 @@ Estimate estimate(const Moments& moments, std::uint64_t histories) {
     result.standard_error = std::numeric_limits<double>::quiet_NaN();
     return result;
   }
-  const long double between = static_cast<long double>(moments.squares) / batch_histories - sum / n * sum;
+  const long double between = static_cast<long double>(moments.squares) / square_units - sum / n * sum;
   const long double variance = std::max(between, 0.0L) / (batches - 1);
   result.standard_error = static_cast<double>(std::sqrt(variance / n));
   return result;

@@ -22,15 +22,20 @@ constexpr std::uint64_t batches_of(std::uint64_t histories) {
   return histories / batch_histories + (histories % batch_histories != 0 ? 1 : 0);
 }
 
+// Fine enough that squares of single hits, divided by the histories of any batch, keep three digits.
+inline constexpr std::uint64_t square_units = std::uint64_t{1024} * batch_histories;
+
 struct Moments {
   uint128 sum = 0;      // Σ x_b
-  uint128 squares = 0;  // Σ x_b² · batch_histories/n_b
+  uint128 squares = 0;  // Σ x_b²/n_b in units of 1/square_units
 
   // Adds a batch of n histories (1 … batch_histories) with score x.
   void add(std::uint64_t x, std::uint32_t n) {
     sum += x;
     const uint128 square = static_cast<uint128>(x) * x;
-    squares += n == batch_histories ? square : (square * batch_histories + n / 2) / n;
+    constexpr std::uint64_t for_full = square_units / batch_histories;
+    // Only a last batch that is not full is rounded, by less than a thousandth of the smallest square.
+    squares += n == batch_histories ? square * for_full : (square * square_units + n / 2) / n;
   }
 
   void add(const Moments& other) {

@@ -11,7 +11,7 @@ namespace lichtmc {
 
 // tile,surface,column,row,x,y,z,area,power,irradiance,standard_error,hits,unit
 // x, y, z (m): a point of the surface in the tile; area m²; power W or lm; irradiance and its standard error in `unit`.
-// The standard error is "nan" where nothing was hit or fewer than two batches were simulated. Numbers read back as the
+// The standard error is "nan" where fewer than two batches were simulated. Numbers read back as the
 // same doubles.
 std::string tiles_csv(const Result& result);
 

@@ -51,7 +51,7 @@ struct Pixels {
 
 Pixels pixels_of(const Result& result, const TileMap& map) {
   const std::size_t cells = map.tile_of_cell.size();
-  Pixels pixels{std::vector<float>(cells, 0.0F), std::vector<float>(cells, std::numeric_limits<float>::quiet_NaN()),
+  Pixels pixels{std::vector<float>(cells, 0.0F), std::vector<float>(cells, 0.0F),
                 std::vector<float>(cells, 0.0F)};
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const std::uint32_t tile = map.tile_of_cell[cell];
@@ -78,8 +78,8 @@ Imf::Header header_of(const Result& result, std::size_t m) {
   text("lichtmc_version", version());
   text("software", "lichtmc " + std::string(version()));
   text("comments",
-       "Y and standard_error in the unit named, area in m^2; the top line is row 0, at the smallest v; standard_error "
-       "is nan where nothing hit the tile, and in cells without surface, which have the area 0");
+       "Y and standard_error in the unit named, area in m^2; the top line is row 0, at the smallest v; cells without "
+       "surface have the area 0, and 0 for the others");
   header.insert("uv_min", Imf::V2dAttribute({map.uv_min.x, map.uv_min.y}));
   header.insert("uv_max", Imf::V2dAttribute({map.uv_max.x, map.uv_max.y}));
   header.insert("tile_count", Imf::IntAttribute(static_cast<int>(result.surfaces[m].tiles)));

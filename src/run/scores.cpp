@@ -26,15 +26,26 @@ Estimate Scores::incident_power(const Moments& moments, std::size_t surface, std
   return result;
 }
 
+// What is known where nothing was hit: had hits been expected, there would have been some. With 1.148 expected hits
+// none comes with probability 1 − 0.6827 (Poisson): so much is as likely to hold the truth as one standard error is.
+double Scores::power_of_no_hit(std::size_t surface, std::uint64_t histories) const {
+  constexpr double hits = 1.1479;  // −ln(1 − 0.68269)
+  const double score = law_.at_absorption ? 1.0 / (1.0 - room_->surfaces[surface].reflectance) : 1.0;
+  return hits * power_ * score / static_cast<double>(histories);
+}
+
 std::vector<TileResult> Scores::tiles(const Totals& totals) const {
   std::vector<TileResult> results(tiling_->tiles.size());
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Tile& tile = tiling_->tiles[i];
     TileResult& result = results[i];
     result.hits = totals.hits.empty() ? static_cast<std::uint64_t>(totals.tiles[i].sum) : totals.hits[i];
-    result.standard_error = std::numeric_limits<double>::quiet_NaN();
-    if (result.hits == 0) continue;  // its irradiance is 0 and how far from 0 it may be is unknown
-    const Estimate power = incident_power(totals.tiles[i], tiling_->maps[tile.map].surface, totals.histories);
+    const std::size_t surface = tiling_->maps[tile.map].surface;
+    if (result.hits == 0) {
+      result.standard_error = power_of_no_hit(surface, totals.histories) / tile.area_m2;
+      continue;
+    }
+    const Estimate power = incident_power(totals.tiles[i], surface, totals.histories);
     result.power = power.mean;
     result.irradiance = power.mean / tile.area_m2;
     result.standard_error = power.standard_error / tile.area_m2;
@@ -63,10 +74,13 @@ std::vector<SurfaceResult> Scores::surfaces(const Totals& totals, const std::vec
   }
   for (std::size_t m = 0; m < results.size(); ++m) {
     SurfaceResult& result = results[m];
-    result.standard_error = std::numeric_limits<double>::quiet_NaN();
     if (result.tiles == 0) result.min_irradiance = 0.0;
-    if (result.hits == 0) continue;
-    const Estimate power = incident_power(totals.maps[m], tiling_->maps[m].surface, totals.histories);
+    const std::size_t surface = tiling_->maps[m].surface;
+    if (result.hits == 0) {
+      if (result.area_m2 > 0.0) result.standard_error = power_of_no_hit(surface, totals.histories) / result.area_m2;
+      continue;
+    }
+    const Estimate power = incident_power(totals.maps[m], surface, totals.histories);
     result.power = power.mean;
     result.mean_irradiance = power.mean / result.area_m2;
     result.standard_error = power.standard_error / result.area_m2;

@@ -26,6 +26,7 @@ class Scores {
   void incident(const Totals& totals, double& power, double& standard_error) const;
 
  private:
+  double power_of_no_hit(std::size_t surface, std::uint64_t histories) const;
   Estimate incident_power(const Moments& moments, std::size_t surface, std::uint64_t histories) const;
 
   const Room* room_;

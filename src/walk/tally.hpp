@@ -1,6 +1,6 @@
 // What one thread has counted: scores per tile and per tile map, and where the photons ended.
 //
-// Scores are integers: 1 for an impact of an analog photon, the weight in units of 2⁻²⁸ for a weighted one. A batch's
+// Scores are integers: 1 for an impact of an analog photon, the weight in units of 2⁻²⁴ for a weighted one. A batch's
 // scores are collected first and folded into the moments when the batch is closed.
 #pragma once
 
@@ -14,9 +14,9 @@
 
 namespace lichtmc {
 
-// Units of a weight of 1. A score is rounded by at most half a unit, 2·10⁻⁹. A batch's sum stays below 2⁶⁴ for up to
-// 6·10⁷ impacts per history.
-inline constexpr double weight_units = 0x1p28;
+// Units of a weight of 1. A score is rounded by at most half a unit, 3·10⁻⁸. A batch's sum stays below 2⁶⁴ for up to
+// 10⁹ impacts per history.
+inline constexpr double weight_units = 0x1p24;
 
 // Whether a tile's hits are counted apart from its score.
 enum class Hits {

@@ -183,14 +183,14 @@ std::unique_ptr<Walk> make_walk(const Scene& scene, const Settings& settings) {
 ScoreLaw score_law(Estimator estimator, bool has_maps) {
   switch (estimator) {
     case Estimator::collision:
-      return {CollisionPolicy::hits, 1.0, false, false};
+      return {CollisionPolicy::hits, 1.0, false, false, false};
     case Estimator::absorption:
-      if (has_maps) return {MappedAbsorptionPolicy::hits, 1.0 / weight_units, false, false};
-      return {AbsorptionPolicy::hits, 1.0, true, true};
+      if (has_maps) return {MappedAbsorptionPolicy::hits, 1.0 / weight_units, true, false, false};
+      return {AbsorptionPolicy::hits, 1.0, true, true, true};
     case Estimator::weight:
       break;
   }
-  return {WeightPolicy::hits, 1.0 / weight_units, false, false};
+  return {WeightPolicy::hits, 1.0 / weight_units, false, false, false};
 }
 
 }  // namespace lichtmc

@@ -40,6 +40,7 @@ std::unique_ptr<Walk> make_walk(const Scene& scene, const Settings& settings);
 struct ScoreLaw {
   Hits hits = Hits::are_the_score;
   double unit = 1.0;                     // photons that a unit of the score stands for
+  bool at_absorption = false;            // an absorption scores 1/(1 − ρ), an impact nothing
   bool per_absorption = false;           // a unit is an absorption: the surface's 1/(1 − ρ) is still to come
   bool at_most_one_per_history = false;  // so that errors follow from the binomial law
 };

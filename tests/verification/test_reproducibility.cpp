@@ -126,11 +126,23 @@ TEST_CASE("one history has an irradiance but no error") {
   CHECK(result.histories == 1);
   CHECK(result.impacts >= 1);
   CHECK(std::isnan(result.incident_standard_error));
-  for (const TileResult& tile : result.tiles) CHECK(std::isnan(tile.standard_error));
+  for (const TileResult& tile : result.tiles) CHECK(std::isnan(tile.standard_error) == (tile.hits > 0));
 }
 
-TEST_CASE("a tile that was not hit has an unknown error") {
-  const Result result = simulate(uneven_room(), settings_of(Estimator::collision, Engine::cuboid, 3000, 5, 0.02));
-  REQUIRE(result.tiles_without_hits > 0);
-  for (const TileResult& tile : result.tiles) CHECK(std::isnan(tile.standard_error) == (tile.hits == 0));
+TEST_CASE("a tile that was not hit has the error of a hit that did not come") {
+  const Room room = uneven_room();
+  for (const Estimator estimator : {Estimator::weight, Estimator::collision, Estimator::absorption}) {
+    const Result result = simulate(room, settings_of(estimator, Engine::cuboid, 3000, 5, 0.02));
+    REQUIRE(result.tiles_without_hits > 0);
+    for (std::size_t i = 0; i < result.tiles.size(); ++i) {
+      const TileResult& tile = result.tiles[i];
+      REQUIRE(tile.standard_error > 0.0);
+      if (tile.hits > 0) continue;
+      const Tile& place = result.tiling.tiles[i];
+      const double rho = room.surfaces[result.tiling.maps[place.map].surface].reflectance;
+      const double score = estimator == Estimator::absorption ? 1.0 / (1.0 - rho) : 1.0;
+      // −ln(1 − 0.6827) = 1.148 hits of one photon's power.
+      CHECK(tile.standard_error == Approx(1.148 * score * total_power(room) / 3000.0 / place.area_m2).epsilon(1e-3));
+    }
+  }
 }
