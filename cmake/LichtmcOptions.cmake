@@ -13,6 +13,10 @@ endif()
 # The same source gives the same bits wherever it is compiled for the same machine: no contraction into fused
 # multiply-adds at the compiler's whim, and never -ffast-math.
 target_compile_options(lichtmc_options INTERFACE -ffp-contract=off)
+if(LICHTMC_FUZZ)
+  # Everything tells the fuzzer which way it went.
+  target_compile_options(lichtmc_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 if(LICHTMC_SANITIZE)
   target_compile_options(lichtmc_options INTERFACE -fsanitize=${LICHTMC_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(lichtmc_options INTERFACE -fsanitize=${LICHTMC_SANITIZE})

@@ -13,7 +13,7 @@ namespace {
 // Performance bounds for level-oriented two-dimensional packing algorithms. SIAM Journal on Computing 9(4), 1980:
 // next-fit decreasing height). A rectangle goes on top of the one before it where the shelf is high enough for both.
 Packing pack_on_shelves(const std::vector<glm::dvec2>& sizes, const std::vector<std::size_t>& order, double width) {
-  Packing packing{glm::dvec2(0.0), std::vector<glm::dvec2>(sizes.size())};
+  Packing packing{glm::dvec2(0.0), std::vector<glm::dvec2>(sizes.size()), {}};
   double shelf = 0.0;    // row that the shelf stands on
   double height = 0.0;   // of the shelf
   glm::dvec2 pile(0.0);  // column of the pile, and the height it has reached
@@ -39,7 +39,9 @@ Packing pack_on_shelves(const std::vector<glm::dvec2>& sizes, const std::vector<
 
 }  // namespace
 
-Packing pack(const std::vector<glm::dvec2>& sizes) {
+namespace {
+
+Packing pack_as_they_are(const std::vector<glm::dvec2>& sizes) {
   std::vector<std::size_t> order(sizes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&sizes](std::size_t a, std::size_t b) {
@@ -60,7 +62,29 @@ Packing pack(const std::vector<glm::dvec2>& sizes) {
     if (n > 0 && packing.size.x * packing.size.y >= best.size.x * best.size.y) continue;
     best = std::move(packing);
   }
+  best.turned.assign(sizes.size(), false);
   return best;
+}
+
+double area(const Packing& packing) {
+  return packing.size.x * packing.size.y;
+}
+
+}  // namespace
+
+// Strips that stand and strips that lie leave much room between them: all of them lying do not.
+Packing pack(const std::vector<glm::dvec2>& sizes) {
+  Packing best = pack_as_they_are(sizes);
+  std::vector<glm::dvec2> lying = sizes;
+  std::vector<bool> turned(sizes.size(), false);
+  for (std::size_t n = 0; n < sizes.size(); ++n) {
+    turned[n] = sizes[n].y > sizes[n].x;
+    if (turned[n]) lying[n] = {sizes[n].y, sizes[n].x};
+  }
+  Packing packing = pack_as_they_are(lying);
+  if (area(packing) >= area(best)) return best;
+  packing.turned = std::move(turned);
+  return packing;
 }
 
 }  // namespace lichtmc

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -11,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "room/engine_chart.hpp"
+#include "room/lay_out.hpp"
 #include "room/mesh_links.hpp"
 #include "room/overlap.hpp"
 #include "room/patches.hpp"
@@ -294,13 +296,43 @@ TEST_CASE("walls along the axes have u along the first axis in them and v along 
   }
 }
 
+TEST_CASE("a frame comes apart into bars") {
+  // Bars 0.2 m wide about 2 m × 1.4 m, joined at their corners by common edges.
+  Surface frame;
+  frame.name = "frame";
+  const std::array<double, 4> x{0.0, 0.2, 1.8, 2.0};
+  const std::array<double, 4> z{0.0, 0.2, 1.2, 1.4};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (i == 1 && j == 1) continue;
+      add_quad(frame, {x[i], 0, z[j]}, {0, 0, z[j + 1] - z[j]}, {x[i + 1] - x[i], 0, 0});
+    }
+  }
+  REQUIRE(patches_of(frame).patches.size() == 1);
+  const Chart chart = engine_chart_of(frame, 0.1);
+  const double waste = chart.cells.x * chart.cells.y * 0.01 / area_of(frame);
+  INFO(chart.cells.x << " x " << chart.cells.y << " cells, " << waste << " of the area");
+  CHECK(waste < 1.2);  // one rectangle about it all would take 2.3
+  // Every tile's area is its share of the surface.
+  Room room;
+  room.surfaces.push_back(frame);
+  double area = 0.0;
+  for (const Tile& tile : make_tiling(room, 0.1).tiles) area += tile.area_m2;
+  CHECK(std::abs(area - area_of(frame)) < 1e-12);
+}
+
 TEST_CASE("no cell of an engine chart holds two patches") {
   const Surface sphere = make_sphere(16);
-  const Patches cut = patches_of(sphere);
+  const std::vector<TriangleShape> shapes = triangle_shapes(sphere);
+  const double noise_m = float_noise * largest_extent_m(sphere);
+  std::vector<Patch> parts;
+  for (const Patch& patch : patches_of(sphere).patches) {
+    for (const LaidPatch& laid : lay_out(patch, shapes, MeshLinks(sphere), 0.2, noise_m)) parts.push_back(laid.patch);
+  }
   const Chart chart = engine_chart_of(sphere, 0.2);
   std::set<std::pair<int, int>> used;
   double cells = 0.0;
-  for (const Patch& patch : cut.patches) {
+  for (const Patch& patch : parts) {
     glm::dvec2 low(1e9);
     glm::dvec2 high(-1e9);
     for (const std::uint32_t k : patch.triangles) {

@@ -19,8 +19,9 @@ namespace {
 void check_packing(const std::vector<glm::dvec2>& sizes, const Packing& packing) {
   std::set<std::pair<int, int>> used;
   for (std::size_t n = 0; n < sizes.size(); ++n) {
-    for (double x = 0.0; x < sizes[n].x; ++x) {
-      for (double y = 0.0; y < sizes[n].y; ++y) {
+    const glm::dvec2 size = packing.turned[n] ? glm::dvec2(sizes[n].y, sizes[n].x) : sizes[n];
+    for (double x = 0.0; x < size.x; ++x) {
+      for (double y = 0.0; y < size.y; ++y) {
         const glm::dvec2 cell = packing.corners[n] + glm::dvec2(x, y);
         REQUIRE(cell.x < packing.size.x);
         REQUIRE(cell.y < packing.size.y);

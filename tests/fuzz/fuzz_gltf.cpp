@@ -1,0 +1,42 @@
+// Whatever bytes a file holds, reading it ends in a room or in an InputError.
+//
+// Built with clang's libFuzzer (preset `fuzz`), under the address and undefined-behaviour sanitizers. Seeds: the files
+// of the room folder; tools/fuzz.sh runs it.
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
+
+#include "lichtmc/error.hpp"
+#include "lichtmc/gltf.hpp"
+
+namespace {
+
+// A file of this process's own, in memory where the system has a folder for that.
+const std::filesystem::path& file() {
+  static const std::filesystem::path path = [] {
+    const std::filesystem::path memory = "/dev/shm";
+    const std::filesystem::path folder =
+        std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
+    return folder / ("lichtmc_fuzz_" + std::to_string(::getpid()) + ".gltf");
+  }();
+  return path;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  {
+    std::ofstream out(file(), std::ios::binary | std::ios::trunc);
+    out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  }
+  try {
+    const lichtmc::Room room = lichtmc::read_gltf(file());
+    lichtmc::check_room(room);
+  } catch (const lichtmc::InputError&) {  // what broken files are answered with
+  }
+  return 0;
+}

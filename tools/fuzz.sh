@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Feeds the reader of rooms with broken files for a while, under the address and undefined-behaviour sanitizers. Needs clang.
+#   tools/fuzz.sh [SECONDS]     60 where nothing is said; ends with 1 where a file breaks the reader, with 77 where clang is missing
+# Seeds are the room files of LICHTMC_ROOMS (../shared/rooms) and scenes/. What is found interesting stays in build/fuzz/corpus, files that
+# break the reader in build/fuzz.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+seconds=${1:-60}
+command -v clang++ >/dev/null || { echo "fuzz.sh: clang is missing. Install it: apt-get install clang libclang-rt-dev" >&2; exit 77; }
+# Debian has libFuzzer in a package of its own (libclang-rt-dev).
+printf '#include <cstddef>\n#include <cstdint>\nextern "C" int LLVMFuzzerTestOneInput(const std::uint8_t*, std::size_t) { return 0; }\n' |
+  clang++ -fsanitize=fuzzer,address,undefined -x c++ - -o /dev/null 2>/dev/null ||
+  { echo "fuzz.sh: this clang has no libFuzzer. Install it: apt-get install libclang-rt-dev" >&2; exit 77; }
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --target fuzz_gltf
+mkdir -p build/fuzz/corpus build/fuzz/seeds
+rooms=${LICHTMC_ROOMS:-../shared/rooms}
+folders=(scenes)
+if [ -d "$rooms" ]; then folders+=("$rooms"); else echo "fuzz.sh: $rooms is not there; only scenes/ are seeds" >&2; fi
+# Small files: the fuzzer changes them byte by byte.
+n=0
+while IFS= read -r -d '' file; do
+  n=$((n + 1))
+  cp -f "$file" "build/fuzz/seeds/$n-$(basename "$file")"
+done < <(find "${folders[@]}" \( -name '*.gltf' -o -name '*.glb' \) -size -40k -print0)
+cd build/fuzz
+./bin/fuzz_gltf -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=65536 -dict=../../tests/fuzz/gltf.dict -print_final_stats=1 \
+  corpus seeds
