@@ -4,13 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include "inspect/findings.hpp"
 #include "inspect/guesses.hpp"
 #include "inspect/probe.hpp"
 #include "lichtmc/error.hpp"
+#include "room/bounds.hpp"
 #include "room/convexity.hpp"
 #include "room/cuboid_shape.hpp"
 #include "room/reflectance.hpp"
@@ -23,20 +21,14 @@ namespace lichtmc {
 
 namespace {
 
-void find_bounds(const Room& room, Inspection& facts) {
-  bool first = true;
+void measure(const Room& room, Inspection& facts) {
   for (const Surface& surface : room.surfaces) {
     facts.triangles += surface.triangles.size();
     facts.triangles_without_area += surface.without_area;
-    for (const glm::uvec3& t : surface.triangles) {
-      for (int k = 0; k < 3; ++k) {
-        const glm::dvec3& p = surface.positions[t[k]];
-        facts.low = first ? p : glm::min(facts.low, p);
-        facts.high = first ? p : glm::max(facts.high, p);
-        first = false;
-      }
-    }
   }
+  const Bounds bounds = bounds_of(room);
+  facts.low = bounds.low;
+  facts.high = bounds.high;
 }
 
 void look_at_mesh(const WeldedMesh& mesh, Inspection& facts) {
@@ -132,7 +124,7 @@ Inspection inspect(const Room& room, double tile_edge_m) {
     own_light = false;
     add_fault(fault.what(), "emitters", facts.findings);
   }
-  find_bounds(room, facts);
+  measure(room, facts);
   look_at_mesh(WeldedMesh(room), facts);
   facts.cuboid = recognise_cuboid(room).has_value();
   facts.looks_z_up = looks_z_up(room, facts.high - facts.low);

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "room/bounds.hpp"
 
 namespace lichtmc {
 
@@ -26,15 +27,13 @@ bool every_edge_has_two(const WeldedMesh& mesh) {
 bool is_convex(const WeldedMesh& mesh) {
   const double pairs = static_cast<double>(mesh.triangles().size()) * static_cast<double>(mesh.places().size());
   if (pairs > most_pairs || !every_edge_has_two(mesh)) return false;
-  glm::dvec3 low = mesh.places().front();
-  glm::dvec3 high = low;
+  Bounds bounds;
   glm::dvec3 middle(0.0);
   for (const glm::dvec3& p : mesh.places()) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
+    bounds.add(p);
     middle += p / static_cast<double>(mesh.places().size());
   }
-  const glm::dvec3 size = high - low;
+  const glm::dvec3 size = bounds.high - bounds.low;
   const double tolerance = 1e-6 * std::max({size.x, size.y, size.z});
   for (std::size_t n = 0; n < mesh.triangles().size(); ++n) {
     const auto& t = mesh.triangles()[n];

@@ -1,12 +1,13 @@
 #include "room/welded_mesh.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <unordered_map>
 #include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "room/bounds.hpp"
 
 namespace lichtmc {
 
@@ -91,23 +92,17 @@ std::vector<WeldedEdge> sorted_edges(const std::vector<WeldedMesh::Triangle>& tr
 }  // namespace
 
 WeldedMesh::WeldedMesh(const Room& room) {
-  glm::dvec3 low(std::numeric_limits<double>::infinity());
-  glm::dvec3 high = -low;
   for (const Surface& surface : room.surfaces) {
-    for (const glm::uvec3& t : surface.triangles) {
+    for (const glm::uvec3& t : surface.triangles)
       corners_.push_back({surface.positions[t.x], surface.positions[t.y], surface.positions[t.z]});
-      for (const glm::dvec3& position : corners_.back()) {
-        low = glm::min(low, position);
-        high = glm::max(high, position);
-      }
-    }
   }
   triangles_.resize(corners_.size(), {0, 0, 0});
-  const glm::dvec3 size = high - low;
+  const Bounds bounds = bounds_of(room);
+  const glm::dvec3 size = bounds.high - bounds.low;
   const double distance = 1e-6 * std::max({size.x, size.y, size.z});
   if (corners_.empty() || !(distance > 0.0)) return;
 
-  Welder welder(low, distance, places_);
+  Welder welder(bounds.low, distance, places_);
   std::size_t n = 0;
   std::vector<std::uint32_t> numbers;  // of a surface's positions, which triangles share
   constexpr std::uint32_t none = 0xFFFFFFFF;

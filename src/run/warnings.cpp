@@ -1,11 +1,9 @@
 #include "run/warnings.hpp"
 
-#include <limits>
 #include <variant>
 
-#include <glm/common.hpp>
-
 #include "base/message.hpp"
+#include "room/bounds.hpp"
 #include "room/reflectance.hpp"
 
 namespace lichtmc {
@@ -14,24 +12,6 @@ namespace {
 
 std::string percent(double share) {
   return short_number(100.0 * share) + " %";
-}
-
-struct Bounds {
-  glm::dvec3 low{std::numeric_limits<double>::infinity()};
-  glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-};
-
-Bounds bounds_of(const Room& room) {
-  Bounds bounds;
-  for (const Surface& surface : room.surfaces) {
-    for (const glm::uvec3& triangle : surface.triangles) {
-      for (int k = 0; k < 3; ++k) {
-        bounds.low = glm::min(bounds.low, surface.positions[triangle[k]]);
-        bounds.high = glm::max(bounds.high, surface.positions[triangle[k]]);
-      }
-    }
-  }
-  return bounds;
 }
 
 }  // namespace
@@ -44,7 +24,7 @@ std::vector<OutsideEmitter> emitters_outside(const Room& room) {
         [&](const auto& shape) {
           if constexpr (requires { shape.position; }) {
             const glm::dvec3& p = shape.position;
-            if (glm::min(p, bounds.low) == bounds.low && glm::max(p, bounds.high) == bounds.high) return;
+            if (bounds.holds(p)) return;
             std::string range;
             for (int k = 0; k < 3; ++k)
               range += (k > 0 ? ", " : "") + short_number(bounds.low[k]) + " to " + short_number(bounds.high[k]);

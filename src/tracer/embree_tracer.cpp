@@ -22,6 +22,7 @@
 
 #include "base/frame.hpp"
 #include "lichtmc/error.hpp"
+#include "room/bounds.hpp"
 #include "tracer/embree.hpp"
 #include "tracer/tracer.hpp"
 
@@ -215,16 +216,7 @@ class EmbreeTracer final : public Tracer {
 };
 
 void EmbreeTracer::place(const Room& room) {
-  glm::dvec3 low(std::numeric_limits<double>::infinity());
-  glm::dvec3 high(-std::numeric_limits<double>::infinity());
-  for (const Surface& surface : room.surfaces) {
-    for (const glm::uvec3& triangle : surface.triangles) {
-      for (int k = 0; k < 3; ++k) {
-        low = glm::min(low, surface.positions[triangle[k]]);
-        high = glm::max(high, surface.positions[triangle[k]]);
-      }
-    }
-  }
+  const auto [low, high] = bounds_of(room);
   centre_ = low + 0.5 * (high - low);
   int exponent = 0;
   std::frexp(largest_component(0.5 * (high - low)), &exponent);

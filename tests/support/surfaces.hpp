@@ -93,6 +93,13 @@ inline Surface make_ramp(int turns, int steps_per_turn) {
   return surface;
 }
 
+// Front normal of a surface's first triangle.
+inline glm::dvec3 first_normal(const Surface& surface) {
+  const glm::uvec3 t = surface.triangles.at(0);
+  const glm::dvec3 a = surface.positions[t.x];
+  return glm::normalize(glm::cross(surface.positions[t.y] - a, surface.positions[t.z] - a));
+}
+
 // Sum of the triangles' areas in m².
 inline double area_of(const Surface& surface) {
   double area = 0.0;

@@ -17,6 +17,7 @@
 #include "support/catch.hpp"
 #include "support/compressed_gltf.hpp"
 #include "support/gltf_text.hpp"
+#include "support/surfaces.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
@@ -25,12 +26,6 @@ using nlohmann::json;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-glm::dvec3 first_normal(const Surface& surface) {
-  const glm::uvec3 t = surface.triangles.at(0);
-  const glm::dvec3 a = surface.positions[t.x];
-  return glm::normalize(glm::cross(surface.positions[t.y] - a, surface.positions[t.z] - a));
-}
 
 double distance(const glm::dvec3& a, const glm::dvec3& b) {
   return glm::length(a - b);

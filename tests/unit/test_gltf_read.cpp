@@ -10,6 +10,7 @@
 #include "lichtmc/gltf.hpp"
 #include "support/catch.hpp"
 #include "support/gltf_text.hpp"
+#include "support/surfaces.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
@@ -18,13 +19,6 @@ using nlohmann::json;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-// Front normal of a surface's first triangle.
-glm::dvec3 first_normal(const Surface& surface) {
-  const glm::uvec3 t = surface.triangles.at(0);
-  const glm::dvec3 a = surface.positions[t.x];
-  return glm::normalize(glm::cross(surface.positions[t.y] - a, surface.positions[t.z] - a));
-}
 
 }  // namespace
 
