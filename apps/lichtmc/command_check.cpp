@@ -81,11 +81,13 @@ void print_emitters(const Room& room) {
 void print_facts(const Room& room, const Inspection& facts) {
   const glm::dvec3 size = facts.high - facts.low;
   std::cout << room.source << '\n';
-  std::cout << row("Size", figure(size.x) + " x " + figure(size.y) + " x " + figure(size.z) + " m (x, height y, z), from " +
-                               point(facts.low) + " to " + point(facts.high));
-  std::cout << row("Meshes", std::to_string(facts.triangles) + " triangles in " + std::to_string(facts.surfaces.size()) +
-                                 " surfaces; " + std::to_string(facts.tiles) + " tiles");
-  std::cout << row("Shape", std::string(facts.cuboid ? "empty cuboid, " : "") + (facts.convex ? "convex, " : "not convex, ") +
+  std::cout << row("Size", figure(size.x) + " x " + figure(size.y) + " x " + figure(size.z) +
+                               " m (x, height y, z), from " + point(facts.low) + " to " + point(facts.high));
+  std::cout << row("Meshes", std::to_string(facts.triangles) + " triangles in " +
+                                 std::to_string(facts.surfaces.size()) + " surfaces; " + std::to_string(facts.tiles) +
+                                 " tiles");
+  std::cout << row("Shape", std::string(facts.cuboid ? "empty cuboid, " : "") +
+                                (facts.convex ? "convex, " : "not convex, ") +
                                 (facts.closed ? "closed" : "not closed"));
   std::cout << row("Receivers", std::to_string(room.receivers.size()));
   for (const std::string& change : room.mended) std::cout << row("Mended", change);
@@ -153,8 +155,9 @@ void add_check_command(CLI::App& program, int& status) {
   command->add_option("--tile", options->tile, "Edge of a tile in metres")->type_name("M")->capture_default_str();
   add_room_options(*command, options->reading);
   command->footer(
-      std::string("Some hundred thousand rays are shot to see whether light leaves the room and which side of its faces "
-                  "it meets.\n\n") +
+      std::string(
+          "Some hundred thousand rays are shot to see whether light leaves the room and which side of its faces "
+          "it meets.\n\n") +
       light_forms +
       "\nExamples:\n"
       "  lichtmc check room.glb\n"

@@ -128,8 +128,8 @@ void print_ignored(const std::vector<Ignored>& ignored) {
   const auto first = std::find_if(ignored.begin(), ignored.end(), matters);
   const auto count = std::count_if(ignored.begin(), ignored.end(), matters);
   std::cerr << "Not modelled: " << ignored.size() << (ignored.size() == 1 ? " thing" : " things") << " in the room, "
-            << count << " of which may change figures; for example: "
-            << (first == ignored.end() ? ignored.front() : *first).what
+            << count
+            << " of which may change figures; for example: " << (first == ignored.end() ? ignored.front() : *first).what
             << " The list is in summary.json under \"ignored\".\n";
 }
 
@@ -146,8 +146,7 @@ void print_outcome(const Result& result, const std::filesystem::path& folder) {
   std::cerr << ", lost " << figure(balance.lost) << ".\n";
   std::cerr << result.tiles.size() << " tiles, relative standard error " << percent(result.rms_relative_error)
             << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of those that were hit)" : ")");
-  if (result.tiles_without_hits > 0)
-    std::cerr << "; " << result.tiles_without_hits << " were not hit";
+  if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " were not hit";
   std::cerr << ".\n";
   warn_of_missed_target(result.settings, result);
   for (const std::string& warning : result.warnings) std::cerr << "Warning: " << warning << '\n';

@@ -39,9 +39,9 @@ struct ReadOptions {
 Room read_gltf(const std::filesystem::path& file, const ReadOptions& options = {});
 
 // Writes a room as a .glb (binary) or .gltf (JSON with the buffer embedded) file, by the name's ending, such that
-// read_gltf() gives the same room back: coordinates rounded to float, reflectance maps to grey pictures of 8 bits (whose
-// coordinates then serve for tiles too, where a surface has none of its own). The file appears whole or not at all.
-// Throws InputError for another ending, RuntimeError where the file cannot be written.
+// read_gltf() gives the same room back: coordinates rounded to float, reflectance maps to grey pictures of 8 bits
+// (whose coordinates then serve for tiles too, where a surface has none of its own). The file appears whole or not at
+// all. Throws InputError for another ending, RuntimeError where the file cannot be written.
 void write_gltf(const Room& room, const std::filesystem::path& file);
 
 }  // namespace lichtmc

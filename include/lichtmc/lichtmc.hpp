@@ -4,7 +4,7 @@
 #include "lichtmc/cuboid.hpp"    // IWYU pragma: export
 #include "lichtmc/error.hpp"     // IWYU pragma: export
 #include "lichtmc/gltf.hpp"      // IWYU pragma: export
-#include "lichtmc/inspect.hpp"  // IWYU pragma: export
+#include "lichtmc/inspect.hpp"   // IWYU pragma: export
 #include "lichtmc/mend.hpp"      // IWYU pragma: export
 #include "lichtmc/output.hpp"    // IWYU pragma: export
 #include "lichtmc/result.hpp"    // IWYU pragma: export

@@ -8,8 +8,8 @@
 
 namespace lichtmc {
 
-// Sets the reflectance (0 … 1) of every surface with this material, in place of its map where it has one. Throws InputError where the room has no such
-// material (the message lists those it has) or the reflectance is out of range.
+// Sets the reflectance (0 … 1) of every surface with this material, in place of its map where it has one. Throws
+// InputError where the room has no such material (the message lists those it has) or the reflectance is out of range.
 void set_reflectance(Room& room, const std::string& material, double reflectance);
 
 // Lowers every reflectance above `highest` (0 … 1) to it, in maps too. Throws InputError where it is out of range.

@@ -80,8 +80,8 @@ struct Result {
   std::vector<TileResult> tiles;        // as Tiling::tiles
   std::vector<SurfaceResult> surfaces;  // as Tiling::maps
   Tiling tiling;
-  std::vector<Ignored> ignored;         // Room::ignored, and what of the room this run did not use
-  std::vector<std::string> mended;   // Room::mended
+  std::vector<Ignored> ignored;     // Room::ignored, and what of the room this run did not use
+  std::vector<std::string> mended;  // Room::mended
   std::vector<std::string>
       warnings;  // what may make the figures mean something else than is thought, a sentence or two each
 };

@@ -40,16 +40,17 @@ struct ReflectanceMap {
 // A surface: a mesh of triangles with one reflectance, or a map of it. It reflects by Lambert's law on the side that is
 // hit, whatever the winding of its triangles; the winding only tells front from back.
 struct Surface {
-  std::string name;          // unique in the room; names the tile map's file
-  std::string material;      // for messages and tables; may be empty
-  double reflectance = 0.5;  // ρ, share of the arriving power that is reflected, 0 … 1; with a map: its mean, for tables
+  std::string name;      // unique in the room; names the tile map's file
+  std::string material;  // for messages and tables; may be empty
+  double reflectance =
+      0.5;  // ρ, share of the arriving power that is reflected, 0 … 1; with a map: its mean, for tables
   Sides sides = Sides::one;
-  std::vector<glm::dvec3> positions;  // m, world coordinates
-  std::vector<glm::dvec2> uvs;        // texture coordinates for the tiles: one per position, or none at all
-  std::vector<glm::uvec3> triangles;  // three indices into positions; seen from the front counter-clockwise
+  std::vector<glm::dvec3> positions;           // m, world coordinates
+  std::vector<glm::dvec2> uvs;                 // texture coordinates for the tiles: one per position, or none at all
+  std::vector<glm::uvec3> triangles;           // three indices into positions; seen from the front counter-clockwise
   std::optional<std::size_t> reflectance_map;  // index into Room::reflectance_maps: ρ from point to point
   std::vector<glm::dvec2> reflectance_uvs;     // where on that map: one per position
-  std::size_t without_area = 0;       // triangles of the source that were left out, because they have no area
+  std::size_t without_area = 0;                // triangles of the source that were left out, because they have no area
 };
 
 // Emits the same intensity in every direction: I = Φ/4π.
@@ -101,7 +102,7 @@ enum class Effect { none, figures };
 
 // What a room's source holds and the room does not model.
 struct Ignored {
-  std::string what;               // a sentence or two
+  std::string what;              // a sentence or two
   Effect effect = Effect::none;  // whether figures may differ for it
 };
 

@@ -137,9 +137,9 @@ void decompress_primitives(Document& document) {
     for (std::size_t k = 0; k < meshes[m].primitives.size(); ++k) {
       tinygltf::Primitive& primitive = meshes[m].primitives[k];
       if (primitive.extensions.count(extension_name) == 0) continue;
-      decompress(document, primitive,
-                 std::string(extension_name) + " of " + label("mesh", meshes[m].name, m) + ", primitive " +
-                     std::to_string(k));
+      decompress(
+          document, primitive,
+          std::string(extension_name) + " of " + label("mesh", meshes[m].name, m) + ", primitive " + std::to_string(k));
     }
   }
 }

@@ -26,11 +26,10 @@ namespace {
 constexpr const char* export_again = " Export the file again.";
 
 // Extensions that are read, or without which a room can be read rightly as well.
-constexpr std::array<const char*, 8> known_extensions{
-    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
-    "KHR_draco_mesh_compression", "KHR_lights_punctual",
-    "KHR_materials_emissive_strength", "KHR_materials_unlit",
-    "KHR_mesh_quantization",      "KHR_texture_transform"};
+constexpr std::array<const char*, 8> known_extensions{"EXT_mesh_gpu_instancing",         "EXT_meshopt_compression",
+                                                      "KHR_draco_mesh_compression",      "KHR_lights_punctual",
+                                                      "KHR_materials_emissive_strength", "KHR_materials_unlit",
+                                                      "KHR_mesh_quantization",           "KHR_texture_transform"};
 
 std::string read_bytes(const std::filesystem::path& path, const std::string& file) {
   std::error_code error;
@@ -138,8 +137,8 @@ void check_extensions(const Document& document, const nlohmann::json& json) {
     if (is_known_extension(name)) continue;
     std::string known;
     for (const char* k : known_extensions) known += (known.empty() ? "" : ", ") + std::string(k);
-    refuse(document, "the file requires the extension " + in_quotes(name) + ", which is not known here (known: " + known +
-                         "). Export it without.");
+    refuse(document, "the file requires the extension " + in_quotes(name) +
+                         ", which is not known here (known: " + known + "). Export it without.");
   }
 }
 
@@ -195,8 +194,7 @@ void parse(Document& document, const std::string& bytes, bool binary, const std:
   } catch (const std::exception& reason) {
     error += reason.what();
   }
-  if (!parsed)
-    refuse(document, "this is not a glTF 2.0 file that can be read (" + joined(error) + ")." + export_again);
+  if (!parsed) refuse(document, "this is not a glTF 2.0 file that can be read (" + joined(error) + ")." + export_again);
   document.warnings = lines_of(warning);
   document.images.resize(document.model.images.size());
   keep_images_in_buffers(document);
@@ -205,7 +203,8 @@ void parse(Document& document, const std::string& bytes, bool binary, const std:
 }  // namespace
 
 bool is_known_extension(const std::string& name) {
-  return std::any_of(known_extensions.begin(), known_extensions.end(), [&](const char* known) { return name == known; });
+  return std::any_of(known_extensions.begin(), known_extensions.end(),
+                     [&](const char* known) { return name == known; });
 }
 
 Document load_document(const std::filesystem::path& path) {

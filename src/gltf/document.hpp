@@ -12,7 +12,8 @@ namespace lichtmc {
 struct Document {
   std::string file;  // as the user gave it, for messages
   tinygltf::Model model;
-  std::vector<std::vector<unsigned char>> images;  // the files of Model::images, not decoded; empty where one is missing
+  std::vector<std::vector<unsigned char>>
+      images;                         // the files of Model::images, not decoded; empty where one is missing
   std::vector<std::string> warnings;  // what the parser had to say, a line each
 };
 

@@ -84,11 +84,12 @@ UvTransform transform_of_set(const Material& material, int set) {
 void note_what_is_left_out(const tinygltf::Primitive& primitive, const Material& material, const std::string& where,
                            std::vector<Ignored>& ignored) {
   if (primitive.attributes.count("COLOR_0") != 0) {
-    ignored.push_back({"Vertex colours of " + where + " are not read; its material alone says its reflectance.",
-                       Effect::figures});
+    ignored.push_back(
+        {"Vertex colours of " + where + " are not read; its material alone says its reflectance.", Effect::figures});
   }
   if (primitive.attributes.count("JOINTS_0") != 0)
-    ignored.push_back({"The skin of " + where + " is not applied; the mesh is taken in its rest pose.", Effect::figures});
+    ignored.push_back(
+        {"The skin of " + where + " is not applied; the mesh is taken in its rest pose.", Effect::figures});
   if (!primitive.targets.empty())
     ignored.push_back({"Morph targets of " + where + " are not applied.", Effect::figures});
   const auto& base = material.base_colour;

@@ -25,7 +25,8 @@ struct Primitive {
 };
 
 // Reads a primitive; none where it has no triangles, which is noted in `ignored`. `uv_set`: n of the TEXCOORD_n for the
-// tiles, or none for 1 where present, else 0; they are decoded as the first texture of the material that uses them says.
+// tiles, or none for 1 where present, else 0; they are decoded as the first texture of the material that uses them
+// says.
 std::optional<Primitive> read_primitive(const Document& document, const tinygltf::Primitive& primitive,
                                         const Material& material, std::optional<int> uv_set, const std::string& where,
                                         std::vector<Ignored>& ignored);

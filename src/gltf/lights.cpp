@@ -101,8 +101,8 @@ std::optional<Emitter> read_punctual(const Document& document, const tinygltf::V
                          " cd (allowed: a finite number, 0 or more). Set its strength.");
   }
   if (light.Has("range"))
-    ignored.push_back({"The range of the light of " + placed.label + " is not modelled: light does not end.",
-                       Effect::figures});
+    ignored.push_back(
+        {"The range of the light of " + placed.label + " is not modelled: light does not end.", Effect::figures});
   Emitter emitter;
   if (type == "point") {
     emitter.power = 4.0 * pi * intensity;

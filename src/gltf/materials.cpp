@@ -141,8 +141,7 @@ void note_ignored_materials(const Document& document, const std::vector<bool>& u
     note(material.normalTexture.index >= 0, Effect::none, "its normal map is not modelled; surfaces are flat.");
     note(material.alphaMode == "BLEND" || material.alphaMode == "MASK", Effect::figures,
          "transparency (alpha) is not modelled; it is opaque. Remove what light should pass.");
-    note(material.occlusionTexture.index >= 0, Effect::none,
-         "its occlusion map is not used; occlusion is simulated.");
+    note(material.occlusionTexture.index >= 0, Effect::none, "its occlusion map is not used; occlusion is simulated.");
     note(pbr.metallicRoughnessTexture.index >= 0, Effect::none,
          "its metallic-roughness map is not modelled; it reflects diffusely.");
     if (pbr.metallicFactor > 0.0 && !gives_reflectance(material)) ++metals;
@@ -151,11 +150,12 @@ void note_ignored_materials(const Document& document, const std::vector<bool>& u
       const bool lets_light_through = name == "KHR_materials_transmission" ||
                                       name == "KHR_materials_diffuse_transmission" || name == "KHR_materials_volume";
       const bool colour_elsewhere = name == "KHR_materials_pbrSpecularGlossiness";
-      ignored.push_back({where + "the extension " + name + " is not modelled; it reflects diffusely" +
-                             (lets_light_through ? " and lets no light through. Remove panes that light should pass."
-                              : colour_elsewhere ? ", as its base colour says. Give it the custom property 'reflectance'."
-                                                 : "."),
-                         lets_light_through || colour_elsewhere ? Effect::figures : Effect::none});
+      ignored.push_back(
+          {where + "the extension " + name + " is not modelled; it reflects diffusely" +
+               (lets_light_through ? " and lets no light through. Remove panes that light should pass."
+                : colour_elsewhere ? ", as its base colour says. Give it the custom property 'reflectance'."
+                                   : "."),
+           lets_light_through || colour_elsewhere ? Effect::figures : Effect::none});
     }
   }
   if (metals > 0) {

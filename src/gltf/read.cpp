@@ -47,8 +47,7 @@ class RoomReader {
   }
 
   Room read() {
-    for (const PlacedNode& placed :
-         place_nodes(*document_, options_->scene, root_place(*document_, *options_))) {
+    for (const PlacedNode& placed : place_nodes(*document_, options_->scene, root_place(*document_, *options_))) {
       read_mesh(placed);
       if (auto light = read_light(*document_, placed, room_.ignored)) add_emitter(std::move(*light));
       if (auto receiver = read_receiver(*document_, placed)) room_.receivers.push_back(std::move(*receiver));

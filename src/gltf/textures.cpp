@@ -118,7 +118,8 @@ TextureUse read_texture_use(const Document& document, int texture, int uv_set, c
   use.transform.rotation = number_in(document, values, "rotation", 0.0, what);
   use.transform.scale = pair_in(document, values, "scale", use.transform.scale, where);
   const double set = number_in(document, values, "texCoord", uv_set, what);
-  if (!(set >= 0.0 && set < 1e6)) refuse(document, "'texCoord' of " + what + " is no number of a set. Export the file again.");
+  if (!(set >= 0.0 && set < 1e6))
+    refuse(document, "'texCoord' of " + what + " is no number of a set. Export the file again.");
   use.uv_set = static_cast<int>(set);
   return use;
 }

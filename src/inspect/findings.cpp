@@ -33,7 +33,9 @@ class Names {
     if (count_++ < shown) text_ += (text_.empty() ? "" : ", ") + text;
   }
   std::size_t count() const { return count_; }
-  std::string text() const { return count_ > shown ? text_ + " and " + std::to_string(count_ - shown) + " more" : text_; }
+  std::string text() const {
+    return count_ > shown ? text_ + " and " + std::to_string(count_ - shown) + " more" : text_;
+  }
 
  private:
   static constexpr std::size_t shown = 5;
@@ -114,8 +116,8 @@ void Reporter::up_axis() {
 
 void Reporter::emitters() {
   // What check_room() said of it, with a place for a lamp.
-  const auto fault =
-      std::find_if(facts_.findings.begin(), facts_.findings.end(), [](const Finding& f) { return f.topic == "emitters"; });
+  const auto fault = std::find_if(facts_.findings.begin(), facts_.findings.end(),
+                                  [](const Finding& f) { return f.topic == "emitters"; });
   if (room_.emitters.empty() && fault != facts_.findings.end()) {
     fault->advice =
         "Add a point or spot light or an emissive material to the room, or give one with --light, for example inside "
@@ -167,8 +169,7 @@ void Reporter::not_modelled() {
 void Reporter::openings() {
   if (facts_.flights == 0) return;
   if (facts_.flights_that_left == 0) {
-    add(Severity::note, "openings",
-        "None of " + std::to_string(facts_.flights) + " flights of light left the room.",
+    add(Severity::note, "openings", "None of " + std::to_string(facts_.flights) + " flights of light left the room.",
         "Nothing to do; where it should have a window or a door, cut one.");
     return;
   }
@@ -252,10 +253,9 @@ void Reporter::reflectances() {
   for (const auto& [material, reflectance] : high)
     names.add(in_quotes(material) + " (" + short_number(reflectance) + ")");
   add(Severity::warning, "reflectance",
-      to_text(high.size(), "material") +
-          (high.size() == 1 ? " reflects" : " reflect") +
-          " more than 95 % of the light, as a whole or in places, which hardly any real surface does: " +
-          names.text() + ".",
+      to_text(high.size(), "material") + (high.size() == 1 ? " reflects" : " reflect") +
+          " more than 95 % of the light, as a whole or in places, which hardly any real surface does: " + names.text() +
+          ".",
       "Set the custom property 'reflectance', or give --reflectance MATERIAL=R or --max-reflectance 0.9. Light grows "
       "with 1/(1 − ρ): from 0.9 to 0.99 tenfold.");
 }
@@ -279,8 +279,8 @@ void Reporter::tiles() {
   if (facts_.tiles == 0) return;
   constexpr double large = 2e9;
   add(facts_.memory_bytes > large ? Severity::warning : Severity::note, "tiles",
-      to_text(static_cast<std::size_t>(facts_.tiles), "tile") + ", about " +
-          short_number(facts_.memory_bytes / 1e6) + " MB of memory for each thread.",
+      to_text(static_cast<std::size_t>(facts_.tiles), "tile") + ", about " + short_number(facts_.memory_bytes / 1e6) +
+          " MB of memory for each thread.",
       facts_.memory_bytes > large ? "Give --tile a greater length, or fewer --threads."
                                   : "Give --tile another length for more or fewer of them.");
 }
@@ -291,7 +291,8 @@ void Reporter::shape() {
     add(Severity::note, "shape", "The room is an empty cuboid.", "Nothing to do: flights have a closed form.");
   } else {
     add(Severity::note, "shape",
-        closed + "; it is " + (facts_.convex ? "convex: nothing in it casts a shadow." : "not convex: it casts shadows."),
+        closed + "; it is " +
+            (facts_.convex ? "convex: nothing in it casts a shadow." : "not convex: it casts shadows."),
         "Nothing to do.");
   }
 }

@@ -41,7 +41,7 @@ std::optional<LengthUnit> guess_unit(const glm::dvec3& size) {
 
 bool looks_z_up(const Room& room, const glm::dvec3& size) {
   if (size.z > size.y) return false;
-  constexpr double along = 0.99;       // cosine: within 8° of the axis
+  constexpr double along = 0.99;  // cosine: within 8° of the axis
   constexpr double noticeable = 1.5;
   double across_y = 0.0;
   double across_z = 0.0;

@@ -65,7 +65,8 @@ void look_at_tiles(const Tiling& tiling, double tile_edge_m, Inspection& facts) 
     surface.chart_reason = map.chart_reason;
     // Cells are about as large as asked for; what that is exactly depends on the chart.
     if (map.side == Side::front && surface.area_m2 > 0.0)
-      surface.cells_over_area = static_cast<double>(map.tile_of_cell.size()) * tile_edge_m * tile_edge_m / surface.area_m2;
+      surface.cells_over_area =
+          static_cast<double>(map.tile_of_cell.size()) * tile_edge_m * tile_edge_m / surface.area_m2;
   }
   for (const Tile& tile : tiling.tiles) ++facts.surfaces[tiling.maps[tile.map].surface].tiles;
   facts.tiles = tiling.tiles.size();
@@ -101,8 +102,7 @@ void shoot_rays(const Room& room, const Tiling& tiling, bool own_light, Inspecti
   facts.openings = result.openings;
   for (std::size_t k = 0; k < facts.surfaces.size(); ++k) {
     if (result.impacts[k] == 0) continue;
-    facts.surfaces[k].seen_from_behind =
-        static_cast<double>(result.behind[k]) / static_cast<double>(result.impacts[k]);
+    facts.surfaces[k].seen_from_behind = static_cast<double>(result.behind[k]) / static_cast<double>(result.impacts[k]);
   }
   if (traps_light(scene, 1)) add_trap(facts.findings);
 }

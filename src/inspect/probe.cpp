@@ -90,8 +90,7 @@ struct RoomTriangle {
 std::vector<RoomTriangle> triangles_of_facets(const Room& room, const Tracer& tracer) {
   std::vector<RoomTriangle> triangles(tracer.facets().size());
   for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
-    for (std::size_t n = 0; n < room.surfaces[k].triangles.size(); ++n)
-      triangles[tracer.locate(k, n).facet] = {k, n};
+    for (std::size_t n = 0; n < room.surfaces[k].triangles.size(); ++n) triangles[tracer.locate(k, n).facet] = {k, n};
   }
   return triangles;
 }
@@ -101,7 +100,8 @@ glm::dvec3 hit_point(const Room& room, const RoomTriangle& triangle, const Rays&
   const Surface& surface = room.surfaces[triangle.surface];
   const glm::uvec3 corner = surface.triangles[triangle.number];
   const glm::dvec3 a = surface.positions[corner.x];
-  return a + double{rays.s[i]} * (surface.positions[corner.y] - a) + double{rays.t[i]} * (surface.positions[corner.z] - a);
+  return a + double{rays.s[i]} * (surface.positions[corner.y] - a) +
+         double{rays.t[i]} * (surface.positions[corner.z] - a);
 }
 
 }  // namespace
@@ -173,8 +173,7 @@ glm::dvec3 find_inside(const Room& room, const Tracer& tracer, const glm::dvec3&
       const Words words = stream.draw(std::uint64_t{c} * rays_each + i, 0, Purpose::emission);
       rays.facet[i] = no_facet;
       rays.set_start(i, start.point);
-      rays.set_direction(
-          i, glm::vec3(tracer.directions() * sample_sphere(unit_open(words[0]), unit_open(words[1]))));
+      rays.set_direction(i, glm::vec3(tracer.directions() * sample_sphere(unit_open(words[0]), unit_open(words[1]))));
     }
     rays.size = rays_each;
     tracer.trace(rays, Misses::escape, count);

@@ -51,8 +51,7 @@ struct Pixels {
 
 Pixels pixels_of(const Result& result, const TileMap& map) {
   const std::size_t cells = map.tile_of_cell.size();
-  Pixels pixels{std::vector<float>(cells, 0.0F), std::vector<float>(cells, 0.0F),
-                std::vector<float>(cells, 0.0F)};
+  Pixels pixels{std::vector<float>(cells, 0.0F), std::vector<float>(cells, 0.0F), std::vector<float>(cells, 0.0F)};
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const std::uint32_t tile = map.tile_of_cell[cell];
     if (tile == no_tile) continue;

@@ -19,9 +19,7 @@ struct Bounds {
     low = glm::min(low, point);
     high = glm::max(high, point);
   }
-  bool holds(const glm::dvec3& point) const {
-    return glm::min(point, low) == low && glm::max(point, high) == high;
-  }
+  bool holds(const glm::dvec3& point) const { return glm::min(point, low) == low && glm::max(point, high) == high; }
 };
 
 // The box about all triangles of a room, in m; positions that no triangle uses do not count.

@@ -11,8 +11,8 @@
 namespace lichtmc {
 
 // The closed shells of a room: connected sets of triangles in which every edge belongs to an even number of triangles.
-// Sheets with a rim, and meshes whose neighbours meet in the middle of an edge, are not closed in this sense: the answer
-// "not enclosed" is the safe one.
+// Sheets with a rim, and meshes whose neighbours meet in the middle of an edge, are not closed in this sense: the
+// answer "not enclosed" is the safe one.
 class Enclosure {
  public:
   explicit Enclosure(const Room& room) : Enclosure(WeldedMesh(room)) {}

@@ -201,8 +201,8 @@ LaidPatch Layer::straightened(Patch patch) const {
     if (counts[n]) bounds.add(patch.flat[n]);
   }
   const glm::dvec2 length_m = bounds.high - bounds.low;
-  return {std::move(patch), bounds.low, bounds.high,
-          {cells_along(length_m.x, edge_m_), cells_along(length_m.y, edge_m_)}};
+  return {
+      std::move(patch), bounds.low, bounds.high, {cells_along(length_m.x, edge_m_), cells_along(length_m.y, edge_m_)}};
 }
 
 // The share of the rectangle's cells that the surface's area amounts to.

@@ -47,8 +47,7 @@ inline double reflectance_at(const ReflectanceMap& map, double u, double v) {
   const float* first = map.values.data() + std::size_t{row.first} * map.columns;
   const float* second = map.values.data() + std::size_t{row.second} * map.columns;
   const auto along = [&column](const float* values) {
-    return double{values[column.first]} +
-           column.share * (double{values[column.second]} - double{values[column.first]});
+    return double{values[column.first]} + column.share * (double{values[column.second]} - double{values[column.first]});
   };
   const double a = along(first);
   return a + row.share * (along(second) - a);

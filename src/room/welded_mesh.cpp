@@ -83,9 +83,8 @@ std::vector<WeldedEdge> sorted_edges(const std::vector<WeldedMesh::Triangle>& tr
     for (std::size_t k = 0; k < 3; ++k)
       edges.push_back({std::min(c[k], c[(k + 1) % 3]), std::max(c[k], c[(k + 1) % 3]), n});
   }
-  std::sort(edges.begin(), edges.end(), [](const WeldedEdge& a, const WeldedEdge& b) {
-    return std::pair(a.from, a.to) < std::pair(b.from, b.to);
-  });
+  std::sort(edges.begin(), edges.end(),
+            [](const WeldedEdge& a, const WeldedEdge& b) { return std::pair(a.from, a.to) < std::pair(b.from, b.to); });
   return edges;
 }
 

@@ -25,7 +25,8 @@ Crew::Crew(const Scene& scene, const Settings& settings, const Control& control,
       reported_(began_) {
   for (unsigned k = 0; k < threads; ++k) {
     workers_.push_back(std::make_unique<Worker>(
-        Worker{Tally(scene.map_of_tile, scene.maps, score_law(settings.estimator, scene.has_maps()).hits), make_walk(scene, settings)}));
+        Worker{Tally(scene.map_of_tile, scene.maps, score_law(settings.estimator, scene.has_maps()).hits),
+               make_walk(scene, settings)}));
   }
 }
 

@@ -17,9 +17,8 @@ Scores::Scores(const Room& room, const Tiling& tiling, const ScoreLaw& law)
 // Mean and error of a tile's, or a surface's, incident power.
 Estimate Scores::incident_power(const Moments& moments, std::size_t surface, std::uint64_t histories) const {
   // A photon that scores at most once: the error is that of a binomial law, known from the count alone.
-  Estimate result = law_.at_most_one_per_history
-                        ? estimate_binomial(static_cast<std::uint64_t>(moments.sum), histories)
-                        : estimate(moments, histories);
+  Estimate result = law_.at_most_one_per_history ? estimate_binomial(static_cast<std::uint64_t>(moments.sum), histories)
+                                                 : estimate(moments, histories);
   const double scale = power_ * law_.unit * factor_[surface];
   result.mean *= scale;
   result.standard_error *= scale;

@@ -64,12 +64,11 @@ void check_settings(const Settings& settings) {
 void check_settings_for(const Room& room, const Settings& settings) {
   if (settings.estimator == Estimator::absorption) {
     if (const Surface* surface = surface_that_absorbs_nothing(room)) {
-      throw InputError(
-          "The estimator 'absorption' cannot see the surface " + in_quotes(surface->name) + " (material " +
-          in_quotes(surface->material) + ") of " + room.source +
-          ": its reflectance is 1" +
-          (surface->reflectance_map ? " in places of its texture" : "") + ", so that it never absorbs there. Use the estimator 'collision' or 'weight', or a "
-          "reflectance below 1.");
+      throw InputError("The estimator 'absorption' cannot see the surface " + in_quotes(surface->name) + " (material " +
+                       in_quotes(surface->material) + ") of " + room.source + ": its reflectance is 1" +
+                       (surface->reflectance_map ? " in places of its texture" : "") +
+                       ", so that it never absorbs there. Use the estimator 'collision' or 'weight', or a "
+                       "reflectance below 1.");
     }
   }
 }

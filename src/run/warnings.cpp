@@ -65,7 +65,8 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result) {
   for (const Surface& surface : room.surfaces) perfect += std::size_t{highest.of(surface) == 1.0};
   if (perfect > 0) {
     warnings.push_back(to_text(perfect, "surface") + " of " + std::to_string(room.surfaces.size()) +
-                       " reflect all light, as a whole or in places (reflectance 1; glTF's default is white). Real paint stays below 0.9: set "
+                       " reflect all light, as a whole or in places (reflectance 1; glTF's default is white). Real "
+                       "paint stays below 0.9: set "
                        "the materials' custom property "
                        "'reflectance', or use --max-reflectance 0.9.");
   }

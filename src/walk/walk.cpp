@@ -14,16 +14,12 @@ constexpr std::uint32_t patience = 1'000'000;     // flights after which the ans
 
 // ρ where a flight ended, as a policy of the kernel: of the surface as a whole,
 struct SurfaceReflectance {
-  static double at(const Scene& scene, const Rays& rays, std::size_t i) {
-    return scene.surface_reflectance(rays, i);
-  }
+  static double at(const Scene& scene, const Rays& rays, std::size_t i) { return scene.surface_reflectance(rays, i); }
 };
 
 // or of the place, in rooms with maps.
 struct MappedReflectance {
-  static double at(const Scene& scene, const Rays& rays, std::size_t i) {
-    return scene.reflectance(rays, i);
-  }
+  static double at(const Scene& scene, const Rays& rays, std::size_t i) { return scene.reflectance(rays, i); }
 };
 
 template <class Policy, class Reflectance>

@@ -106,10 +106,9 @@ Glb with_meshopt(const Glb& plain) {
     const std::size_t count = bytes / stride;
     std::vector<unsigned char> encoded(indices ? meshopt_encodeIndexBufferBound(count, count)
                                                : meshopt_encodeVertexBufferBound(count, stride));
-    encoded.resize(indices
-                       ? meshopt_encodeIndexBuffer(encoded.data(), encoded.size(),
-                                                   reinterpret_cast<const unsigned int*>(data), count)
-                       : meshopt_encodeVertexBuffer(encoded.data(), encoded.size(), data, count, stride));
+    encoded.resize(indices ? meshopt_encodeIndexBuffer(encoded.data(), encoded.size(),
+                                                       reinterpret_cast<const unsigned int*>(data), count)
+                           : meshopt_encodeVertexBuffer(encoded.data(), encoded.size(), data, count, stride));
     const std::size_t offset = append(packed.buffer, encoded.data(), encoded.size());
     view["extensions"]["EXT_meshopt_compression"] = {
         {"buffer", 0},          {"byteOffset", offset}, {"byteLength", encoded.size()},
@@ -119,8 +118,9 @@ Glb with_meshopt(const Glb& plain) {
     if (!indices) view["byteStride"] = stride;
     fallback += bytes;
   }
-  packed.json["buffers"] = {{{"byteLength", packed.buffer.size()}},
-                            {{"byteLength", fallback}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+  packed.json["buffers"] = {
+      {{"byteLength", packed.buffer.size()}},
+      {{"byteLength", fallback}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
   require_extension(packed.json, "EXT_meshopt_compression");
   return packed;
 }
@@ -138,9 +138,9 @@ Glb with_draco(const Glb& plain, int bits) {
         const bool position = name == "POSITION";
         const std::vector<float> values = values_of<float>(plain, accessor);
         const std::size_t size = position ? 3 : 2;
-        const int id = builder.AddAttribute(
-            position ? draco::GeometryAttribute::POSITION : draco::GeometryAttribute::TEX_COORD,
-            static_cast<std::int8_t>(size), draco::DT_FLOAT32);
+        const int id =
+            builder.AddAttribute(position ? draco::GeometryAttribute::POSITION : draco::GeometryAttribute::TEX_COORD,
+                                 static_cast<std::int8_t>(size), draco::DT_FLOAT32);
         for (std::size_t face = 0; face < indices.size() / 3; ++face) {
           const float* corner[3];
           for (std::size_t k = 0; k < 3; ++k) corner[k] = values.data() + size * indices[3 * face + k];

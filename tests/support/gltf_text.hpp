@@ -34,7 +34,7 @@ nlohmann::json triangle_document();
 // component type as in glTF.
 template <class T>
 std::size_t add_accessor(nlohmann::json& document, const std::vector<T>& values, const char* type, int component_type,
-                 std::size_t components);
+                         std::size_t components);
 
 // What read_gltf() makes of a document.
 Room read_document(const nlohmann::json& document);
@@ -49,7 +49,7 @@ std::string base64_of(const void* data, std::size_t bytes);
 
 template <class T>
 std::size_t add_accessor(nlohmann::json& document, const std::vector<T>& values, const char* type, int component_type,
-                 std::size_t components) {
+                         std::size_t components) {
   const std::size_t bytes = values.size() * sizeof(T);
   document["buffers"].push_back(
       {{"byteLength", bytes}, {"uri", "data:application/octet-stream;base64," + base64_of(values.data(), bytes)}});

@@ -77,8 +77,7 @@ Room read_with(const json& document, const ReadOptions& options) {
 json textured_triangle(const json& transform) {
   json document = triangle_document();
   json& primitive = document["meshes"][0]["primitives"][0];
-  primitive["attributes"]["TEXCOORD_0"] =
-      add_accessor(document, std::vector<float>{0, 0, 0, 1, 1, 0}, "VEC2", 5126, 2);
+  primitive["attributes"]["TEXCOORD_0"] = add_accessor(document, std::vector<float>{0, 0, 0, 1, 1, 0}, "VEC2", 5126, 2);
   document["textures"] = {json::object()};
   document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {
       {"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
@@ -98,22 +97,23 @@ TEST_CASE("quantized positions are read as shares of their range or as they are"
     document["bufferViews"][document["accessors"][accessor]["bufferView"].get<std::size_t>()]["byteStride"] = stride;
     return accessor;
   };
-  const std::size_t bytes = add_accessor(document, std::vector<std::int8_t>{0, 0, 0, 0, 0, 0, 127, 0, -128, 0, 0, 0}, "VEC3",
-                                 5120, 4);
+  const std::size_t bytes =
+      add_accessor(document, std::vector<std::int8_t>{0, 0, 0, 0, 0, 0, 127, 0, -128, 0, 0, 0}, "VEC3", 5120, 4);
   document["accessors"][bytes]["normalized"] = true;
   attributes["POSITION"] = strided(bytes, 4);
   Room room = read_document(document);
   CHECK(room.surfaces[0].positions[1] == glm::dvec3(0, 0, 1));
   CHECK(room.surfaces[0].positions[2] == glm::dvec3(-1, 0, 0));  // −128 is −1, as −127 is
 
-  const std::size_t shorts = add_accessor(
-      document, std::vector<std::uint16_t>{0, 0, 0, 0, 0, 0, 65535, 0, 300, 0, 0, 0}, "VEC3", 5123, 4);
+  const std::size_t shorts =
+      add_accessor(document, std::vector<std::uint16_t>{0, 0, 0, 0, 0, 0, 65535, 0, 300, 0, 0, 0}, "VEC3", 5123, 4);
   attributes["POSITION"] = strided(shorts, 8);
   room = read_document(document);
   CHECK(room.surfaces[0].positions[1] == glm::dvec3(0, 0, 65535));
   CHECK(room.surfaces[0].positions[2] == glm::dvec3(300, 0, 0));
 
-  const std::size_t words = add_accessor(document, std::vector<std::uint32_t>{0, 0, 0, 0, 0, 1, 1, 0, 0}, "VEC3", 5125, 3);
+  const std::size_t words =
+      add_accessor(document, std::vector<std::uint32_t>{0, 0, 0, 0, 0, 1, 1, 0, 0}, "VEC3", 5125, 3);
   attributes["POSITION"] = words;
   CHECK_THAT(refusal(document), ContainsSubstring("neither floats, bytes nor shorts"));
 }
@@ -147,13 +147,12 @@ TEST_CASE("quantized texture coordinates with their transform lie from 0 to 1") 
 
 TEST_CASE("every instance of a mesh is a surface") {
   json document = triangle_document();
-  const std::size_t places =
-      add_accessor(document, std::vector<float>{0, 0, 0, 0, 2, 0, 5, 0, 0}, "VEC3", 5126, 3);
+  const std::size_t places = add_accessor(document, std::vector<float>{0, 0, 0, 0, 2, 0, 5, 0, 0}, "VEC3", 5126, 3);
   const auto half = static_cast<float>(std::sqrt(0.5));
   // Not turned; a quarter turn about Y, twice as long as it should be; a half turn about Z, as normalized bytes are not
   // used here.
-  const std::size_t turns = add_accessor(document, std::vector<float>{0, 0, 0, 1, 0, 2 * half, 0, 2 * half, 0, 0, 1, 0}, "VEC4",
-                                 5126, 4);
+  const std::size_t turns =
+      add_accessor(document, std::vector<float>{0, 0, 0, 1, 0, 2 * half, 0, 2 * half, 0, 0, 1, 0}, "VEC4", 5126, 4);
   const std::size_t scales = add_accessor(document, std::vector<float>{1, 1, 1, 3, 3, 3, -1, 1, 1}, "VEC3", 5126, 3);
   json& extension = document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"];
   extension["attributes"] = {{"TRANSLATION", places}, {"ROTATION", turns}, {"SCALE", scales}};
@@ -198,8 +197,8 @@ TEST_CASE("damaged compressed data is refused with the place of it") {
   const Glb plain = glb_of(read_document(triangle_document()));
   Glb meshopt = with_meshopt(plain);
   meshopt.buffer[0] = 'x';
-  CHECK_THAT(refusal_of(meshopt), ContainsSubstring("EXT_meshopt_compression of buffer view 0") &&
-                                      ContainsSubstring("damaged"));
+  CHECK_THAT(refusal_of(meshopt),
+             ContainsSubstring("EXT_meshopt_compression of buffer view 0") && ContainsSubstring("damaged"));
   meshopt = with_meshopt(plain);
   meshopt.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["count"] = 1000000000;
   CHECK_THAT(refusal_of(meshopt), ContainsSubstring("more elements than its data can hold"));

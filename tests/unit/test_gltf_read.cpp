@@ -94,7 +94,8 @@ TEST_CASE("texture coordinates come from the second set where there is one") {
   json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
   attributes["TEXCOORD_0"] = add_accessor(document, std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", 5126, 2);
   CHECK(read_document(document).surfaces[0].uvs[1] == glm::dvec2(1, 0));
-  const std::size_t second = add_accessor(document, std::vector<std::uint16_t>{0, 0, 0, 65535, 32768, 0}, "VEC2", 5123, 2);
+  const std::size_t second =
+      add_accessor(document, std::vector<std::uint16_t>{0, 0, 0, 65535, 32768, 0}, "VEC2", 5123, 2);
   document["accessors"][static_cast<std::size_t>(second)]["normalized"] = true;
   document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = second;
   const Room room = read_document(document);

@@ -52,7 +52,8 @@ TEST_CASE("the binomial error is exact") {
 
 TEST_CASE("sums do not stop growing where 32 and 64 bit counters do") {
   Moments moments;
-  const std::uint64_t large = std::uint64_t{1} << 52;  // a batch of weighted scores in units of 2^-24, far more than there are
+  const std::uint64_t large = std::uint64_t{1}
+                              << 52;  // a batch of weighted scores in units of 2^-24, far more than there are
   for (int i = 0; i < 8192; ++i) moments.add(large, batch_histories);
   CHECK(moments.sum == static_cast<uint128>(large) * 8192);
   CHECK(moments.squares == static_cast<uint128>(large) * large * 8192 * 1024);

@@ -43,8 +43,7 @@ std::vector<Compared> surfaces_against(const Result& a, const Result& b) {
   for (const SurfaceResult& surface : a.surfaces) {
     const SurfaceResult& other = surface_named(b, surface.name);
     if (surface.hits < 50) continue;
-    figures.push_back(
-        {surface.mean_irradiance, surface.standard_error, other.mean_irradiance, other.standard_error});
+    figures.push_back({surface.mean_irradiance, surface.standard_error, other.mean_irradiance, other.standard_error});
   }
   REQUIRE(figures.size() > 20);
   return figures;
