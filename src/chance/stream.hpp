@@ -13,21 +13,28 @@ enum class Purpose : std::uint32_t {
   flight = 0,    // words 0, 1: direction of the next flight; words 2, 3: whether the photon survives
   emission = 1,  // words 0, 1: direction; words 2, 3: which emitter
   place = 2,     // words 0, 1: which triangle of a surface emitter; words 2, 3: where on it
+  light = 3,     // words 0, 1: which emitter a surface's direct light is taken from; words 2, 3: unused
+  on_light = 4,  // as place, for the point of a surface emitter that direct light is taken from
 };
+
+// Which way a history goes: each has words of its own, so that results of both are independent.
+enum class Way : std::uint32_t { forward = 0, backward = 1 };
 
 class Stream {
  public:
-  explicit Stream(std::uint64_t seed)
-      : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)} {}
+  explicit Stream(std::uint64_t seed, Way way = Way::forward)
+      : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
+        way_(static_cast<std::uint32_t>(way) << 16) {}
 
   Words draw(std::uint64_t history, std::uint32_t flight, Purpose purpose) const {
     return philox4x32_10({static_cast<std::uint32_t>(history), static_cast<std::uint32_t>(history >> 32), flight,
-                          static_cast<std::uint32_t>(purpose)},
+                          static_cast<std::uint32_t>(purpose) | way_},
                          key_);
   }
 
  private:
   std::array<std::uint32_t, 2> key_;
+  std::uint32_t way_;
 };
 
 // Uniform in the open interval (0, 1), in steps of 2⁻³²: never 0, so that its logarithm is finite, and never 1.

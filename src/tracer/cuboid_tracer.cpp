@@ -60,6 +60,7 @@ class CuboidTracer final : public Tracer {
       for (int c = 0; c < 3; ++c) to_unit[c][k] = edge[c] / length / length;
     }
     points_ = to_unit;
+    set_place(shape.corner, glm::dmat3(shape.edges[0], shape.edges[1], shape.edges[2]));
     // A direction may have any length: scaled to the longest edge, its components stay near 1.
     directions_ = longest * to_unit;
     for (std::size_t face = 0; face < 6; ++face) face_frame(face);
@@ -79,6 +80,7 @@ class CuboidTracer final : public Tracer {
       rays.s[i] = inside(a[s_axis(axis)] + lambda[axis] * v[s_axis(axis)]);
       rays.t[i] = inside(a[t_axis(axis)] + lambda[axis] * v[t_axis(axis)]);
       rays.behind[i] = behind_[face];
+      rays.length[i] = lambda[axis];
     }
     count.rays += rays.size;
   }
@@ -122,9 +124,14 @@ class CuboidTracer final : public Tracer {
     return false;
   }
 
-  glm::dvec3 world_point(const glm::vec3& point) const override {
-    return corner_ + glm::inverse(points_) * glm::dvec3(point);
+  // A cuboid is convex and empty.
+  void find_blocked(ShadowRays& rays, TraceCount& /*count*/) const override {
+    std::fill_n(rays.blocked.begin(), rays.size, std::uint8_t{0});
   }
+  bool casts_shadows() const override { return false; }
+
+  // Flights start on walls exactly.
+  float step() const override { return 0.0F; }
 
   TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const override {
     return triangles_[surface][triangle];

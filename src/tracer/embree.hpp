@@ -15,19 +15,27 @@ class EmbreeQuery {
 #if RTC_VERSION_MAJOR >= 4
   EmbreeQuery() {
     rtcInitIntersectArguments(&arguments_);
+    rtcInitOccludedArguments(&occluded_);
   }
   void intersect(RTCScene scene, RTCRayHit& ray) {
     rtcIntersect1(scene, &ray, &arguments_);
   }
+  void occluded(RTCScene scene, RTCRay& ray) {
+    rtcOccluded1(scene, &ray, &occluded_);
+  }
 
  private:
   RTCIntersectArguments arguments_{};
+  RTCOccludedArguments occluded_{};
 #else
   EmbreeQuery() {
     rtcInitIntersectContext(&context_);
   }
   void intersect(RTCScene scene, RTCRayHit& ray) {
     rtcIntersect1(scene, &context_, &ray);
+  }
+  void occluded(RTCScene scene, RTCRay& ray) {
+    rtcOccluded1(scene, &context_, &ray);
   }
 
  private:

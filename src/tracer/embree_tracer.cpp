@@ -23,6 +23,7 @@
 #include "base/frame.hpp"
 #include "lichtmc/error.hpp"
 #include "room/bounds.hpp"
+#include "room/convexity.hpp"
 #include "tracer/embree.hpp"
 #include "tracer/tracer.hpp"
 
@@ -99,6 +100,7 @@ class EmbreeTracer final : public Tracer {
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
     place(room);
+    casts_shadows_ = !is_convex(WeldedMesh(room));
     add_facets(room, tiling);
     throw_embree_error(device_.get(), "taking in the room");
     rtcCommitScene(scene_.get());
@@ -151,7 +153,30 @@ class EmbreeTracer final : public Tracer {
 
   Start start(const glm::dvec3& world_point_m) const override;
 
-  glm::dvec3 world_point(const glm::vec3& point) const override { return centre_ + glm::dvec3(point) / scale_; }
+  void find_blocked(ShadowRays& rays, TraceCount& count) const override {
+    EmbreeQuery query;
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      RTCRay ray{};
+      ray.org_x = rays.starts[i].x;
+      ray.org_y = rays.starts[i].y;
+      ray.org_z = rays.starts[i].z;
+      ray.dir_x = rays.ways[i].x;
+      ray.dir_y = rays.ways[i].y;
+      ray.dir_z = rays.ways[i].z;
+      ray.tnear = 0.0F;
+      ray.tfar = 1.0F;
+      ray.mask = 0xFFFFFFFF;
+      query.occluded(scene_.get(), ray);
+      rays.blocked[i] = ray.tfar < 0.0F ? 1 : 0;  // Embree's word for yes is −∞
+    }
+    count.rays += rays.size;
+    count.shadow_rays += rays.size;
+  }
+
+  bool casts_shadows() const override { return casts_shadows_; }
+
+  // Coordinates lie between −1 and 1, and no side is longer than 2√3: the step of the largest facet there can be.
+  float step() const override { return static_cast<float>(step_roundings * 5.0); }
 
   TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const override {
     return {static_cast<std::uint32_t>(first_facet_[surface] + triangle), {0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}};
@@ -205,12 +230,14 @@ class EmbreeTracer final : public Tracer {
     rays.s[i] = hit.hit.u;
     rays.t[i] = hit.hit.v;
     rays.behind[i] = glm::dot(rays.direction(i), facets_[hit.hit.primID].normal) > 0.0F ? 1 : 0;
+    rays.length[i] = hit.ray.tfar;
   }
 
   Device device_{rtcNewDevice(nullptr), &rtcReleaseDevice};
   Scene scene_{nullptr, &rtcReleaseScene};
   glm::dvec3 centre_{0.0};
   double scale_ = 1.0;
+  bool casts_shadows_ = true;
   std::vector<std::size_t> first_facet_;  // of each surface
   std::vector<Departure> departures_;
 };
@@ -221,6 +248,7 @@ void EmbreeTracer::place(const Room& room) {
   int exponent = 0;
   std::frexp(largest_component(0.5 * (high - low)), &exponent);
   scale_ = std::ldexp(1.0, -exponent);
+  set_place(centre_, glm::dmat3(1.0 / scale_));
 }
 
 void EmbreeTracer::add_facets(const Room& room, const Tiling& tiling) {

@@ -22,7 +22,8 @@ struct Rays {
         facet(capacity),
         s(capacity),
         t(capacity),
-        behind(capacity) {}
+        behind(capacity),
+        length(capacity) {}
 
   std::size_t size = 0;  // photons in flight; elements beyond are spare
 
@@ -34,6 +35,7 @@ struct Rays {
   std::vector<std::uint32_t> facet;
   std::vector<float> s, t;           // where on the facet
   std::vector<std::uint8_t> behind;  // 1: on the back of the facet, 0: on its front
+  std::vector<float> length;         // of the flight, in lengths of its direction
 
   void set_start(std::size_t i, const glm::vec3& point) {
     x[i] = point.x;
@@ -47,6 +49,26 @@ struct Rays {
   }
   glm::vec3 start(std::size_t i) const { return {x[i], y[i], z[i]}; }
   glm::vec3 direction(std::size_t i) const { return {dx[i], dy[i], dz[i]}; }
+};
+
+// Straight ways between two points each, of which only is asked whether something stands between.
+struct ShadowRays {
+  void clear() { size = 0; }
+  void add(const glm::vec3& start, const glm::vec3& way) {
+    if (size == starts.size()) {
+      starts.emplace_back();
+      ways.emplace_back();
+      blocked.emplace_back();
+    }
+    starts[size] = start;
+    ways[size] = way;
+    ++size;
+  }
+
+  std::size_t size = 0;
+  std::vector<glm::vec3> starts;      // in the tracer's coordinates
+  std::vector<glm::vec3> ways;        // from start to end
+  std::vector<std::uint8_t> blocked;  // 1: something stands between
 };
 
 }  // namespace lichtmc

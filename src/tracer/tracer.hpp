@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -27,8 +28,9 @@ enum class Misses {
 };
 
 struct TraceCount {
-  std::uint64_t rays = 0;      // rays traced, with those traced again
-  std::uint64_t retraced = 0;  // rays that were traced again
+  std::uint64_t rays = 0;         // rays traced, with those traced again and shadow rays
+  std::uint64_t retraced = 0;     // rays that were traced again
+  std::uint64_t shadow_rays = 0;  // rays that only asked whether something stands between two points
 };
 
 // Where the photons of a point emitter start.
@@ -63,8 +65,20 @@ class Tracer {
   virtual Start start(const glm::dvec3& world_point_m) const = 0;
   virtual TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const = 0;
 
-  // A point in the tracer's coordinates → the world, in m.
-  virtual glm::dvec3 world_point(const glm::vec3& point) const = 0;
+  // Which of these straight ways are blocked: sets blocked. A way that begins and ends free of surfaces is blocked by any
+  // surface between.
+  virtual void find_blocked(ShadowRays& rays, TraceCount& count) const = 0;
+
+  // Whether some surface can stand between two points in the room. Where none can, nothing is asked.
+  virtual bool casts_shadows() const = 0;
+
+  // The least distance from a surface that can be told apart from lying on it, in the tracer's coordinates.
+  virtual float step() const = 0;
+
+  // A point and a vector in the tracer's coordinates → the world, in m; and back.
+  glm::dvec3 world_point(const glm::dvec3& point) const { return origin_ + to_world_ * point; }
+  glm::dvec3 world_vector(const glm::dvec3& vector) const { return to_world_ * vector; }
+  glm::dvec3 tracer_point(const glm::dvec3& world_m) const { return from_world_ * (world_m - origin_); }
 
   const std::vector<Facet>& facets() const { return facets_; }
   // World direction → the tracer's coordinates.
@@ -75,8 +89,19 @@ class Tracer {
   Tracer(const Tracer&) = default;
   Tracer& operator=(const Tracer&) = default;
 
+  void set_place(const glm::dvec3& origin, const glm::dmat3& to_world) {
+    origin_ = origin;
+    to_world_ = to_world;
+    from_world_ = glm::inverse(to_world);
+  }
+
   std::vector<Facet> facets_;
   glm::dmat3 directions_{1.0};
+
+ private:
+  glm::dvec3 origin_{0.0};  // m
+  glm::dmat3 to_world_{1.0};
+  glm::dmat3 from_world_{1.0};
 };
 
 // The closed form of the cuboid, or null where the room is none that it can serve; then `why_not` says why, as the end

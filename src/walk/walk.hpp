@@ -1,24 +1,18 @@
-// The walk: a batch of histories from the emitters to their ends.
-//
-// One kernel for all estimators and both tracers. What differs is passed in as a policy and resolved when the walk is
-// chosen, once per run.
+// The forward walk: a batch of histories from the emitters to their ends. Which it is (estimator, textures or not) is
+// resolved when the walk is made, once per run.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 
 #include "chance/stream.hpp"
 #include "lichtmc/settings.hpp"
 #include "walk/estimators.hpp"
+#include "walk/kernel.hpp"
 #include "walk/scene.hpp"
 #include "walk/tally.hpp"
 
 namespace lichtmc {
-
-// Asked every thousand flights of a wave. When it says true and the wave has flown a million times, the wave ends and
-// what still flies is booked as residual: only a room that keeps its light for ever, or nearly so, gets there.
-using Abandon = std::function<bool()>;
 
 class Walk {
  public:

@@ -17,13 +17,11 @@ struct Wave {
   Wave()
       : rays(batch_histories),
         photon(batch_histories),
-        tile(batch_histories),
         weight(batch_histories),
         words(batch_histories) {}
 
   Rays rays;
   std::vector<std::uint32_t> photon;  // number of the history within the batch
-  std::vector<std::uint32_t> tile;    // where the flight ended
   std::vector<double> weight;         // for estimators that carry one
   std::vector<Words> words;           // random words of the flight
 
