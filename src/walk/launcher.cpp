@@ -1,34 +1,17 @@
 #include "walk/launcher.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
 #include "base/frame.hpp"
+#include "chance/choice.hpp"
 #include "chance/directions.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-// Turns shares into their running sum, scaled to end at exactly 1.
-std::vector<double> cumulative(const std::vector<double>& shares) {
-  std::vector<double> sums(shares.size());
-  double sum = 0.0;
-  for (std::size_t i = 0; i < shares.size(); ++i) sums[i] = sum += shares[i];
-  for (double& value : sums) value /= sum;
-  sums.back() = 1.0;
-  return sums;
-}
-
-// Index of the share that 0 ≤ u < 1 falls into; shares of 0 are never chosen.
-std::size_t choose(const std::vector<double>& sums, double u) {
-  const auto chosen = std::upper_bound(sums.begin(), sums.end(), u);
-  assert(chosen != sums.end());  // the last sum is 1
-  return static_cast<std::size_t>(chosen - sums.begin());
-}
 
 glm::dvec3 sample(const IsotropicEmitter& /*law*/, double u, double turns) {
   return sample_sphere(u, turns);
