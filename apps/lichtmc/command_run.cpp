@@ -13,10 +13,12 @@
 #include "interrupt.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/output.hpp"
+#include "lichtmc/receivers.hpp"
 #include "lichtmc/simulate.hpp"
 #include "light_spec.hpp"
 #include "progress_line.hpp"
 #include "quantities.hpp"
+#include "receiver_table.hpp"
 #include "room_options.hpp"
 
 namespace lichtmc::app {
@@ -33,6 +35,7 @@ struct RunOptions {
   std::string seed = "1";
   std::optional<int> threads;
   std::string engine = "auto";
+  std::optional<std::string> receivers, grid, grid_spacing, only;
   bool quiet = false;
 };
 
@@ -51,6 +54,26 @@ Engine parse_engine(const std::string& text) {
   if (text == "embree") return Engine::embree;
   throw InputError("The engine '" + text +
                    "' is not known (allowed: auto, cuboid, embree). Give one of these to --engine.");
+}
+
+Ways parse_ways(const std::string& text) {
+  if (text == "forward") return Ways::forward;
+  if (text == "backward") return Ways::backward;
+  throw InputError("The way '" + text +
+                   "' is not known (allowed: forward, backward). Give one of these to --only, or leave it out for both.");
+}
+
+// Receivers of the command line beside those of the room.
+void add_receivers(Room& room, const RunOptions& options) {
+  std::vector<Receiver> more;
+  if (options.receivers) more = read_receivers(*options.receivers);
+  room.receivers.insert(room.receivers.end(), more.begin(), more.end());
+  if (options.grid_spacing && !options.grid)
+    throw InputError("--grid-spacing is given without --grid. Give --grid the height of the grid, for example 0.85.");
+  if (!options.grid) return;
+  more = receiver_grid(room, parse_number(*options.grid, "--grid"),
+                       parse_number(options.grid_spacing.value_or("0.5"), "--grid-spacing"));
+  room.receivers.insert(room.receivers.end(), more.begin(), more.end());
 }
 
 Settings parse_settings(const RunOptions& options) {
@@ -78,6 +101,7 @@ Settings parse_settings(const RunOptions& options) {
   }
   settings.threads = static_cast<unsigned>(options.threads.value_or(0));
   settings.engine = parse_engine(options.engine);
+  if (options.only) settings.ways = parse_ways(*options.only);
   return settings;
 }
 
@@ -109,14 +133,15 @@ const char* describe(StopReason reason) {
 }
 
 // A stop rule that was not met is said, with what it would take.
-void warn_of_missed_target(const Settings& settings, const Result& result) {
-  if (!settings.target_error || result.stopped_by == StopReason::target_error) return;
-  std::cerr << "The target error of " << percent(*settings.target_error) << " was not reached: it is "
-            << percent(result.rms_relative_error) << '.';
-  const double factor = std::pow(result.rms_relative_error / *settings.target_error, 2);
+void warn_of_missed_target(const Settings& settings, StopReason stopped_by, double error, double histories, double seconds,
+                           const char* remedy) {
+  if (!settings.target_error || stopped_by == StopReason::target_error) return;
+  std::cerr << "The target error of " << percent(*settings.target_error) << " was not reached: it is " << percent(error)
+            << '.';
+  const double factor = std::pow(error / *settings.target_error, 2);
   if (std::isfinite(factor)) {
-    std::cerr << " It would take about " << short_count(factor * static_cast<double>(result.histories)) << " photons ("
-              << short_time(factor * result.seconds) << " here), or larger tiles.";
+    std::cerr << " It would take about " << short_count(factor * histories) << " photons ("
+              << short_time(factor * seconds) << " here)" << remedy << '.';
   }
   std::cerr << '\n';
 }
@@ -133,7 +158,7 @@ void print_ignored(const std::vector<Ignored>& ignored) {
             << " The list is in summary.json under \"ignored\".\n";
 }
 
-void print_outcome(const Result& result, const std::filesystem::path& folder) {
+void print_tiles(const Result& result) {
   const std::string unit(power_unit(result.quantity));
   const Balance& balance = result.balance;
   std::cerr << short_count(static_cast<double>(result.histories)) << " photons, "
@@ -148,16 +173,34 @@ void print_outcome(const Result& result, const std::filesystem::path& folder) {
             << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of those that were hit)" : ")");
   if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " were not hit";
   std::cerr << ".\n";
-  warn_of_missed_target(result.settings, result);
+  warn_of_missed_target(result.settings, result.stopped_by, result.rms_relative_error,
+                        static_cast<double>(result.histories), result.seconds, ", or larger tiles");
+}
+
+void print_receivers(const Result& result) {
+  const BackwardResult& backward = result.backward;
+  const auto histories = static_cast<double>(backward.histories);
+  std::cerr << result.receiver_results.size() << (result.receiver_results.size() == 1 ? " receiver, " : " receivers, ")
+            << short_count(histories) << " walks back from them in " << figure(backward.seconds) << " s ("
+            << describe(backward.stopped_by) << "), " << short_count(static_cast<double>(backward.shadow_rays))
+            << " shadow rays; relative standard error " << percent(backward.rms_relative_error) << " (rms).\n";
+  warn_of_missed_target(result.settings, backward.stopped_by, backward.rms_relative_error, histories, backward.seconds, "");
+}
+
+void print_outcome(const Result& result, const std::filesystem::path& folder) {
+  if (!result.tiles.empty()) print_tiles(result);
+  if (!result.receiver_results.empty()) print_receivers(result);
   for (const std::string& warning : result.warnings) std::cerr << "Warning: " << warning << '\n';
   print_ignored(result.ignored);
   std::cerr << "Results are in " << folder.string()
-            << ": surfaces.csv (one row per surface), tiles.csv, tiles/*.exr, summary.json.\n";
+            << (result.tiles.empty() ? ": " : ": surfaces.csv (one row per surface), tiles.csv, tiles/*.exr, ")
+            << (result.receiver_results.empty() ? "" : "receivers.csv, ") << "summary.json.\n";
 }
 
 void run(const RunOptions& options) {
   const Settings settings = parse_settings(options);
-  const Room room = read_room(options.reading);
+  Room room = read_room(options.reading);
+  add_receivers(room, options);
   check_room(room);
   const std::filesystem::path folder = options.output.empty()
                                            ? std::filesystem::path(options.reading.file).stem().concat(".out")
@@ -228,6 +271,22 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->capture_default_str()
       ->group(method);
 
+  const std::string points = "Points to measure at, besides the tiles";
+  command
+      .add_option("--receivers", options.receivers,
+                  "Table of receivers, x,y,z,nx,ny,nz[,name] in metres, one row each; - for stdin")
+      ->type_name("FILE.csv")
+      ->group(points);
+  command.add_option("--grid", options.grid, "A grid of points that look up, this many metres above the floor")
+      ->type_name("H")
+      ->group(points);
+  command.add_option("--grid-spacing", options.grid_spacing, "Distance between points of the grid in metres [0.5]")
+      ->type_name("M")
+      ->group(points);
+  command.add_option("--only", options.only, "forward: tiles only; backward: receivers only")
+      ->type_name("WAY")
+      ->group(points);
+
   add_room_options(command, options.reading);
   command.add_flag("--quiet", options.quiet, "No progress, no summary; only errors");
 }
@@ -248,6 +307,7 @@ void add_run_command(CLI::App& program) {
       "\nExamples:\n"
       "  lichtmc run room.glb                                1 million photons, tiles of 0.1 m, results in room.out/\n"
       "  lichtmc run room.glb --target-error 2% --max-time 5min --tile 0.25\n"
+      "  lichtmc run office.glb --grid 0.85 --only backward --target-error 2%      desk height, nothing else\n"
       "  lichtmc run hall.glb --light point:5,3,5:8000lm --max-reflectance 0.9 -o out/hall\n"
       "Ctrl-C ends a run early and keeps what was simulated; a second Ctrl-C ends the program at once.");
   command->callback([options] { run(*options); });

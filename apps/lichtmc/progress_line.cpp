@@ -60,10 +60,12 @@ double ProgressLine::share_done(const Progress& progress) const {
 std::string ProgressLine::describe(const Progress& progress) const {
   const double share = share_done(progress);
   const double left = share > 0.0 ? progress.seconds * (1.0 - share) / share : 0.0;
+  const bool backward = progress.stage == Progress::Stage::receivers;
   const bool limited = progress.target < std::uint64_t{1} << 62;
   std::string text = short_count(static_cast<double>(progress.histories)) +
-                     (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") + " photons, " +
-                     short_count(static_cast<double>(progress.impacts) / progress.seconds) + " impacts/s";
+                     (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") + (backward ? " walks from receivers, " : " photons, ") +
+                     short_count(static_cast<double>(progress.impacts) / progress.seconds) +
+                     (backward ? " rays/s" : " impacts/s");
   if (progress.rms_relative_error > 0.0) {
     char error[48];
     std::snprintf(error, sizeof error, ", error %.2g %%", 100.0 * progress.rms_relative_error);

@@ -7,6 +7,7 @@
 #include "lichtmc/inspect.hpp"   // IWYU pragma: export
 #include "lichtmc/mend.hpp"      // IWYU pragma: export
 #include "lichtmc/output.hpp"    // IWYU pragma: export
+#include "lichtmc/receivers.hpp"  // IWYU pragma: export
 #include "lichtmc/result.hpp"    // IWYU pragma: export
 #include "lichtmc/room.hpp"      // IWYU pragma: export
 #include "lichtmc/settings.hpp"  // IWYU pragma: export

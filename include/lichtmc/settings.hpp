@@ -21,6 +21,13 @@ enum class Engine {
   embree,     // any room
 };
 
+// Which walks are run.
+enum class Ways {
+  all,       // forward to the tiles; backward from the receivers, where there are any
+  forward,   // tiles only
+  backward,  // receivers only
+};
+
 // "weight", "collision", "absorption"; "auto", "cuboid", "embree".
 std::string_view to_string(Estimator estimator);
 std::string_view to_string(Engine engine);
@@ -28,9 +35,10 @@ std::string_view to_string(Engine engine);
 // The first stop rule to be met ends the run.
 struct Settings {
   Estimator estimator = Estimator::collision;
-  std::uint64_t photons = 1'000'000;   // histories, ≥ 1
-  std::optional<double> target_error;  // stop when Result::rms_relative_error is at most this, > 0
-  std::optional<double> max_seconds;   // stop after this wall-clock time, > 0
+  std::uint64_t photons = 1'000'000;  // histories, ≥ 1: so many forward; and so many backward, shared by the receivers
+  std::optional<double> target_error;  // stop when the rms_relative_error of the walk is at most this, > 0
+  std::optional<double> max_seconds;   // stop after this wall-clock time, > 0; where both ways are walked, half of it each
+  Ways ways = Ways::all;
   std::optional<std::uint32_t>
       max_bounces;           // weight only: end every history after this many flights, ≥ 1; default: roulette
   double tile_edge_m = 0.1;  // m, > 0

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <string>
 
 #include "lichtmc/output.hpp"
@@ -36,6 +37,39 @@ Json surfaces_of(const Result& result) {
   return surfaces;
 }
 
+Json receivers_of(const Result& result) {
+  Json receivers = Json::array();
+  for (std::size_t k = 0; k < result.receiver_results.size(); ++k) {
+    const Receiver& r = result.receivers[k];
+    const ReceiverResult& one = result.receiver_results[k];
+    receivers.push_back({{"name", r.name},
+                         {"position", {number(r.position.x), number(r.position.y), number(r.position.z)}},
+                         {"normal", {number(r.normal.x), number(r.normal.y), number(r.normal.z)}},
+                         {"fov", number(r.half_angle_deg)},
+                         {"area", number(r.area_m2)},
+                         {"irradiance", number(one.irradiance)},
+                         {"direct", number(one.direct)},
+                         {"indirect", number(one.indirect)},
+                         {"standard_error", number(one.standard_error)},
+                         {"gain", number(one.gain)},
+                         {"gain_db", one.gain > 0.0 ? number(10.0 * std::log10(one.gain)) : Json(nullptr)}});
+  }
+  return receivers;
+}
+
+// How the receivers' results were got; null without any.
+Json backward_of(const Result& result) {
+  if (result.receiver_results.empty()) return nullptr;
+  const BackwardResult& b = result.backward;
+  return {{"histories", b.histories},
+          {"rays", b.rays},
+          {"shadow_rays", b.shadow_rays},
+          {"seconds", number(b.seconds)},
+          {"rms_relative_error", number(b.rms_relative_error)},
+          {"figure_of_merit", number(b.figure_of_merit)},
+          {"stopped_by", std::string(to_string(b.stopped_by))}};
+}
+
 Json texts_of(const std::vector<Ignored>& ignored) {
   Json texts = Json::array();
   for (const Ignored& thing : ignored) texts.push_back(thing.what);
@@ -59,6 +93,11 @@ Json units_of(const Result& result) {
           {"mean_irradiance", irradiance},
           {"min_irradiance", irradiance},
           {"max_irradiance", irradiance},
+          {"direct", irradiance},
+          {"indirect", irradiance},
+          {"gain", "1"},
+          {"gain_db", "dB"},
+          {"fov", "degrees"},
           {"area", "m^2"},
           {"x", "m"},
           {"y", "m"},
@@ -85,7 +124,7 @@ std::string summary_json(const Room& room, const Result& result) {
                {"threads", result.threads},
                {"histories", result.histories},
                {"impacts", result.impacts},
-               {"rays", result.rays},
+               {"rays", result.rays + result.backward.rays},
                {"seconds", number(result.seconds)},
                {"impacts_per_second", number(static_cast<double>(result.impacts) / result.seconds)},
                {"emitted", number(balance.emitted)},
@@ -99,8 +138,9 @@ std::string summary_json(const Room& room, const Result& result) {
                {"figure_of_merit", number(result.figure_of_merit)},
                {"stopped_by", std::string(to_string(result.stopped_by))},
                {"surfaces", surfaces_of(result)},
-               {"receivers", Json::array()},
+               {"receivers", receivers_of(result)},
                {"ignored", texts_of(result.ignored)}};
+  summary["backward"] = backward_of(result);
   summary["warnings"] = result.warnings;
   summary["mended"] = result.mended;
   summary["emitters"] = emitters_of(room);

@@ -1,5 +1,7 @@
 #include "output/tables.hpp"
 
+#include <cmath>
+
 #include "base/message.hpp"
 
 namespace lichtmc {
@@ -40,6 +42,20 @@ std::string tiles_csv(const Result& result) {
                to_text(tile.point.x), to_text(tile.point.y), to_text(tile.point.z), to_text(tile.area_m2),
                to_text(figures.power), to_text(figures.irradiance), to_text(figures.standard_error),
                std::to_string(figures.hits), unit);
+  }
+  return table;
+}
+
+std::string receivers_csv(const Result& result) {
+  std::string table = "receiver,name,x,y,z,nx,ny,nz,irradiance,direct,indirect,standard_error,gain,gain_db,unit\n";
+  const std::string unit(irradiance_unit(result.quantity));
+  for (std::size_t k = 0; k < result.receiver_results.size(); ++k) {
+    const Receiver& r = result.receivers[k];
+    const ReceiverResult& one = result.receiver_results[k];
+    append_row(table, std::to_string(k), csv_field(r.name), to_text(r.position.x), to_text(r.position.y),
+               to_text(r.position.z), to_text(r.normal.x), to_text(r.normal.y), to_text(r.normal.z),
+               to_text(one.irradiance), to_text(one.direct), to_text(one.indirect), to_text(one.standard_error),
+               to_text(one.gain), one.gain > 0.0 ? to_text(10.0 * std::log10(one.gain)) : std::string(), unit);
   }
   return table;
 }

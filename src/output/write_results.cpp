@@ -60,6 +60,14 @@ void remove_foreign_maps(const fs::path& folder, const std::set<std::string>& ou
   }
 }
 
+void remove_old(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error)
+    throw RuntimeError("Cannot replace " + lichtmc::in_quotes(file.string()) + " (" + reason_of(error) +
+                       "). Choose another folder with --output.");
+}
+
 // Whether a file can be made, filled and removed there, or why not. Permissions alone do not tell: disks are full, or
 // mounted for reading only.
 std::error_code try_to_write(const fs::path& folder) {
@@ -91,18 +99,26 @@ void prepare_output(const fs::path& folder) {
 void write_results(const Room& room, const Result& result, const fs::path& folder) {
   make_folder(folder / "tiles");
   // A summary speaks for all files beside it: none while they change.
-  std::error_code error;
-  fs::remove(folder / "summary.json", error);
-  if (error)
-    throw RuntimeError("Cannot replace " + lichtmc::in_quotes((folder / "summary.json").string()) + " (" +
-                       reason_of(error) + "). Choose another folder with --output.");
+  remove_old(folder / "summary.json");
 
-  const std::vector<std::string> names = tile_image_names(result.tiling);
+  // What this run has not computed is not left over from another.
+  std::vector<std::string> names;
+  if (!result.tiles.empty()) names = tile_image_names(result.tiling);
   for (std::size_t m = 0; m < names.size(); ++m)
     write_file_atomically(folder / "tiles" / names[m], tile_image(result, m));
   remove_foreign_maps(folder / "tiles", {names.begin(), names.end()});
-  write_file_atomically(folder / "tiles.csv", tiles_csv(result));
-  write_file_atomically(folder / "surfaces.csv", surfaces_csv(result));
+  if (!result.tiles.empty()) {
+    write_file_atomically(folder / "tiles.csv", tiles_csv(result));
+    write_file_atomically(folder / "surfaces.csv", surfaces_csv(result));
+  } else {
+    remove_old(folder / "tiles.csv");
+    remove_old(folder / "surfaces.csv");
+  }
+  if (!result.receiver_results.empty()) {
+    write_file_atomically(folder / "receivers.csv", receivers_csv(result));
+  } else {
+    remove_old(folder / "receivers.csv");
+  }
   write_file_atomically(folder / "summary.json", summary_json(room, result));
 }
 

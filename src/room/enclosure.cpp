@@ -81,7 +81,7 @@ Enclosure::Enclosure(const WeldedMesh& mesh) {
   }
 }
 
-bool Enclosure::encloses(const glm::dvec3& point_m) const {
+std::size_t Enclosure::shells_about(const glm::dvec3& point_m) const {
   const auto inside = [&point_m](const Shell& shell) {
     // Directions with no simple relation to a room's edges; another where one comes too close to an edge of the mesh.
     glm::dvec3 direction(0.57735, 0.21132, 0.78868);
@@ -98,7 +98,7 @@ bool Enclosure::encloses(const glm::dvec3& point_m) const {
     }
     return false;
   };
-  return std::any_of(shells_.begin(), shells_.end(), inside);
+  return static_cast<std::size_t>(std::count_if(shells_.begin(), shells_.end(), inside));
 }
 
 }  // namespace lichtmc

@@ -1,6 +1,7 @@
 // Closed shells: from inside one, no light can leave through an opening.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -22,7 +23,10 @@ class Enclosure {
 
   // Whether a point (world coordinates, m) lies inside a closed shell: a ray from it crosses the shell an odd number of
   // times.
-  bool encloses(const glm::dvec3& point_m) const;
+  bool encloses(const glm::dvec3& point_m) const { return shells_about(point_m) > 0; }
+
+  // How many closed shells a point lies inside of.
+  std::size_t shells_about(const glm::dvec3& point_m) const;
 
  private:
   using Shell = std::vector<WeldedMesh::Corners>;

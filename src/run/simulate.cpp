@@ -10,6 +10,7 @@
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
 #include "run/crew.hpp"
+#include "run/receive.hpp"
 #include "run/scores.hpp"
 #include "run/settings_check.hpp"
 #include "run/warnings.hpp"
@@ -48,22 +49,23 @@ StopReason run_until_stopped(Crew& crew, const Scores& scores, const Tiling& til
   }
 }
 
-std::vector<Ignored> ignored_by_run(const Room& room) {
+std::vector<Ignored> ignored_by_run(const Room& room, Ways ways) {
   std::vector<Ignored> ignored = room.ignored;
   std::size_t without_area = 0;
   for (const Surface& surface : room.surfaces) without_area += surface.without_area;
   if (without_area > 0) {
     ignored.push_back({to_text(without_area, "triangle") + " without area: no light can fall on them.", Effect::none});
   }
-  if (!room.receivers.empty()) {
+  if (!room.receivers.empty() && ways == Ways::forward) {
     ignored.push_back({to_text(room.receivers.size(), "receiver") + " (" + in_quotes(room.receivers.front().name) +
-                           (room.receivers.size() > 1 ? ", …" : "") + "): a forward run measures tiles, not points.",
+                           (room.receivers.size() > 1 ? ", …" : "") + "): only tiles were asked for.",
                        Effect::none});
   }
   return ignored;
 }
 
-void fill_in(Result& result, const Room& room, const Totals& totals, const Scores& scores) {
+// What the forward walk found.
+void fill_in(Result& result, const Totals& totals, const Scores& scores) {
   result.histories = totals.histories;
   result.impacts = totals.impacts;
   result.rays = totals.traced.rays;
@@ -77,10 +79,16 @@ void fill_in(Result& result, const Room& room, const Totals& totals, const Score
   result.figure_of_merit = 1.0 / (result.rms_relative_error * result.rms_relative_error * result.seconds);
   result.tiles_without_hits = static_cast<std::uint64_t>(
       std::count_if(result.tiles.begin(), result.tiles.end(), [](const TileResult& tile) { return tile.hits == 0; }));
+}
+
+// What holds of the run as a whole.
+void complete(Result& result, const Room& room) {
   result.room = room.source;
   result.quantity = room.quantity;
-  result.ignored = ignored_by_run(room);
+  result.receivers = room.receivers;
+  result.ignored = ignored_by_run(room, result.settings.ways);
   result.mended = room.mended;
+  result.balance.emitted = total_power(room);
   result.warnings = warnings_of(room, result);
 }
 
@@ -93,16 +101,9 @@ void fill_in(Result& result, const Room& room, const Totals& totals, const Score
       "with --estimator weight --max-bounces N.");
 }
 
-Result simulate_checked(const Room& room, const Settings& settings, const Control& control) {
-  Result result;
-  result.settings = settings;
-  result.threads = threads_for(settings);
-  result.tiling = make_tiling(room, settings.tile_edge_m);
-  const Scene scene(room, result.tiling, settings.engine);
-  result.engine = scene.engine;
-  if (!settings.max_bounces && traps_light(scene, settings.seed)) refuse_trap(room);
+void simulate_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
+                    const Control& control) {
   const Scores scores(room, result.tiling, score_law(settings.estimator, scene.has_maps()));
-
   Crew crew(scene, settings, control, result.threads);
   result.stopped_by = run_until_stopped(crew, scores, result.tiling, settings);
   result.seconds = crew.seconds();
@@ -111,7 +112,24 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
     throw RuntimeError(
         "The run was stopped before the first photon was simulated: there is no result. Give it more time.");
   }
-  fill_in(result, room, totals, scores);
+  fill_in(result, totals, scores);
+}
+
+Result simulate_checked(const Room& room, const Settings& settings, const Control& control) {
+  Result result;
+  result.settings = settings;
+  result.threads = threads_for(settings);
+  result.tiling = make_tiling(room, settings.tile_edge_m);
+  const Scene scene(room, result.tiling, settings.engine);
+  result.engine = scene.engine;
+  if (!settings.max_bounces && traps_light(scene, settings.seed)) refuse_trap(room);
+  const bool forward = settings.ways != Ways::backward;
+  const bool backward = settings.ways != Ways::forward && !room.receivers.empty();
+  Settings each = settings;
+  if (forward && backward && each.max_seconds) each.max_seconds = 0.5 * *each.max_seconds;
+  if (forward) simulate_tiles(result, room, scene, each, control);
+  if (backward && !control.stop.stop_requested()) receive(room, scene, each, control, result.threads, result);
+  complete(result, room);
   return result;
 }
 

@@ -13,7 +13,7 @@
 //   reflect(wave, flight)     all photons left stand on their surfaces, about to fly on
 //   cut_off(wave, i)          the walk ends for photon i
 //   scatter(i, cosine)        photon i flies off at this angle to the normal
-//   move(from, to)            photon `from` takes place `to` of the wave
+//   move(wave, from, to)      photon `from` takes place `to` of the wave, which itself has moved what flying on needs
 #pragma once
 
 #include <cstddef>
@@ -119,7 +119,7 @@ class Kernel {
   void keep(std::size_t i, std::size_t& kept, Goal& goal) {
     if (kept != i) {
       wave_.move(i, kept);
-      goal.move(i, kept);
+      goal.move(wave_, i, kept);
     }
     ++kept;
   }

@@ -61,7 +61,7 @@ class TileGoal {
     ends().residual += static_cast<int128>(Policy::units(wave.weight[i]));
   }
   void scatter(std::size_t /*i*/, float /*cosine*/) {}
-  void move(std::size_t /*from*/, std::size_t /*to*/) {}
+  void move(const Wave& /*wave*/, std::size_t /*from*/, std::size_t /*to*/) {}
 
  private:
   void score(const Wave& wave, std::size_t i) {

@@ -56,6 +56,44 @@ class Run(ProgramTest):
         self.assertIn("100k photons", said)
         self.assertIn(str(out), said)
 
+    def test_receivers_of_a_table_and_a_grid(self):
+        table = self.folder / "points.csv"
+        table.write_text("x,y,z,nx,ny,nz,name\n# desk\n0.5,0.2,0.5,0,1,0,\"desk, left\"\n\n0.1,0.5,0.5,1,0,0\n")
+        out, summary, tiles, said = self.run_room("--receivers", table, "--grid", "0.1", "--grid-spacing", "0.25", "--photons", "50k")
+        with open(out / "receivers.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(rows[0])[:13], "receiver,name,x,y,z,nx,ny,nz,irradiance,direct,indirect,standard_error,gain".split(","))
+        self.assertEqual([r["name"] for r in rows[:3]], ['"desk, left"', "receiver_1", "grid_0_0"])
+        self.assertEqual(len(rows), 2 + 16)
+        self.assertEqual(len(summary["receivers"]), 18)
+        for row, one in zip(rows, summary["receivers"]):
+            self.assertEqual(float(row["irradiance"]), one["irradiance"])
+            self.assertTrue(math.isclose(float(row["direct"]) + float(row["indirect"]), float(row["irradiance"]), rel_tol=1e-12))
+            self.assertGreater(float(row["standard_error"]), 0)
+            self.assertTrue(math.isclose(10 * math.log10(float(row["gain"])), float(row["gain_db"]), rel_tol=1e-12))
+        self.assertEqual(summary["backward"]["shadow_rays"], 0)  # a cuboid casts no shadow
+        self.assertEqual(len(tiles), 600)
+        self.assertIn("18 receivers", said)
+
+    def test_only_one_way(self):
+        done = lichtmc("run", CUBE, "-o", self.folder / "out", "--photons", "10k", "--grid", "0.5", "--only", "backward")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()), ["receivers.csv", "summary.json", "tiles"])
+        out, summary, _, _ = self.run_room("--photons", "10k", "--grid", "0.5", "--only", "forward")
+        self.assertFalse((out / "receivers.csv").exists())  # not left over from the run before
+        self.assertIsNone(summary["backward"])
+        self.assertIn("only tiles were asked for", " ".join(summary["ignored"]))
+        table = self.folder / "wrong.csv"
+        table.write_text("0,0,0,0,1,0\n1,2,x,0,1,0\n")
+        self.refused("run", CUBE, "-o", out, "--receivers", table, says=["row 2", "'x'"])
+        table.write_text("0.5,0.2,0.5,0,0,0\n")
+        self.refused("run", CUBE, "-o", out, "--receivers", table, says=["row 1", "0,0,0"])
+        table.write_text("0.5,0.5,0.5,0,1,0\n")
+        self.refused("run", CUBE, "-o", out, "--receivers", table, says=["receiver_0", "on the emitter"])
+        self.refused("run", CUBE, "-o", out, "--only", "sideways", says=["sideways", "forward, backward"])
+        self.refused("run", CUBE, "-o", out, "--grid-spacing", "1", says=["without --grid"])
+        self.refused("run", CUBE, "-o", out, "--only", "backward", says=["no receiver"])
+
     def test_same_digits_for_any_number_of_threads(self):
         files = []
         for threads in (1, 2, 7):

@@ -24,7 +24,7 @@ PUBLIC = {
     "error": "base", "units": "base", "version": "base",
     "room": "room", "cuboid": "room", "mend": "room", "tiles": "room",
     "settings": "room",  # plain data that every floor may read
-    "result": "run", "simulate": "run", "inspect": "inspect",
+    "result": "run", "simulate": "run", "receivers": "run", "inspect": "inspect",
     "gltf": "gltf", "output": "output",
 }
 WINGS_SEE_RESULTS = {"output": ["result", "inspect"], "gltf": []}

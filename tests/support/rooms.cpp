@@ -51,6 +51,7 @@ Settings settings_of(Estimator estimator, Engine engine, double photons, std::ui
   settings.photons = static_cast<std::uint64_t>(photons);
   settings.seed = seed;
   settings.tile_edge_m = tile_edge_m;
+  settings.ways = Ways::forward;
   return settings;
 }
 

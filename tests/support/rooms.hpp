@@ -27,7 +27,7 @@ Emitter paper_emitter();
 // A room without one of its surfaces; emitters on later surfaces are renumbered.
 Room without_surface(Room room, const std::string& name);
 
-// Settings for tests: threads and reports do not matter, the seed does.
+// Settings for tests of the forward walk: threads and reports do not matter, the seed does.
 Settings settings_of(Estimator estimator, Engine engine, double photons, std::uint64_t seed, double tile_edge_m = 0.1);
 
 const SurfaceResult& surface_named(const Result& result, std::string_view name);

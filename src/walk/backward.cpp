@@ -1,0 +1,281 @@
+#include "walk/backward.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "base/frame.hpp"
+#include "chance/directions.hpp"
+#include "walk/estimators.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr std::uint64_t largest_score = std::uint64_t{1} << 50;
+
+// What backward photons are for, see kernel.hpp.
+template <class Policy>
+class ReceiverGoal {
+ public:
+  ReceiverGoal(const Scene& scene, const DirectLight& light, const std::vector<Receiver>& receivers,
+               const ReceiverScale& scale, const Stream& stream)
+      : scene_(&scene),
+        light_(&light),
+        receivers_(&receivers),
+        scale_(scale),
+        stream_(stream),
+        ids_(batch_histories),
+        receiver_(batch_histories),
+        factor_(batch_histories),
+        found_(batch_histories),
+        direct_(batch_histories),
+        cosine_(batch_histories),
+        offers_(batch_histories) {}
+
+  // Photon i is to start from `receiver` (a number of the room's) as sample `sample`; its score goes to sums[receiver −
+  // first].
+  void prepare(std::size_t i, std::uint64_t receiver, std::uint64_t sample) {
+    receiver_[i] = receiver;
+    ids_[i] = sample * receivers_->size() + receiver;
+  }
+  void begin(std::uint64_t first, std::vector<ReceiverSums>& sums, TraceCount& traced) {
+    first_ = first;
+    sums_ = &sums;
+    traced_ = &traced;
+  }
+
+  // The first flight leaves by Lambert's law within the field of view: the receiver weighs light by the cosine.
+  void start(Wave& wave, std::uint32_t n) {
+    flight_ = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const Receiver& receiver = (*receivers_)[receiver_[i]];
+      const Outlook outlook = outlook_of(receiver);
+      const Frame frame = frame_about(outlook.normal);
+      const Words words = stream_.draw(ids_[i], 0, Purpose::emission);
+      factor_[i] = outlook.squared_sine();
+      const double squared = unit_open(words[0]) * factor_[i];
+      const double azimuth = 2.0 * std::numbers::pi * unit_open(words[1]);
+      const double sine = std::sqrt(squared);
+      const glm::dvec3 direction = sine * std::cos(azimuth) * frame.tangent +
+                                   sine * std::sin(azimuth) * frame.bitangent + std::sqrt(1.0 - squared) * frame.normal;
+      const Tracer& tracer = *scene_->tracer;
+      wave.rays.facet[i] = no_facet;
+      wave.rays.set_start(i, glm::vec3(start_of(outlook, tracer)));
+      wave.rays.set_direction(i, glm::vec3(tracer.directions() * direction));
+      found_[i] = 0.0;
+      direct_[i] = 0.0;
+    }
+  }
+  std::uint64_t history(std::uint32_t photon) const { return ids_[photon]; }
+  // Leaving through an opening is being absorbed by ρ = 0, also where rounding made the opening.
+  Misses misses() const { return Misses::escape; }
+  TraceCount& traced() { return *traced_; }
+  Ends& ends() { return ends_; }
+
+  void escape(const Wave& wave, std::size_t i) {
+    if constexpr (!Policy::scores_every_impact) found_[i] += direct_[i];
+    finish(wave, i);
+  }
+
+  // A flight that meets a shining surface has found some of the direct light of the surface that it left. The
+  // receiver's own direct light is known already.
+  void land(const Wave& wave) {
+    ++flight_;
+    if (flight_ == 1 || !light_->any_surface_shines()) return;
+    const Rays& rays = wave.rays;
+    const Tracer& tracer = *scene_->tracer;
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      const Facet& facet = tracer.facets()[rays.facet[i]];
+      if (rays.behind[i] != 0 || !light_->shines(facet.surface)) continue;
+      const glm::dvec3 way = tracer.world_vector(glm::dvec3(rays.direction(i)) * double{rays.length[i]});
+      const double r = glm::length(way);
+      const double cosine_there = std::abs(glm::dot(way, world_normal(facet))) / r;
+      if (!(r > 0.0) || !(cosine_there > 0.0)) continue;
+      const double irradiance = light_->hit(facet.surface, double{cosine_[i]}, cosine_there, r);
+      if constexpr (Policy::scores_every_impact) {
+        found_[i] += (Policy::carries_weight ? wave.weight[i] : 1.0) * irradiance;
+      } else {
+        direct_[i] += irradiance;
+      }
+    }
+  }
+
+  // Variant 3: only the direct light of the last surface survived scores.
+  void absorb(const Wave& wave, std::size_t i, double reflectance) {
+    if constexpr (!Policy::scores_every_impact) found_[i] += direct_[i] / (1.0 - reflectance);
+    finish(wave, i);
+  }
+
+  // Direct light at every surface survived.
+  void reflect(const Wave& wave, std::uint32_t flight) {
+    const Rays& rays = wave.rays;
+    for (std::size_t i = 0; i < rays.size; ++i) direct_[i] = 0.0;
+    for (std::size_t k = 0; k < light_->offers_per_point(); ++k) {
+      shadow_rays_.clear();
+      asking_.clear();
+      for (std::size_t i = 0; i < rays.size; ++i) ask(wave, flight, i, k);
+      if (shadow_rays_.size == 0) continue;
+      scene_->tracer->find_blocked(shadow_rays_, *traced_);
+      for (std::size_t n = 0; n < asking_.size(); ++n) {
+        if (shadow_rays_.blocked[n] == 0) direct_[asking_[n]] += offers_[asking_[n]];
+      }
+    }
+    if constexpr (Policy::scores_every_impact) {
+      for (std::size_t i = 0; i < rays.size; ++i)
+        found_[i] += (Policy::carries_weight ? wave.weight[i] : 1.0) * direct_[i];
+    }
+  }
+
+  void cut_off(const Wave& wave, std::size_t i) { finish(wave, i); }
+  void scatter(std::size_t i, float cosine) { cosine_[i] = cosine; }
+  void move(Wave& wave, std::size_t from, std::size_t to) {
+    // land() asks how each flight came.
+    wave.rays.set_direction(to, wave.rays.direction(from));
+    wave.rays.length[to] = wave.rays.length[from];
+    found_[to] = found_[from];
+    direct_[to] = direct_[from];
+    cosine_[to] = cosine_[from];
+  }
+
+ private:
+  glm::dvec3 world_normal(const Facet& facet) const {
+    // Normals of the cuboid's facets are along its axes: they stay so.
+    return glm::normalize(scene_->tracer->world_vector(glm::dvec3(facet.normal)));
+  }
+
+  // Takes an offer for photon i; where something may stand between, asks first.
+  void ask(const Wave& wave, std::uint32_t flight, std::size_t i, std::size_t k) {
+    const Rays& rays = wave.rays;
+    const Tracer& tracer = *scene_->tracer;
+    const Facet& facet = tracer.facets()[rays.facet[i]];
+    const glm::vec3 start = rays.start(i);
+    const glm::dvec3 normal = world_normal(facet);
+    const Outlook outlook{tracer.world_point(glm::dvec3(start)), rays.behind[i] != 0 ? -normal : normal, 0.0};
+    const std::uint64_t id = ids_[wave.photon[i]];
+    // A surface's own numbers for each emitter.
+    const auto number = static_cast<std::uint32_t>(flight * light_->offers_per_point() + k);
+    const Words which = stream_.draw(id, number, Purpose::light);
+    const Words where = light_->any_surface_shines() ? stream_.draw(id, number, Purpose::on_light) : Words{};
+    const LightOffer offer = light_->offer(k, outlook, which, where);
+    if (!(offer.irradiance > 0.0)) return;
+    if (!tracer.casts_shadows()) {
+      direct_[i] += offer.irradiance;
+      return;
+    }
+    const glm::dvec3 way = tracer.tracer_point(offer.target) - glm::dvec3(start);
+    const double length = glm::length(way);
+    const double short_of = 2.0 * tracer.step();  // of the surface that the emitter may lie on
+    if (length <= short_of) {
+      direct_[i] += offer.irradiance;
+      return;
+    }
+    offers_[i] = offer.irradiance;
+    asking_.push_back(i);
+    shadow_rays_.add(start, glm::vec3(way * (1.0 - short_of / length)));
+  }
+
+  void finish(const Wave& wave, std::size_t i) {
+    const std::uint32_t photon = wave.photon[i];
+    (*sums_)[receiver_[photon] - first_].add(scale_.score(found_[i] * factor_[photon]));
+  }
+
+  const Scene* scene_;
+  const DirectLight* light_;
+  const std::vector<Receiver>* receivers_;
+  ReceiverScale scale_;
+  Stream stream_;
+  // Of the photons by their numbers.
+  std::vector<std::uint64_t> ids_;
+  std::vector<std::uint64_t> receiver_;
+  std::vector<double> factor_;  // squared sine of the field of view: the share of a hemisphere's light that it takes
+  // Of the photons by their places in the wave.
+  std::vector<double> found_;   // so far, W/m² or lx
+  std::vector<double> direct_;  // at the surface that was left last
+  std::vector<float> cosine_;   // under which it was left
+  std::vector<double> offers_;
+  std::vector<std::size_t> asking_;
+  ShadowRays shadow_rays_;
+  std::uint32_t flight_ = 0;
+  std::uint64_t first_ = 0;
+  std::vector<ReceiverSums>* sums_ = nullptr;
+  TraceCount* traced_ = nullptr;
+  Ends ends_;
+};
+
+template <class Policy, class Reflectance>
+class PolicyBackwardWalk final : public BackwardWalk {
+ public:
+  PolicyBackwardWalk(const Scene& scene, const DirectLight& light, const std::vector<Receiver>& receivers,
+                     const ReceiverScale& scale, std::uint64_t seed, std::uint32_t max_flights)
+      : goal_(scene, light, receivers, scale, Stream(seed, Way::backward)),
+        kernel_(scene, Stream(seed, Way::backward), max_flights) {}
+
+  void simulate(const ReceiverWork& work, std::vector<ReceiverSums>& sums, TraceCount& traced,
+                const Abandon& abandon) override {
+    goal_.begin(work.first, sums, traced);
+    std::uint32_t n = 0;
+    for (std::uint64_t receiver = work.first; receiver < work.last; ++receiver) {
+      for (std::uint64_t sample = work.first_sample; sample < work.last_sample; ++sample) {
+        goal_.prepare(n++, receiver, sample);
+        if (n < batch_histories) continue;
+        kernel_.fly(n, goal_, abandon);
+        n = 0;
+      }
+    }
+    if (n > 0) kernel_.fly(n, goal_, abandon);
+  }
+
+ private:
+  ReceiverGoal<Policy> goal_;
+  Kernel<Policy, Reflectance, ReceiverGoal<Policy>> kernel_;
+};
+
+}  // namespace
+
+ReceiverScale::ReceiverScale(const Room& room) {
+  double area = 0.0;
+  for (const Surface& surface : room.surfaces) area += surface_area(surface);
+  unit = total_power(room) / area * 0x1p-24;
+}
+
+std::uint64_t ReceiverScale::score(double irradiance) const {
+  const double units = irradiance / unit;
+  return units < static_cast<double>(largest_score) ? static_cast<std::uint64_t>(units + 0.5) : largest_score;
+}
+
+Outlook outlook_of(const Receiver& receiver) {
+  const glm::dvec3 n = receiver.normal;
+  const glm::dvec3 scaled = n / std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+  Outlook outlook{receiver.position, glm::normalize(scaled), 0.0};
+  if (receiver.half_angle_deg < 90.0)
+    outlook.least_cosine = std::cos(receiver.half_angle_deg * std::numbers::pi / 180.0);
+  return outlook;
+}
+
+std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
+                                                 const std::vector<Receiver>& receivers, const ReceiverScale& scale,
+                                                 const Settings& settings) {
+  const auto with = [&]<class Policy>(Policy /*policy*/, std::uint32_t max_flights) -> std::unique_ptr<BackwardWalk> {
+    if (scene.has_maps()) {
+      return std::make_unique<PolicyBackwardWalk<Policy, MappedReflectance>>(scene, light, receivers, scale,
+                                                                             settings.seed, max_flights);
+    }
+    return std::make_unique<PolicyBackwardWalk<Policy, SurfaceReflectance>>(scene, light, receivers, scale,
+                                                                            settings.seed, max_flights);
+  };
+  switch (settings.estimator) {
+    case Estimator::collision:
+      return with(CollisionPolicy{}, 0);
+    case Estimator::absorption:
+      return with(AbsorptionPolicy{}, 0);
+    case Estimator::weight:
+      break;
+  }
+  if (settings.max_bounces) return with(TruncatedWeightPolicy{}, *settings.max_bounces);
+  return with(RouletteWeightPolicy{}, 0);
+}
+
+}  // namespace lichtmc

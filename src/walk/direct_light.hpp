@@ -1,0 +1,123 @@
+// Direct light at points: what emitters send there straight.
+//
+// At a receiver it is computed to the last digit, outside the statistics: point emitters in closed form, E = I(θ) cos
+// θ'/r² where nothing stands between; Lambertian surface emitters by the closed polygon formula where nothing can;
+// other surface emitters by stratified points on them. At the surfaces that a backward walk meets it is estimated by
+// one point of one emitter, or of each of a few.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "chance/stream.hpp"
+#include "lichtmc/room.hpp"
+#include "tracer/tracer.hpp"
+
+namespace lichtmc {
+
+// A point with the side that it looks to, in m.
+struct Outlook {
+  glm::dvec3 point{0.0};
+  glm::dvec3 normal{0.0, 1.0, 0.0};  // length 1
+  double least_cosine = 0.0;  // of the field of view: directions with a smaller cosine to the normal are not seen
+
+  // The share of a hemisphere of even light that the field of view takes.
+  double squared_sine() const { return (1.0 - least_cosine) * (1.0 + least_cosine); }
+};
+
+// Where ways from a point begin, in the tracer's coordinates: one step off the surface that it may lie on, on the side
+// that it looks to.
+glm::dvec3 start_of(const Outlook& outlook, const Tracer& tracer);
+
+struct DirectIrradiance {
+  double value = 0.0;           // W/m² or lx
+  double standard_error = 0.0;  // 0 where it is exact
+};
+
+// One emitter's light on its way to a point: what it would bring if nothing stood between, and the way to it.
+struct LightOffer {
+  double irradiance = 0.0;  // W/m² or lx; 0: none
+  glm::dvec3 target{0.0};   // m, the point of the emitter
+  double by_walk = 0.0;     // density with which a diffuse flight meets that point, per area; 0 for point emitters
+};
+
+class DirectLight {
+ public:
+  // The room must have passed check_room(), and outlive this.
+  DirectLight(const Room& room, const Tracer& tracer);
+
+  // The direct irradiance at a receiver. Points for surface emitters depend on (seed, number) only. Shadow rays are
+  // counted.
+  DirectIrradiance at(const Outlook& outlook, const Stream& stream, std::uint64_t number, TraceCount& count) const;
+
+  // How many offers a surface takes: one of every emitter where they are few, else one of one chosen by its power.
+  std::size_t offers_per_point() const { return few_ ? sources_.size() : 1; }
+
+  // Offer k (below offers_per_point()) at a point of the walk. Its mean over the random words is the direct irradiance,
+  // where surface emitters count with the weight that walks which meet them leave (see hit()).
+  LightOffer offer(std::size_t k, const Outlook& outlook, const Words& which, const Words& where) const;
+
+  // A walk that left a surface at an angle of this cosine has met the front of a shining surface after r metres, at an
+  // angle of `cosine_there`: its share of the direct irradiance at the surface that it left. Points on an emitter and
+  // walks that meet it are two ways to the same light; each counts by how likely it was (balance heuristic: E. Veach,
+  // L. Guibas, Optimally Combining Sampling Techniques for Monte Carlo Rendering, SIGGRAPH 1995). Without it a wall
+  // that meets a luminous ceiling would get 1/r² of its edge.
+  double hit(std::size_t surface, double cosine_here, double cosine_there, double r_m) const;
+  bool any_surface_shines() const { return any_surface_; }
+  bool shines(std::size_t surface) const { return !sources_of_surface_[surface].empty(); }
+
+  // Whether a receiver there is on an emitter: the emitter's number.
+  std::optional<std::size_t> emitter_at(const Outlook& outlook) const;
+
+ private:
+  struct PointSource {
+    std::size_t number = 0;
+    glm::dvec3 position{0.0};
+    glm::dvec3 axis{0.0, 0.0, 1.0};
+    double power = 0.0;
+    const Emitter* emitter = nullptr;
+  };
+  struct SurfaceSource {
+    std::size_t surface = 0;
+    double power = 0.0;
+    double area_m2 = 0.0;
+    double exponent = 1.0;
+    double share = 1.0;                    // probability of an offer of it
+    double radiance(double cosine) const;  // W/(m² sr) or cd/m² at an angle to the normal
+    std::vector<double> areas_up_to;
+    std::vector<std::size_t> triangles;  // those with an area
+  };
+  struct Source {
+    bool on_surface = false;
+    std::size_t index = 0;  // into points_ or surfaces_
+    double share = 1.0;     // probability that an offer is of it
+  };
+
+  double intensity(const PointSource& source, const glm::dvec3& direction) const;
+  LightOffer from_point(const PointSource& source, const Outlook& outlook) const;
+  LightOffer from_surface(const SurfaceSource& source, const Outlook& outlook, double u, double v, double w) const;
+  double polygon(const SurfaceSource& source, const Outlook& outlook) const;
+  DirectIrradiance sampled(const SurfaceSource& source, const Outlook& outlook, const Stream& stream,
+                           std::uint64_t number, TraceCount& count) const;
+  std::vector<double> by_points(const SurfaceSource& source, const Outlook& outlook, const Stream& stream,
+                                std::uint64_t number, std::uint32_t first, std::uint32_t n, TraceCount& count) const;
+  std::vector<double> by_flights(const SurfaceSource& source, const Outlook& outlook, const Stream& stream,
+                                 std::uint64_t number, std::uint32_t first, std::uint32_t n, TraceCount& count) const;
+  bool blocked(const Outlook& outlook, const glm::dvec3& target, TraceCount& count) const;
+
+  const Room* room_;
+  const Tracer* tracer_;
+  std::vector<PointSource> points_;
+  std::vector<SurfaceSource> surfaces_;
+  std::vector<Source> sources_;
+  std::vector<double> powers_up_to_;
+  std::vector<std::vector<std::size_t>> sources_of_surface_;  // indices into surfaces_
+  bool few_ = true;
+  bool any_surface_ = false;
+};
+
+}  // namespace lichtmc
