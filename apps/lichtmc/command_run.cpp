@@ -59,8 +59,9 @@ Engine parse_engine(const std::string& text) {
 Ways parse_ways(const std::string& text) {
   if (text == "forward") return Ways::forward;
   if (text == "backward") return Ways::backward;
-  throw InputError("The way '" + text +
-                   "' is not known (allowed: forward, backward). Give one of these to --only, or leave it out for both.");
+  throw InputError(
+      "The way '" + text +
+      "' is not known (allowed: forward, backward). Give one of these to --only, or leave it out for both.");
 }
 
 // Receivers of the command line beside those of the room.
@@ -133,8 +134,8 @@ const char* describe(StopReason reason) {
 }
 
 // A stop rule that was not met is said, with what it would take.
-void warn_of_missed_target(const Settings& settings, StopReason stopped_by, double error, double histories, double seconds,
-                           const char* remedy) {
+void warn_of_missed_target(const Settings& settings, StopReason stopped_by, double error, double histories,
+                           double seconds, const char* remedy) {
   if (!settings.target_error || stopped_by == StopReason::target_error) return;
   std::cerr << "The target error of " << percent(*settings.target_error) << " was not reached: it is " << percent(error)
             << '.';
@@ -184,7 +185,8 @@ void print_receivers(const Result& result) {
             << short_count(histories) << " walks back from them in " << figure(backward.seconds) << " s ("
             << describe(backward.stopped_by) << "), " << short_count(static_cast<double>(backward.shadow_rays))
             << " shadow rays; relative standard error " << percent(backward.rms_relative_error) << " (rms).\n";
-  warn_of_missed_target(result.settings, backward.stopped_by, backward.rms_relative_error, histories, backward.seconds, "");
+  warn_of_missed_target(result.settings, backward.stopped_by, backward.rms_relative_error, histories, backward.seconds,
+                        "");
 }
 
 void print_outcome(const Result& result, const std::filesystem::path& folder) {

@@ -63,7 +63,8 @@ std::string ProgressLine::describe(const Progress& progress) const {
   const bool backward = progress.stage == Progress::Stage::receivers;
   const bool limited = progress.target < std::uint64_t{1} << 62;
   std::string text = short_count(static_cast<double>(progress.histories)) +
-                     (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") + (backward ? " walks from receivers, " : " photons, ") +
+                     (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") +
+                     (backward ? " walks from receivers, " : " photons, ") +
                      short_count(static_cast<double>(progress.impacts) / progress.seconds) +
                      (backward ? " rays/s" : " impacts/s");
   if (progress.rms_relative_error > 0.0) {

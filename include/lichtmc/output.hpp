@@ -13,8 +13,8 @@ namespace lichtmc {
 // Throws InputError where that fails. Call it before a long run, so that the run is not lost.
 void prepare_output(const std::filesystem::path& folder);
 
-// Writes summary.json into a folder; tiles.csv, surfaces.csv and tiles/NAME.exr where tiles were measured; receivers.csv
-// where receivers were.
+// Writes summary.json into a folder; tiles.csv, surfaces.csv and tiles/NAME.exr where tiles were measured;
+// receivers.csv where receivers were.
 //
 // Every file is written under a temporary name and renamed when it is whole; summary.json comes last, so that a folder
 // with a summary.json of this run is complete. tiles/ holds the maps of this run only. Throws RuntimeError where

@@ -57,12 +57,12 @@ struct ReceiverResult {
 // How the receivers' results were got.
 struct BackwardResult {
   StopReason stopped_by = StopReason::photons;
-  std::uint64_t histories = 0;        // of all receivers together
-  std::uint64_t rays = 0;             // flights traced and shadow rays
-  std::uint64_t shadow_rays = 0;      // rays that only asked whether an emitter is seen; none where nothing casts a shadow
-  double seconds = 0.0;               // wall-clock time
-  double rms_relative_error = 0.0;    // rms of the receivers' relative standard errors, over those that get light
-  double figure_of_merit = 0.0;       // 1 / (rms_relative_error² · seconds), 1/s
+  std::uint64_t histories = 0;    // of all receivers together
+  std::uint64_t rays = 0;         // flights traced and shadow rays
+  std::uint64_t shadow_rays = 0;  // rays that only asked whether an emitter is seen; none where nothing casts a shadow
+  double seconds = 0.0;           // wall-clock time
+  double rms_relative_error = 0.0;  // rms of the receivers' relative standard errors, over those that get light
+  double figure_of_merit = 0.0;     // 1 / (rms_relative_error² · seconds), 1/s
 };
 
 // Where the emitted power went, in W or lm: emitted = absorbed + escaped + residual + lost.
@@ -100,8 +100,8 @@ struct Result {
   std::vector<TileResult> tiles;        // as Tiling::tiles; none where only the backward walk was run
   std::vector<SurfaceResult> surfaces;  // as Tiling::maps
   Tiling tiling;
-  std::vector<Receiver> receivers;                // the room's
-  std::vector<ReceiverResult> receiver_results;   // of each; none where only the forward walk was run
+  std::vector<Receiver> receivers;               // the room's
+  std::vector<ReceiverResult> receiver_results;  // of each; none where only the forward walk was run
   BackwardResult backward;
   std::vector<Ignored> ignored;     // Room::ignored, and what of the room this run did not use
   std::vector<std::string> mended;  // Room::mended

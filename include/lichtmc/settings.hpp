@@ -37,7 +37,8 @@ struct Settings {
   Estimator estimator = Estimator::collision;
   std::uint64_t photons = 1'000'000;  // histories, ≥ 1: so many forward; and so many backward, shared by the receivers
   std::optional<double> target_error;  // stop when the rms_relative_error of the walk is at most this, > 0
-  std::optional<double> max_seconds;   // stop after this wall-clock time, > 0; where both ways are walked, half of it each
+  std::optional<double>
+      max_seconds;  // stop after this wall-clock time, > 0; where both ways are walked, half of it each
   Ways ways = Ways::all;
   std::optional<std::uint32_t>
       max_bounces;           // weight only: end every history after this many flights, ≥ 1; default: roulette

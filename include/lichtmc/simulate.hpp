@@ -30,16 +30,16 @@ struct Control {
   std::stop_token stop;
 };
 
-// Follows Settings::photons light packets through a room and returns the irradiance of every tile; and where the room has
-// receivers, as many walks from them back to the light, and returns the irradiance at each.
+// Follows Settings::photons light packets through a room and returns the irradiance of every tile; and where the room
+// has receivers, as many walks from them back to the light, and returns the irradiance at each.
 //
 // The same room, settings and seed give the same tile results, bit for bit, for any number of threads (where a stop
 // rule of time or an interrupt ends the run: for the same number of histories). The function keeps no state: several
 // simulations may run at once in one process.
 //
 // Throws InputError where the room or a setting is not sound: see check_room(); ρ = 1 with the absorption estimator; a
-// closed room in which nothing absorbs; a receiver that lies on an emitter; Ways::backward without receivers; Engine::cuboid for a room that is no cuboid. Throws RuntimeError where memory
-// or the tracing device fails.
+// closed room in which nothing absorbs; a receiver that lies on an emitter; Ways::backward without receivers;
+// Engine::cuboid for a room that is no cuboid. Throws RuntimeError where memory or the tracing device fails.
 Result simulate(const Room& room, const Settings& settings = {}, const Control& control = {});
 
 }  // namespace lichtmc

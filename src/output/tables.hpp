@@ -23,8 +23,8 @@ std::string surfaces_csv(const Result& result);
 std::string csv_field(std::string_view text);
 
 // receiver,name,x,y,z,nx,ny,nz,irradiance,direct,indirect,standard_error,gain,gain_db,unit
-// One row per receiver: position (m) and the direction that it looks to; irradiance = direct + indirect with its standard
-// error in `unit`; gain H = irradiance · area / emitted power, plain and as 10 log₁₀ H (empty where H is 0).
+// One row per receiver: position (m) and the direction that it looks to; irradiance = direct + indirect with its
+// standard error in `unit`; gain H = irradiance · area / emitted power, plain and as 10 log₁₀ H (empty where H is 0).
 std::string receivers_csv(const Result& result);
 
 }  // namespace lichtmc

@@ -63,9 +63,10 @@ void check_settings(const Settings& settings) {
 
 void check_settings_for(const Room& room, const Settings& settings) {
   if (settings.ways == Ways::backward && room.receivers.empty()) {
-    throw InputError("There is no receiver in " + room.source +
-                     " to walk back from (allowed: at least one). Give nodes of the room the custom property 'receiver', or "
-                     "give points with --receivers or --grid.");
+    throw InputError(
+        "There is no receiver in " + room.source +
+        " to walk back from (allowed: at least one). Give nodes of the room the custom property 'receiver', or "
+        "give points with --receivers or --grid.");
   }
   if (settings.estimator == Estimator::absorption) {
     if (const Surface* surface = surface_that_absorbs_nothing(room)) {

@@ -65,8 +65,8 @@ class Tracer {
   virtual Start start(const glm::dvec3& world_point_m) const = 0;
   virtual TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const = 0;
 
-  // Which of these straight ways are blocked: sets blocked. A way that begins and ends free of surfaces is blocked by any
-  // surface between.
+  // Which of these straight ways are blocked: sets blocked. A way that begins and ends free of surfaces is blocked by
+  // any surface between.
   virtual void find_blocked(ShadowRays& rays, TraceCount& count) const = 0;
 
   // Whether some surface can stand between two points in the room. Where none can, nothing is asked.

@@ -1,8 +1,8 @@
 // The kernel: a wave of photons flies from surface to surface until the last has ended.
 //
 // One kernel for all estimators, both tracers and both ways. What differs is passed in as policies and resolved at
-// compile time: what becomes of a photon at a surface (Policy, see estimators.hpp), where ρ comes from (Reflectance), and
-// what it is all for (Goal): where photons start and what is scored. A Goal has
+// compile time: what becomes of a photon at a surface (Policy, see estimators.hpp), where ρ comes from (Reflectance),
+// and what it is all for (Goal): where photons start and what is scored. A Goal has
 //
 //   start(wave, n)            sets the first n photons and how they start
 //   history(photon)           the number of a photon's history, which selects its random numbers

@@ -14,11 +14,7 @@ namespace lichtmc {
 // The photons of a batch start together and fly in step: the number of the flight is the same for all. Those that end
 // leave the wave, the others close ranks, so that every loop runs over photons that fly.
 struct Wave {
-  Wave()
-      : rays(batch_histories),
-        photon(batch_histories),
-        weight(batch_histories),
-        words(batch_histories) {}
+  Wave() : rays(batch_histories), photon(batch_histories), weight(batch_histories), words(batch_histories) {}
 
   Rays rays;
   std::vector<std::uint32_t> photon;  // number of the history within the batch
