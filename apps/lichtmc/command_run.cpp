@@ -35,6 +35,8 @@ struct RunOptions {
   std::string seed = "1";
   std::optional<int> threads;
   std::string engine = "auto";
+  std::optional<std::string> direct;
+  std::string tiles = "forward";
   std::optional<std::string> receivers, grid, grid_spacing, only;
   bool quiet = false;
 };
@@ -62,6 +64,25 @@ Ways parse_ways(const std::string& text) {
   throw InputError(
       "The way '" + text +
       "' is not known (allowed: forward, backward). Give one of these to --only, or leave it out for both.");
+}
+
+TileWalk parse_tiles(const std::string& text) {
+  if (text == "forward") return TileWalk::forward;
+  if (text == "backward") return TileWalk::backward;
+  throw InputError("The way '" + text +
+                   "' to measure tiles is not known (allowed: forward, backward). Give one of these to --tiles.");
+}
+
+Direct parse_direct(const std::string& text, TileWalk tiles) {
+  if (text == "sampled" && tiles == TileWalk::backward) {
+    throw InputError(
+        "Walks from the tiles do not count direct light (--direct sampled with --tiles backward; allowed: analytic). "
+        "Leave out --direct.");
+  }
+  if (text == "sampled") return Direct::sampled;
+  if (text == "analytic") return Direct::analytic;
+  throw InputError("The way '" + text +
+                   "' to find direct light is not known (allowed: sampled, analytic). Give one of these to --direct.");
 }
 
 // Receivers of the command line beside those of the room.
@@ -103,6 +124,8 @@ Settings parse_settings(const RunOptions& options) {
   settings.threads = static_cast<unsigned>(options.threads.value_or(0));
   settings.engine = parse_engine(options.engine);
   if (options.only) settings.ways = parse_ways(*options.only);
+  settings.tiles = parse_tiles(options.tiles);
+  if (options.direct) settings.direct = parse_direct(*options.direct, settings.tiles);
   return settings;
 }
 
@@ -159,20 +182,28 @@ void print_ignored(const std::vector<Ignored>& ignored) {
             << " The list is in summary.json under \"ignored\".\n";
 }
 
-void print_tiles(const Result& result) {
+// Where the power went: only photons from the emitters tell.
+void print_balance(const Result& result) {
   const std::string unit(power_unit(result.quantity));
   const Balance& balance = result.balance;
-  std::cerr << short_count(static_cast<double>(result.histories)) << " photons, "
-            << short_count(static_cast<double>(result.impacts)) << " impacts in " << figure(result.seconds) << " s ("
-            << describe(result.stopped_by) << "; engine " << to_string(result.engine) << ", estimator "
-            << to_string(result.settings.estimator) << ").\n";
   std::cerr << "Emitted " << figure(balance.emitted) << ' ' << unit << ": absorbed " << figure(balance.absorbed)
             << ", left the room " << figure(balance.escaped);
   if (balance.residual != 0.0) std::cerr << ", residual " << figure(balance.residual);
   std::cerr << ", lost " << figure(balance.lost) << ".\n";
+}
+
+void print_tiles(const Result& result) {
+  const bool forward = result.settings.tiles == TileWalk::forward;
+  std::cerr << short_count(static_cast<double>(result.histories))
+            << (forward ? " photons, " : " walks back from the tiles, ")
+            << short_count(static_cast<double>(result.impacts)) << " impacts in " << figure(result.seconds) << " s ("
+            << describe(result.stopped_by) << "; engine " << to_string(result.engine) << ", estimator "
+            << to_string(result.settings.estimator) << (direct_is_apart(result) ? ", direct light integrated" : "")
+            << ").\n";
+  if (forward) print_balance(result);
   std::cerr << result.tiles.size() << " tiles, relative standard error " << percent(result.rms_relative_error)
-            << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of those that were hit)" : ")");
-  if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " were not hit";
+            << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of those that got light)" : ")");
+  if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " got none";
   std::cerr << ".\n";
   warn_of_missed_target(result.settings, result.stopped_by, result.rms_relative_error,
                         static_cast<double>(result.histories), result.seconds, ", or larger tiles");
@@ -252,6 +283,19 @@ void add_options(CLI::App& command, RunOptions& options) {
       .add_option("--estimator", options.estimator,
                   "weight, collision or absorption (or 1, 2, 3): same mean, other errors; collision suits most rooms")
       ->type_name("NAME")
+      ->capture_default_str()
+      ->group(method);
+  command
+      .add_option("--direct", options.direct,
+                  "Light straight from the lamps: sampled by the photons, or analytic, integrated over each tile")
+      ->type_name("HOW")
+      ->default_str("sampled")
+      ->group(method);
+  command
+      .add_option("--tiles", options.tiles,
+                  "forward: photons from the lamps are counted on the tiles; backward: walks from random points of each "
+                  "tile back to the light")
+      ->type_name("WAY")
       ->capture_default_str()
       ->group(method);
   command

@@ -60,11 +60,17 @@ double ProgressLine::share_done(const Progress& progress) const {
 std::string ProgressLine::describe(const Progress& progress) const {
   const double share = share_done(progress);
   const double left = share > 0.0 ? progress.seconds * (1.0 - share) / share : 0.0;
-  const bool backward = progress.stage == Progress::Stage::receivers;
+  if (progress.stage == Progress::Stage::direct_light) {
+    return "direct light of " + short_count(static_cast<double>(progress.histories)) + " of " +
+           short_count(static_cast<double>(progress.target)) +
+           (left > 0.0 ? ", about " + short_time(left) + " left" : "");
+  }
+  const bool receivers = progress.stage == Progress::Stage::receivers;
+  const bool backward = receivers || settings_.tiles == TileWalk::backward;
   const bool limited = progress.target < std::uint64_t{1} << 62;
   std::string text = short_count(static_cast<double>(progress.histories)) +
                      (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") +
-                     (backward ? " walks from receivers, " : " photons, ") +
+                     (receivers ? " walks from receivers, " : backward ? " walks from tiles, " : " photons, ") +
                      short_count(static_cast<double>(progress.impacts) / progress.seconds) +
                      (backward ? " rays/s" : " impacts/s");
   if (progress.rms_relative_error > 0.0) {

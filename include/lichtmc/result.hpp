@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,7 +26,10 @@ struct TileResult {
   double power = 0.0;           // incident power in W or lm
   double irradiance = 0.0;      // power / area in W/m² or lx
   double standard_error = 0.0;  // of the irradiance, in W/m² or lx
-  std::uint64_t hits = 0;       // impacts that scored here
+  std::uint64_t hits = 0;  // impacts that scored here; walks that started here where tiles are walked from backward
+  // The part of the irradiance that came straight from the emitters, in W/m² or lx; the rest was reflected. NaN where
+  // photons counted both together (Direct::sampled).
+  double direct = std::numeric_limits<double>::quiet_NaN();
 };
 
 // One tile map: a surface, or the back of a two-sided one.
@@ -43,6 +47,7 @@ struct SurfaceResult {
   double behind_share =
       0.0;  // share of the power that came from behind, 0 … 1 (always 0 or 1 where each side has a map)
   std::uint64_t hits = 0;
+  double mean_direct = std::numeric_limits<double>::quiet_NaN();  // as TileResult::direct
 };
 
 // One receiver.
@@ -65,7 +70,8 @@ struct BackwardResult {
   double figure_of_merit = 0.0;     // 1 / (rms_relative_error² · seconds), 1/s
 };
 
-// Where the emitted power went, in W or lm: emitted = absorbed + escaped + residual + lost.
+// Where the emitted power went, in W or lm: emitted = absorbed + escaped + residual + lost. Only photons from the
+// emitters tell: where none were followed all but `emitted` are NaN.
 struct Balance {
   double emitted = 0.0;
   double absorbed = 0.0;
@@ -84,18 +90,19 @@ struct Result {
 
   std::uint64_t histories = 0;
   std::uint64_t impacts = 0;         // flights that ended on a surface
-  std::uint64_t rays = 0;            // flights traced, with those traced again
+  std::uint64_t rays = 0;            // flights traced, with those traced again and shadow rays
+  std::uint64_t shadow_rays = 0;     // rays that only asked whether an emitter is seen
   std::uint64_t retraced = 0;        // flights that met no surface and were traced again by the slower rule
   std::uint64_t lost_histories = 0;  // histories behind Balance::lost
-  double seconds = 0.0;              // wall-clock time of the walk
+  double seconds = 0.0;              // wall-clock time of the walk, with that of integrating direct light
 
   Balance balance;
   double incident = 0.0;                 // incident power of all tiles in W or lm
   double incident_standard_error = 0.0;  // NaN where too little was simulated to tell
   double rms_relative_error =
-      0.0;                       // area-weighted rms of the tiles' relative standard errors, over tiles that were hit
+      0.0;                       // area-weighted rms of the tiles' relative standard errors, over tiles that got light
   double figure_of_merit = 0.0;  // 1 / (rms_relative_error² · seconds), 1/s
-  std::uint64_t tiles_without_hits = 0;
+  std::uint64_t tiles_without_hits = 0;  // that no photon hit, or no walk found light from
 
   std::vector<TileResult> tiles;        // as Tiling::tiles; none where only the backward walk was run
   std::vector<SurfaceResult> surfaces;  // as Tiling::maps
@@ -108,5 +115,8 @@ struct Result {
   std::vector<std::string>
       warnings;  // what may make the figures mean something else than is thought, a sentence or two each
 };
+
+// Whether the tiles' direct light was found apart from the rest: TileResult::direct is a number.
+bool direct_is_apart(const Result& result);
 
 }  // namespace lichtmc

@@ -28,18 +28,34 @@ enum class Ways {
   backward,  // receivers only
 };
 
-// "weight", "collision", "absorption"; "auto", "cuboid", "embree".
+// How the light that comes to a tile straight from the emitters is found.
+enum class Direct {
+  sampled,   // by the photons, as all other light
+  analytic,  // integrated over the tile, outside the statistics; the photons count what was reflected at least once
+};
+
+// Which walk measures the tiles.
+enum class TileWalk {
+  forward,   // photons from the emitters are counted where they land
+  backward,  // walks from random points of each tile back to the light; the direct light is integrated
+};
+
+// "weight", "collision", "absorption"; "auto", "cuboid", "embree"; "sampled", "analytic"; "forward", "backward".
 std::string_view to_string(Estimator estimator);
 std::string_view to_string(Engine engine);
+std::string_view to_string(Direct direct);
+std::string_view to_string(TileWalk tiles);
 
 // The first stop rule to be met ends the run.
 struct Settings {
   Estimator estimator = Estimator::collision;
-  std::uint64_t photons = 1'000'000;  // histories, ≥ 1: so many forward; and so many backward, shared by the receivers
+  std::uint64_t photons = 1'000'000;  // histories, ≥ 1: so many for the tiles; and so many, shared, for the receivers
   std::optional<double> target_error;  // stop when the rms_relative_error of the walk is at most this, > 0
   std::optional<double>
       max_seconds;  // stop after this wall-clock time, > 0; where both ways are walked, half of it each
   Ways ways = Ways::all;
+  TileWalk tiles = TileWalk::forward;
+  Direct direct = Direct::sampled;  // of forward tiles; that of backward tiles and receivers is always computed
   std::optional<std::uint32_t>
       max_bounces;           // weight only: end every history after this many flights, ≥ 1; default: roulette
   double tile_edge_m = 0.1;  // m, > 0

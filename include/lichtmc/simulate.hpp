@@ -13,12 +13,16 @@ namespace lichtmc {
 
 // Where a run stands.
 struct Progress {
-  enum class Stage { tiles, receivers };
+  enum class Stage {
+    direct_light,  // integrating it; histories and target are tiles, or receivers
+    tiles,         // walks for the tiles
+    receivers,     // walks for the receivers
+  };
   Stage stage = Stage::tiles;
   std::uint64_t histories = 0;  // simulated so far
-  std::uint64_t target = 0;     // Settings::photons
+  std::uint64_t target = 0;     // that there are to simulate if no other stop rule comes first
   std::uint64_t impacts = 0;
-  double seconds = 0.0;             // since the walk began
+  double seconds = 0.0;             // since the walk, or its direct light, began
   double rms_relative_error = 0.0;  // at the last time it was evaluated; NaN before that
 };
 

@@ -15,6 +15,10 @@ enum class Purpose : std::uint32_t {
   place = 2,     // words 0, 1: which triangle of a surface emitter; words 2, 3: where on it
   light = 3,     // words 0, 1: which emitter a surface's direct light is taken from; words 2, 3: unused
   on_light = 4,  // as place, for the point of a surface emitter that direct light is taken from
+  // For direct light that is computed outside the walks: words 0 to 2 choose a point of a surface emitter;
+  direct_point = 5,
+  direct_flight = 6,  // words 0, 1: direction of a flight that may meet one;
+  direct_place = 7,   // words 0, 1: where on a tile.
 };
 
 // Which way a history goes: each has words of its own, so that results of both are independent.

@@ -27,6 +27,7 @@ Json surfaces_of(const Result& result) {
                {"min_irradiance", number(s.min_irradiance)},
                {"max_irradiance", number(s.max_irradiance)},
                {"standard_error", number(s.standard_error)},
+               {"direct", number(s.mean_direct)},
                {"power", number(s.power)},
                {"behind_share", number(s.behind_share)},
                {"hits", s.hits},
@@ -140,6 +141,9 @@ std::string summary_json(const Room& room, const Result& result) {
                {"surfaces", surfaces_of(result)},
                {"receivers", receivers_of(result)},
                {"ignored", texts_of(result.ignored)}};
+  summary["tiles_by"] = std::string(to_string(result.settings.tiles));
+  summary["direct"] = std::string(to_string(direct_is_apart(result) ? Direct::analytic : Direct::sampled));
+  summary["shadow_rays"] = result.shadow_rays + result.backward.shadow_rays;
   summary["backward"] = backward_of(result);
   summary["warnings"] = result.warnings;
   summary["mended"] = result.mended;

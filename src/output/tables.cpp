@@ -30,8 +30,21 @@ std::string csv_field(std::string_view text) {
   return field + '"';
 }
 
+namespace {
+
+constexpr const char* parts = ",direct,indirect";
+
+// The unit, and the parts of an irradiance where they are known apart.
+std::string unit_and_parts(const std::string& unit, double irradiance, double direct) {
+  return std::isnan(direct) ? unit : unit + ',' + to_text(direct) + ',' + to_text(irradiance - direct);
+}
+
+}  // namespace
+
 std::string tiles_csv(const Result& result) {
-  std::string table = "tile,surface,column,row,x,y,z,area,power,irradiance,standard_error,hits,unit\n";
+  std::string table = "tile,surface,column,row,x,y,z,area,power,irradiance,standard_error,hits,unit";
+  if (direct_is_apart(result)) table += parts;
+  table += '\n';
   const std::string unit(irradiance_unit(result.quantity));
   std::vector<std::string> names;
   for (const TileMap& map : result.tiling.maps) names.push_back(csv_field(map.name));
@@ -41,7 +54,7 @@ std::string tiles_csv(const Result& result) {
     append_row(table, std::to_string(i), names[tile.map], std::to_string(tile.column), std::to_string(tile.row),
                to_text(tile.point.x), to_text(tile.point.y), to_text(tile.point.z), to_text(tile.area_m2),
                to_text(figures.power), to_text(figures.irradiance), to_text(figures.standard_error),
-               std::to_string(figures.hits), unit);
+               std::to_string(figures.hits), unit_and_parts(unit, figures.irradiance, figures.direct));
   }
   return table;
 }
@@ -63,13 +76,15 @@ std::string receivers_csv(const Result& result) {
 std::string surfaces_csv(const Result& result) {
   std::string table =
       "name,material,reflectance,area,tiles,mean_irradiance,min_irradiance,max_irradiance,standard_error,power,behind_"
-      "share,hits,unit\n";
+      "share,hits,unit";
+  if (direct_is_apart(result)) table += parts;
+  table += '\n';
   const std::string unit(irradiance_unit(result.quantity));
   for (const SurfaceResult& s : result.surfaces) {
     append_row(table, csv_field(s.name), csv_field(s.material), to_text(s.reflectance), to_text(s.area_m2),
                std::to_string(s.tiles), to_text(s.mean_irradiance), to_text(s.min_irradiance),
                to_text(s.max_irradiance), to_text(s.standard_error), to_text(s.power), to_text(s.behind_share),
-               std::to_string(s.hits), unit);
+               std::to_string(s.hits), unit_and_parts(unit, s.mean_irradiance, s.mean_direct));
   }
   return table;
 }

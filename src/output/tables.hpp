@@ -9,14 +9,15 @@
 
 namespace lichtmc {
 
-// tile,surface,column,row,x,y,z,area,power,irradiance,standard_error,hits,unit
+// tile,surface,column,row,x,y,z,area,power,irradiance,standard_error,hits,unit[,direct,indirect]
 // x, y, z (m): a point of the surface in the tile; area m²; power W or lm; irradiance and its standard error in `unit`.
-// The standard error is "nan" where fewer than two batches were simulated. Numbers read back as the
-// same doubles.
+// The standard error is "nan" where fewer than two batches were simulated. direct, indirect: the parts of the irradiance,
+// where they were found apart. Numbers read back as the same doubles.
 std::string tiles_csv(const Result& result);
 
-// name,material,reflectance,area,tiles,mean_irradiance,min_irradiance,max_irradiance,standard_error,power,behind_share,hits,unit
-// One row per tile map: a surface, or the back of a two-sided one. standard_error is that of the mean.
+// name,material,reflectance,area,tiles,mean_irradiance,min_irradiance,max_irradiance,standard_error,power,behind_share,hits,unit[,direct,indirect]
+// One row per tile map: a surface, or the back of a two-sided one. standard_error is that of the mean, as direct and
+// indirect are means.
 std::string surfaces_csv(const Result& result);
 
 // A text as a field: in quotes, its own quotes doubled, where it holds a comma, a quote or a line break.

@@ -46,18 +46,21 @@ class ByteStream final : public Imf::OStream {
 };
 
 struct Pixels {
-  std::vector<float> irradiance, standard_error, area;
+  explicit Pixels(std::size_t cells)
+      : irradiance(cells), standard_error(cells), area(cells), direct(cells) {}
+  std::vector<float> irradiance, standard_error, area, direct;
 };
 
 Pixels pixels_of(const Result& result, const TileMap& map) {
   const std::size_t cells = map.tile_of_cell.size();
-  Pixels pixels{std::vector<float>(cells, 0.0F), std::vector<float>(cells, 0.0F), std::vector<float>(cells, 0.0F)};
+  Pixels pixels(cells);
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const std::uint32_t tile = map.tile_of_cell[cell];
     if (tile == no_tile) continue;
     pixels.irradiance[cell] = static_cast<float>(result.tiles[tile].irradiance);
     pixels.standard_error[cell] = static_cast<float>(result.tiles[tile].standard_error);
     pixels.area[cell] = static_cast<float>(result.tiling.tiles[tile].area_m2);
+    pixels.direct[cell] = static_cast<float>(result.tiles[tile].direct);
   }
   return pixels;
 }
@@ -85,6 +88,7 @@ Imf::Header header_of(const Result& result, std::size_t m) {
   header.insert("tile_edge_m", Imf::FloatAttribute(static_cast<float>(result.settings.tile_edge_m)));
   for (const char* channel : {"Y", "standard_error", "area"})
     header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+  if (direct_is_apart(result)) header.channels().insert("direct", Imf::Channel(Imf::FLOAT));
   return header;
 }
 
@@ -138,6 +142,7 @@ std::string tile_image(const Result& result, std::size_t m) {
       slice("Y", pixels.irradiance);
       slice("standard_error", pixels.standard_error);
       slice("area", pixels.area);
+      if (direct_is_apart(result)) slice("direct", pixels.direct);
       file.setFrameBuffer(frame);
       file.writePixels(static_cast<int>(map.rows));
     }

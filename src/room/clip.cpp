@@ -113,31 +113,53 @@ CellPiece measure(const Polygon& polygon) {
   return piece;
 }
 
+// Calls use(column, row, part) for the part of a triangle in each cell.
+template <class Use>
+void for_each_cell(const std::array<glm::dvec2, 3>& corners, std::uint32_t columns, std::uint32_t rows,
+                   const Use& use) {
+  Polygon triangle;
+  triangle.add({corners[0], {0.0, 0.0}});
+  triangle.add({corners[1], {1.0, 0.0}});
+  triangle.add({corners[2], {0.0, 1.0}});
+  for_each_band(triangle, 0, columns, [&](std::uint32_t column, const Polygon& slice) {
+    for_each_band(slice, 1, rows, [&](std::uint32_t row, const Polygon& part) { use(column, row, part); });
+  });
+}
+
 }  // namespace
 
 void clip_to_cells(const std::array<glm::dvec2, 3>& corners, std::uint32_t columns, std::uint32_t rows,
                    std::vector<CellPiece>& pieces) {
   pieces.clear();
-  Polygon triangle;
-  triangle.add({corners[0], {0.0, 0.0}});
-  triangle.add({corners[1], {1.0, 0.0}});
-  triangle.add({corners[2], {0.0, 1.0}});
   double rest = 0.0;  // shares that no piece has been found for yet
-  for_each_band(triangle, 0, columns, [&](std::uint32_t column, const Polygon& slice) {
-    for_each_band(slice, 1, rows, [&](std::uint32_t row, const Polygon& part) {
-      CellPiece piece = measure(part);
-      piece.column = column;
-      piece.row = row;
-      if (piece.share > least_share) {
-        piece.share += rest;
-        rest = 0.0;
-        pieces.push_back(piece);
-      } else if (pieces.empty()) {
-        rest += piece.share;
-      } else {
-        pieces.back().share += piece.share;
-      }
-    });
+  for_each_cell(corners, columns, rows, [&](std::uint32_t column, std::uint32_t row, const Polygon& part) {
+    CellPiece piece = measure(part);
+    piece.column = column;
+    piece.row = row;
+    if (piece.share > least_share) {
+      piece.share += rest;
+      rest = 0.0;
+      pieces.push_back(piece);
+    } else if (pieces.empty()) {
+      rest += piece.share;
+    } else {
+      pieces.back().share += piece.share;
+    }
+  });
+}
+
+void cut_into_triangles(const std::array<glm::dvec2, 3>& corners, std::uint32_t columns, std::uint32_t rows,
+                        std::vector<CellTriangle>& triangles) {
+  triangles.clear();
+  for_each_cell(corners, columns, rows, [&](std::uint32_t column, std::uint32_t row, const Polygon& part) {
+    if (!(measure(part).share > least_share)) return;
+    for (std::size_t n = 1; n + 1 < part.size(); ++n) {
+      CellTriangle one{column, row, 0.0, {part[0].weight, part[n].weight, part[n + 1].weight}};
+      const glm::dvec2 b = one.weights[1] - one.weights[0];
+      const glm::dvec2 c = one.weights[2] - one.weights[0];
+      one.share = b.x * c.y - b.y * c.x;
+      if (one.share > 0.0) triangles.push_back(one);
+    }
   });
 }
 

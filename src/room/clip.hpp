@@ -26,4 +26,16 @@ struct CellPiece {
 void clip_to_cells(const std::array<glm::dvec2, 3>& corners, std::uint32_t columns, std::uint32_t rows,
                    std::vector<CellPiece>& pieces);
 
+// The part of a triangle in one cell is a convex polygon; this is a triangle of it.
+struct CellTriangle {
+  std::uint32_t column = 0;
+  std::uint32_t row = 0;
+  double share = 0.0;                   // of the whole triangle's area, > 0
+  std::array<glm::dvec2, 3> weights{};  // barycentric coordinates of its corners: of the whole's second and third one
+};
+
+// The same pieces as triangles, without those that are no more than rounding; `triangles` is replaced.
+void cut_into_triangles(const std::array<glm::dvec2, 3>& corners, std::uint32_t columns, std::uint32_t rows,
+                        std::vector<CellTriangle>& triangles);
+
 }  // namespace lichtmc

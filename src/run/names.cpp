@@ -1,4 +1,6 @@
 // The words that settings and results are written with.
+#include <cmath>
+
 #include "lichtmc/result.hpp"
 #include "lichtmc/settings.hpp"
 
@@ -28,6 +30,14 @@ std::string_view to_string(Engine engine) {
   return "";
 }
 
+std::string_view to_string(Direct direct) {
+  return direct == Direct::sampled ? "sampled" : "analytic";
+}
+
+std::string_view to_string(TileWalk tiles) {
+  return tiles == TileWalk::forward ? "forward" : "backward";
+}
+
 std::string_view to_string(StopReason reason) {
   switch (reason) {
     case StopReason::photons:
@@ -40,6 +50,10 @@ std::string_view to_string(StopReason reason) {
       return "interrupt";
   }
   return "";
+}
+
+bool direct_is_apart(const Result& result) {
+  return !result.tiles.empty() && !std::isnan(result.tiles.front().direct);
 }
 
 }  // namespace lichtmc

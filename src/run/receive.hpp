@@ -1,19 +1,22 @@
-// The backward part of a run: receivers → threads → stop rule → irradiance at each.
+// Results by walks back to the light: irradiance at the receivers, and of the tiles where that is asked for.
 #pragma once
-
-#include <optional>
 
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/simulate.hpp"
+#include "run/stop_watch.hpp"
 #include "walk/scene.hpp"
 
 namespace lichtmc {
 
 // Fills in Result::receiver_results and Result::backward. The room has receivers. Throws InputError naming a receiver
 // that lies on an emitter.
-void receive(const Room& room, const Scene& scene, const Settings& settings, const Control& control, unsigned threads,
+void receive(const Room& room, const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
              Result& result);
+
+// Fills in the tiles' part of the result by walks from random points of every tile.
+void walk_from_tiles(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
+                     StopWatch& watch, Result& result);
 
 }  // namespace lichtmc

@@ -3,14 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "run/surface_results.hpp"
 
 namespace lichtmc {
 
-Scores::Scores(const Room& room, const Tiling& tiling, const ScoreLaw& law)
-    : room_(&room), tiling_(&tiling), law_(law), power_(total_power(room)) {
+Scores::Scores(const Room& room, const Tiling& tiling, const ScoreLaw& law, std::vector<TileDirect> direct)
+    : room_(&room), tiling_(&tiling), law_(law), direct_(std::move(direct)), power_(total_power(room)) {
   for (const Surface& surface : room.surfaces) {
     // A photon absorbed stands for the 1/(1 − ρ) impacts that a photon makes on such a surface until it is.
     factor_.push_back(law.per_absorption ? 1.0 / (1.0 - surface.reflectance) : 1.0);
+  }
+  direct_power_.resize(tiling.maps.size());
+  for (std::size_t i = 0; i < direct_.size(); ++i) {
+    const Tile& tile = tiling.tiles[i];
+    DirectPower& sum = direct_power_[tile.map];
+    sum.power += (direct_[i].front + direct_[i].behind) * tile.area_m2;
+    sum.behind += direct_[i].behind * tile.area_m2;
+    sum.standard_error = std::hypot(sum.standard_error, direct_[i].standard_error * tile.area_m2);
   }
 }
 
@@ -42,48 +53,42 @@ std::vector<TileResult> Scores::tiles(const Totals& totals) const {
     const std::size_t surface = tiling_->maps[tile.map].surface;
     if (result.hits == 0) {
       result.standard_error = power_of_no_hit(surface, totals.histories) / tile.area_m2;
-      continue;
+    } else {
+      const Estimate power = incident_power(totals.tiles[i], surface, totals.histories);
+      result.power = power.mean;
+      result.irradiance = power.mean / tile.area_m2;
+      result.standard_error = power.standard_error / tile.area_m2;
     }
-    const Estimate power = incident_power(totals.tiles[i], surface, totals.histories);
-    result.power = power.mean;
-    result.irradiance = power.mean / tile.area_m2;
-    result.standard_error = power.standard_error / tile.area_m2;
+    if (direct_.empty()) continue;
+    result.direct = direct_[i].front + direct_[i].behind;
+    result.irradiance += result.direct;
+    result.power += result.direct * tile.area_m2;
+    result.standard_error = std::hypot(result.standard_error, direct_[i].standard_error);
   }
   return results;
 }
 
 std::vector<SurfaceResult> Scores::surfaces(const Totals& totals, const std::vector<TileResult>& tiles) const {
-  std::vector<SurfaceResult> results(tiling_->maps.size());
-  for (std::size_t m = 0; m < results.size(); ++m) {
-    const TileMap& map = tiling_->maps[m];
-    const Surface& surface = room_->surfaces[map.surface];
-    SurfaceResult& result = results[m];
-    result.name = map.name;
-    result.material = surface.material;
-    result.reflectance = surface.reflectance;
-    result.min_irradiance = std::numeric_limits<double>::infinity();
-  }
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    SurfaceResult& result = results[tiling_->tiles[i].map];
-    result.area_m2 += tiling_->tiles[i].area_m2;
-    result.tiles += 1;
-    result.hits += tiles[i].hits;
-    result.min_irradiance = std::min(result.min_irradiance, tiles[i].irradiance);
-    result.max_irradiance = std::max(result.max_irradiance, tiles[i].irradiance);
-  }
+  std::vector<SurfaceResult> results = surface_results(*room_, *tiling_, tiles);
   for (std::size_t m = 0; m < results.size(); ++m) {
     SurfaceResult& result = results[m];
-    if (result.tiles == 0) result.min_irradiance = 0.0;
     const std::size_t surface = tiling_->maps[m].surface;
+    if (!(result.area_m2 > 0.0)) continue;
+    double behind = 0.0;
     if (result.hits == 0) {
-      if (result.area_m2 > 0.0) result.standard_error = power_of_no_hit(surface, totals.histories) / result.area_m2;
-      continue;
+      result.standard_error = power_of_no_hit(surface, totals.histories) / result.area_m2;
+    } else {
+      const Estimate power = incident_power(totals.maps[m], surface, totals.histories);
+      result.power = power.mean;
+      result.standard_error = power.standard_error / result.area_m2;
+      behind = power.mean * static_cast<double>(totals.behind[m]) / static_cast<double>(totals.maps[m].sum);
     }
-    const Estimate power = incident_power(totals.maps[m], surface, totals.histories);
-    result.power = power.mean;
-    result.mean_irradiance = power.mean / result.area_m2;
-    result.standard_error = power.standard_error / result.area_m2;
-    result.behind_share = static_cast<double>(totals.behind[m]) / static_cast<double>(totals.maps[m].sum);
+    const DirectPower& direct = direct_power_[m];
+    result.power += direct.power;
+    behind += direct.behind;
+    result.standard_error = std::hypot(result.standard_error, direct.standard_error / result.area_m2);
+    result.mean_irradiance = result.power / result.area_m2;
+    if (result.power > 0.0) result.behind_share = behind / result.power;
   }
   return results;
 }
@@ -100,6 +105,15 @@ Balance Scores::balance(const Totals& totals) const {
 }
 
 void Scores::incident(const Totals& totals, double& power, double& standard_error) const {
+  counted(totals, power, standard_error);
+  for (const DirectPower& direct : direct_power_) {
+    power += direct.power;
+    standard_error = std::hypot(standard_error, direct.standard_error);
+  }
+}
+
+// What the photons have counted on all tiles.
+void Scores::counted(const Totals& totals, double& power, double& standard_error) const {
   if (!law_.at_most_one_per_history) {
     const Estimate all = estimate(totals.incident, totals.histories);
     power = power_ * law_.unit * all.mean;
@@ -121,18 +135,6 @@ void Scores::incident(const Totals& totals, double& power, double& standard_erro
   power = power_ * mean;
   standard_error = n < 2.0 ? std::numeric_limits<double>::quiet_NaN()
                            : power_ * std::sqrt(std::max(mean_square - mean * mean, 0.0) / (n - 1.0));
-}
-
-double rms_relative_error(const Tiling& tiling, const std::vector<TileResult>& tiles) {
-  double squares = 0.0;
-  double area = 0.0;
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    if (tiles[i].hits == 0) continue;
-    const double relative = tiles[i].standard_error / tiles[i].irradiance;
-    squares += tiling.tiles[i].area_m2 * relative * relative;
-    area += tiling.tiles[i].area_m2;
-  }
-  return area > 0.0 ? std::sqrt(squares / area) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace lichtmc

@@ -8,6 +8,7 @@
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/tiles.hpp"
+#include "run/tile_light.hpp"
 #include "walk/tally.hpp"
 #include "walk/walk.hpp"
 
@@ -16,7 +17,8 @@ namespace lichtmc {
 // Reads the totals of a run with one estimator in one room.
 class Scores {
  public:
-  Scores(const Room& room, const Tiling& tiling, const ScoreLaw& law);
+  // direct: of every tile, where it was integrated and the photons have counted the rest; else none.
+  Scores(const Room& room, const Tiling& tiling, const ScoreLaw& law, std::vector<TileDirect> direct);
 
   // Power and irradiance of every tile, with error.
   std::vector<TileResult> tiles(const Totals& totals) const;
@@ -26,17 +28,22 @@ class Scores {
   void incident(const Totals& totals, double& power, double& standard_error) const;
 
  private:
+  struct DirectPower {  // what integrated direct light adds to a tile map
+    double power = 0.0;  // W or lm
+    double behind = 0.0;
+    double standard_error = 0.0;
+  };
+  void counted(const Totals& totals, double& power, double& standard_error) const;
   double power_of_no_hit(std::size_t surface, std::uint64_t histories) const;
   Estimate incident_power(const Moments& moments, std::size_t surface, std::uint64_t histories) const;
 
   const Room* room_;
   const Tiling* tiling_;
   ScoreLaw law_;
+  std::vector<TileDirect> direct_;
+  std::vector<DirectPower> direct_power_;  // per tile map
   double power_;                // Φ, W or lm
   std::vector<double> factor_;  // per surface: impacts that a unit stands for
 };
-
-// Area-weighted rms of the tiles' relative standard errors, over the tiles that were hit; NaN where none has an error.
-double rms_relative_error(const Tiling& tiling, const std::vector<TileResult>& tiles);
 
 }  // namespace lichtmc

@@ -68,6 +68,11 @@ void check_settings_for(const Room& room, const Settings& settings) {
         " to walk back from (allowed: at least one). Give nodes of the room the custom property 'receiver', or "
         "give points with --receivers or --grid.");
   }
+  if (settings.ways == Ways::backward && settings.tiles == TileWalk::backward) {
+    throw InputError(
+        "Tiles are to be walked from backward, and only receivers are to be measured (--tiles backward with --only "
+        "backward; allowed: one of them). Leave out --only backward, or --tiles backward.");
+  }
   if (settings.estimator == Estimator::absorption) {
     if (const Surface* surface = surface_that_absorbs_nothing(room)) {
       throw InputError("The estimator 'absorption' cannot see the surface " + in_quotes(surface->name) + " (material " +

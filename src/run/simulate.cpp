@@ -5,6 +5,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/message.hpp"
 #include "chance/moments.hpp"
@@ -13,6 +14,9 @@
 #include "run/receive.hpp"
 #include "run/scores.hpp"
 #include "run/settings_check.hpp"
+#include "run/stop_watch.hpp"
+#include "run/surface_results.hpp"
+#include "run/tile_light.hpp"
 #include "run/warnings.hpp"
 #include "walk/scene.hpp"
 #include "walk/trap.hpp"
@@ -30,13 +34,13 @@ unsigned threads_for(const Settings& settings) {
 
 // Simulates until the first stop rule is met. The target error is looked at after numbers of histories that depend on
 // nothing but the settings, so that the run ends at the same history for any number of threads.
-StopReason run_until_stopped(Crew& crew, const Scores& scores, const Tiling& tiling, const Settings& settings) {
+StopReason run_until_stopped(Crew& crew, const StopWatch& watch, const Scores& scores, const Tiling& tiling, const Settings& settings) {
   constexpr std::uint64_t first_look =
       32 * std::uint64_t{batch_histories};  // an error from 32 batches is known to 13 %
   std::uint64_t look = settings.target_error ? std::min(first_look, settings.photons) : settings.photons;
   for (;;) {
     crew.simulate_up_to(look);
-    if (crew.stopped()) return *crew.stopped();
+    if (watch.reason()) return *watch.reason();
     if (settings.target_error) {
       const double error = rms_relative_error(tiling, scores.tiles(crew.totals()));
       if (error <= *settings.target_error) return StopReason::target_error;
@@ -68,17 +72,21 @@ std::vector<Ignored> ignored_by_run(const Room& room, Ways ways) {
 void fill_in(Result& result, const Totals& totals, const Scores& scores) {
   result.histories = totals.histories;
   result.impacts = totals.impacts;
-  result.rays = totals.traced.rays;
+  result.rays += totals.traced.rays;  // beside those that asked for shadows
   result.retraced = totals.traced.retraced;
   result.lost_histories = totals.ends.lost_histories;
   result.balance = scores.balance(totals);
   scores.incident(totals, result.incident, result.incident_standard_error);
   result.tiles = scores.tiles(totals);
   result.surfaces = scores.surfaces(totals, result.tiles);
+}
+
+// How good the tiles are.
+void rate(Result& result) {
   result.rms_relative_error = rms_relative_error(result.tiling, result.tiles);
   result.figure_of_merit = 1.0 / (result.rms_relative_error * result.rms_relative_error * result.seconds);
-  result.tiles_without_hits = static_cast<std::uint64_t>(
-      std::count_if(result.tiles.begin(), result.tiles.end(), [](const TileResult& tile) { return tile.hits == 0; }));
+  result.tiles_without_hits = static_cast<std::uint64_t>(std::count_if(
+      result.tiles.begin(), result.tiles.end(), [](const TileResult& tile) { return !(tile.irradiance > 0.0); }));
 }
 
 // What holds of the run as a whole.
@@ -101,18 +109,37 @@ void complete(Result& result, const Room& room) {
       "with --estimator weight --max-bounces N.");
 }
 
-void simulate_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
-                    const Control& control) {
-  const Scores scores(room, result.tiling, score_law(settings.estimator, scene.has_maps()));
-  Crew crew(scene, settings, control, result.threads);
-  result.stopped_by = run_until_stopped(crew, scores, result.tiling, settings);
-  result.seconds = crew.seconds();
+void walk_from_emitters(Result& result, const Room& room, const Scene& scene, const Settings& settings,
+                        const Control& control, StopWatch& watch) {
+  std::vector<TileDirect> direct;
+  if (settings.direct == Direct::analytic) {
+    TraceCount count;
+    direct = TileLight(room, result.tiling, scene, settings, Way::forward)
+                 .of_tiles(control, result.threads, watch, count);
+    result.rays = count.rays;
+    result.shadow_rays = count.shadow_rays;
+  }
+  const Scores scores(room, result.tiling, score_law(settings.estimator, scene.has_maps()), std::move(direct));
+  Crew crew(scene, settings, control, watch, result.threads);
+  result.stopped_by = run_until_stopped(crew, watch, scores, result.tiling, settings);
+  result.seconds = watch.seconds();
   const Totals totals = crew.totals();
   if (totals.histories == 0) {
     throw RuntimeError(
         "The run was stopped before the first photon was simulated: there is no result. Give it more time.");
   }
   fill_in(result, totals, scores);
+}
+
+void simulate_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
+                    const Control& control) {
+  StopWatch watch(settings.max_seconds, control.stop);
+  if (settings.tiles == TileWalk::forward) {
+    walk_from_emitters(result, room, scene, settings, control, watch);
+  } else {
+    walk_from_tiles(room, scene, settings, control, watch, result);
+  }
+  rate(result);
 }
 
 Result simulate_checked(const Room& room, const Settings& settings, const Control& control) {
@@ -128,7 +155,10 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
   Settings each = settings;
   if (forward && backward && each.max_seconds) each.max_seconds = 0.5 * *each.max_seconds;
   if (forward) simulate_tiles(result, room, scene, each, control);
-  if (backward && !control.stop.stop_requested()) receive(room, scene, each, control, result.threads, result);
+  if (backward && !control.stop.stop_requested()) {
+    StopWatch watch(each.max_seconds, control.stop);
+    receive(room, scene, each, control, watch, result);
+  }
   complete(result, room);
   return result;
 }

@@ -31,6 +31,12 @@ struct TraceCount {
   std::uint64_t rays = 0;         // rays traced, with those traced again and shadow rays
   std::uint64_t retraced = 0;     // rays that were traced again
   std::uint64_t shadow_rays = 0;  // rays that only asked whether something stands between two points
+
+  void add(const TraceCount& other) {
+    rays += other.rays;
+    retraced += other.retraced;
+    shadow_rays += other.shadow_rays;
+  }
 };
 
 // Where the photons of a point emitter start.

@@ -17,42 +17,48 @@ namespace {
 constexpr std::uint64_t largest_score = std::uint64_t{1} << 50;
 
 // What backward photons are for, see kernel.hpp.
-template <class Policy>
+template <class Policy, class Origins>
 class ReceiverGoal {
  public:
-  ReceiverGoal(const Scene& scene, const DirectLight& light, const std::vector<Receiver>& receivers,
-               const ReceiverScale& scale, const Stream& stream)
+  ReceiverGoal(const Scene& scene, const DirectLight& light, const Origins& origins, const ReceiverScale& scale,
+               const Stream& stream)
       : scene_(&scene),
         light_(&light),
-        receivers_(&receivers),
+        origins_(&origins),
         scale_(scale),
         stream_(stream),
         ids_(batch_histories),
-        receiver_(batch_histories),
+        origin_(batch_histories),
+        sample_(batch_histories),
+        scores_(batch_histories),
         factor_(batch_histories),
         found_(batch_histories),
         direct_(batch_histories),
         cosine_(batch_histories),
         offers_(batch_histories) {}
 
-  // Photon i is to start from `receiver` (a number of the room's) as sample `sample`; its score goes to sums[receiver −
-  // first].
-  void prepare(std::size_t i, std::uint64_t receiver, std::uint64_t sample) {
-    receiver_[i] = receiver;
-    ids_[i] = sample * receivers_->size() + receiver;
+  // Photon i is to start from an origin, as its sample `sample`.
+  void prepare(std::size_t i, std::uint64_t origin, std::uint64_t sample) {
+    origin_[i] = origin;
+    sample_[i] = sample;
+    ids_[i] = sample * origins_->size() + origin;
   }
-  void begin(std::uint64_t first, std::vector<ReceiverSums>& sums, TraceCount& traced) {
-    first_ = first;
-    sums_ = &sums;
-    traced_ = &traced;
+  void begin(BackwardCount& count) { count_ = &count; }
+
+  // Adds up the rounds of n photons that have all ended; sums[k] belongs to origin first + k.
+  void add_rounds(std::uint32_t n, std::uint64_t first, std::vector<ReceiverSums>& sums) const {
+    for (std::uint32_t i = 0; i < n; i += Origins::group) {
+      std::uint64_t round = 0;
+      for (std::uint32_t k = i; k < i + Origins::group; ++k) round += scores_[k];
+      sums[origin_[i] - first].add(round);
+    }
   }
 
   // The first flight leaves by Lambert's law within the field of view: the receiver weighs light by the cosine.
   void start(Wave& wave, std::uint32_t n) {
     flight_ = 0;
     for (std::uint32_t i = 0; i < n; ++i) {
-      const Receiver& receiver = (*receivers_)[receiver_[i]];
-      const Outlook outlook = outlook_of(receiver);
+      const Outlook outlook = origins_->start(origin_[i], sample_[i], ids_[i], stream_, wave.rays, i);
       const Frame frame = frame_about(outlook.normal);
       const Words words = stream_.draw(ids_[i], 0, Purpose::emission);
       factor_[i] = outlook.squared_sine();
@@ -61,10 +67,7 @@ class ReceiverGoal {
       const double sine = std::sqrt(squared);
       const glm::dvec3 direction = sine * std::cos(azimuth) * frame.tangent +
                                    sine * std::sin(azimuth) * frame.bitangent + std::sqrt(1.0 - squared) * frame.normal;
-      const Tracer& tracer = *scene_->tracer;
-      wave.rays.facet[i] = no_facet;
-      wave.rays.set_start(i, glm::vec3(start_of(outlook, tracer)));
-      wave.rays.set_direction(i, glm::vec3(tracer.directions() * direction));
+      wave.rays.set_direction(i, glm::vec3(scene_->tracer->directions() * direction));
       found_[i] = 0.0;
       direct_[i] = 0.0;
     }
@@ -72,7 +75,7 @@ class ReceiverGoal {
   std::uint64_t history(std::uint32_t photon) const { return ids_[photon]; }
   // Leaving through an opening is being absorbed by ρ = 0, also where rounding made the opening.
   Misses misses() const { return Misses::escape; }
-  TraceCount& traced() { return *traced_; }
+  TraceCount& traced() { return count_->traced; }
   Ends& ends() { return ends_; }
 
   void escape(const Wave& wave, std::size_t i) {
@@ -84,6 +87,7 @@ class ReceiverGoal {
   // receiver's own direct light is known already.
   void land(const Wave& wave) {
     ++flight_;
+    count_->impacts += wave.rays.size;
     if (flight_ == 1 || !light_->any_surface_shines()) return;
     const Rays& rays = wave.rays;
     const Tracer& tracer = *scene_->tracer;
@@ -118,7 +122,7 @@ class ReceiverGoal {
       asking_.clear();
       for (std::size_t i = 0; i < rays.size; ++i) ask(wave, flight, i, k);
       if (shadow_rays_.size == 0) continue;
-      scene_->tracer->find_blocked(shadow_rays_, *traced_);
+      scene_->tracer->find_blocked(shadow_rays_, count_->traced);
       for (std::size_t n = 0; n < asking_.size(); ++n) {
         if (shadow_rays_.blocked[n] == 0) direct_[asking_[n]] += offers_[asking_[n]];
       }
@@ -179,17 +183,19 @@ class ReceiverGoal {
 
   void finish(const Wave& wave, std::size_t i) {
     const std::uint32_t photon = wave.photon[i];
-    (*sums_)[receiver_[photon] - first_].add(scale_.score(found_[i] * factor_[photon]));
+    scores_[photon] = scale_.score(found_[i] * factor_[photon]);
   }
 
   const Scene* scene_;
   const DirectLight* light_;
-  const std::vector<Receiver>* receivers_;
+  const Origins* origins_;
   ReceiverScale scale_;
   Stream stream_;
   // Of the photons by their numbers.
   std::vector<std::uint64_t> ids_;
-  std::vector<std::uint64_t> receiver_;
+  std::vector<std::uint64_t> origin_;
+  std::vector<std::uint64_t> sample_;
+  std::vector<std::uint64_t> scores_;
   std::vector<double> factor_;  // squared sine of the field of view: the share of a hemisphere's light that it takes
   // Of the photons by their places in the wave.
   std::vector<double> found_;   // so far, W/m² or lx
@@ -199,39 +205,64 @@ class ReceiverGoal {
   std::vector<std::size_t> asking_;
   ShadowRays shadow_rays_;
   std::uint32_t flight_ = 0;
-  std::uint64_t first_ = 0;
-  std::vector<ReceiverSums>* sums_ = nullptr;
-  TraceCount* traced_ = nullptr;
+  BackwardCount* count_ = nullptr;
   Ends ends_;
 };
 
-template <class Policy, class Reflectance>
+template <class Policy, class Reflectance, class Origins>
 class PolicyBackwardWalk final : public BackwardWalk {
  public:
-  PolicyBackwardWalk(const Scene& scene, const DirectLight& light, const std::vector<Receiver>& receivers,
-                     const ReceiverScale& scale, std::uint64_t seed, std::uint32_t max_flights)
-      : goal_(scene, light, receivers, scale, Stream(seed, Way::backward)),
+  PolicyBackwardWalk(const Scene& scene, const DirectLight& light, const Origins& origins, const ReceiverScale& scale,
+                     std::uint64_t seed, std::uint32_t max_flights)
+      : goal_(scene, light, origins, scale, Stream(seed, Way::backward)),
         kernel_(scene, Stream(seed, Way::backward), max_flights) {}
 
-  void simulate(const ReceiverWork& work, std::vector<ReceiverSums>& sums, TraceCount& traced,
+  void simulate(const BackwardWork& work, std::vector<ReceiverSums>& sums, BackwardCount& count,
                 const Abandon& abandon) override {
-    goal_.begin(work.first, sums, traced);
+    static_assert(batch_histories % Origins::group == 0);  // no round is torn apart
+    goal_.begin(count);
     std::uint32_t n = 0;
-    for (std::uint64_t receiver = work.first; receiver < work.last; ++receiver) {
+    const auto fly = [&] {
+      kernel_.fly(n, goal_, abandon);
+      goal_.add_rounds(n, work.first, sums);
+      n = 0;
+    };
+    for (std::uint64_t origin = work.first; origin < work.last; ++origin) {
       for (std::uint64_t sample = work.first_sample; sample < work.last_sample; ++sample) {
-        goal_.prepare(n++, receiver, sample);
-        if (n < batch_histories) continue;
-        kernel_.fly(n, goal_, abandon);
-        n = 0;
+        goal_.prepare(n++, origin, sample);
+        if (n == batch_histories) fly();
       }
     }
-    if (n > 0) kernel_.fly(n, goal_, abandon);
+    if (n > 0) fly();
   }
 
  private:
-  ReceiverGoal<Policy> goal_;
-  Kernel<Policy, Reflectance, ReceiverGoal<Policy>> kernel_;
+  ReceiverGoal<Policy, Origins> goal_;
+  Kernel<Policy, Reflectance, ReceiverGoal<Policy, Origins>> kernel_;
 };
+
+template <class Origins>
+std::unique_ptr<BackwardWalk> walk_from(const Scene& scene, const DirectLight& light, const Origins& origins,
+                                        const ReceiverScale& scale, const Settings& settings) {
+  const auto with = [&]<class Policy>(Policy /*policy*/, std::uint32_t max_flights) -> std::unique_ptr<BackwardWalk> {
+    if (scene.has_maps()) {
+      return std::make_unique<PolicyBackwardWalk<Policy, MappedReflectance, Origins>>(scene, light, origins, scale,
+                                                                                      settings.seed, max_flights);
+    }
+    return std::make_unique<PolicyBackwardWalk<Policy, SurfaceReflectance, Origins>>(scene, light, origins, scale,
+                                                                                     settings.seed, max_flights);
+  };
+  switch (settings.estimator) {
+    case Estimator::collision:
+      return with(CollisionPolicy{}, 0);
+    case Estimator::absorption:
+      return with(AbsorptionPolicy{}, 0);
+    case Estimator::weight:
+      break;
+  }
+  if (settings.max_bounces) return with(TruncatedWeightPolicy{}, *settings.max_bounces);
+  return with(RouletteWeightPolicy{}, 0);
+}
 
 }  // namespace
 
@@ -255,27 +286,23 @@ Outlook outlook_of(const Receiver& receiver) {
   return outlook;
 }
 
+Outlook ReceiverOrigins::start(std::uint64_t receiver, std::uint64_t /*sample*/, std::uint64_t /*id*/,
+                               const Stream& /*stream*/, Rays& rays, std::size_t i) const {
+  const Outlook outlook = outlook_of((*receivers_)[receiver]);
+  rays.facet[i] = no_facet;
+  rays.set_start(i, glm::vec3(start_of(outlook, *tracer_)));
+  return outlook;
+}
+
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
-                                                 const std::vector<Receiver>& receivers, const ReceiverScale& scale,
+                                                 const ReceiverOrigins& origins, const ReceiverScale& scale,
                                                  const Settings& settings) {
-  const auto with = [&]<class Policy>(Policy /*policy*/, std::uint32_t max_flights) -> std::unique_ptr<BackwardWalk> {
-    if (scene.has_maps()) {
-      return std::make_unique<PolicyBackwardWalk<Policy, MappedReflectance>>(scene, light, receivers, scale,
-                                                                             settings.seed, max_flights);
-    }
-    return std::make_unique<PolicyBackwardWalk<Policy, SurfaceReflectance>>(scene, light, receivers, scale,
-                                                                            settings.seed, max_flights);
-  };
-  switch (settings.estimator) {
-    case Estimator::collision:
-      return with(CollisionPolicy{}, 0);
-    case Estimator::absorption:
-      return with(AbsorptionPolicy{}, 0);
-    case Estimator::weight:
-      break;
-  }
-  if (settings.max_bounces) return with(TruncatedWeightPolicy{}, *settings.max_bounces);
-  return with(RouletteWeightPolicy{}, 0);
+  return walk_from(scene, light, origins, scale, settings);
+}
+
+std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light, const TileFaces& origins,
+                                                 const ReceiverScale& scale, const Settings& settings) {
+  return walk_from(scene, light, origins, scale, settings);
 }
 
 }  // namespace lichtmc

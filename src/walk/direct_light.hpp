@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -16,18 +17,9 @@
 #include "chance/stream.hpp"
 #include "lichtmc/room.hpp"
 #include "tracer/tracer.hpp"
+#include "walk/light_source.hpp"
 
 namespace lichtmc {
-
-// A point with the side that it looks to, in m.
-struct Outlook {
-  glm::dvec3 point{0.0};
-  glm::dvec3 normal{0.0, 1.0, 0.0};  // length 1
-  double least_cosine = 0.0;  // of the field of view: directions with a smaller cosine to the normal are not seen
-
-  // The share of a hemisphere of even light that the field of view takes.
-  double squared_sine() const { return (1.0 - least_cosine) * (1.0 + least_cosine); }
-};
 
 // Where ways from a point begin, in the tracer's coordinates: one step off the surface that it may lie on, on the side
 // that it looks to.
@@ -38,13 +30,6 @@ struct DirectIrradiance {
   double standard_error = 0.0;  // 0 where it is exact
 };
 
-// One emitter's light on its way to a point: what it would bring if nothing stood between, and the way to it.
-struct LightOffer {
-  double irradiance = 0.0;  // W/m² or lx; 0: none
-  glm::dvec3 target{0.0};   // m, the point of the emitter
-  double by_walk = 0.0;     // density with which a diffuse flight meets that point, per area; 0 for point emitters
-};
-
 class DirectLight {
  public:
   // The room must have passed check_room(), and outlive this.
@@ -53,6 +38,24 @@ class DirectLight {
   // The direct irradiance at a receiver. Points for surface emitters depend on (seed, number) only. Shadow rays are
   // counted.
   DirectIrradiance at(const Outlook& outlook, const Stream& stream, std::uint64_t number, TraceCount& count) const;
+
+  // The emitters with a power. Each surface emitter has a number for random words of its own.
+  const std::vector<PointSource>& points() const { return points_; }
+  const std::vector<SurfaceSource>& surfaces() const { return surfaces_; }
+
+  // Whether something stands between a point and a point of an emitter.
+  bool blocked(const Outlook& outlook, const glm::dvec3& target, TraceCount& count) const;
+
+  // How good a sampled value must be: as many pairs of samples are taken, from 32 doubled up to `most`/2, until the
+  // standard error is at most `relative` of the value or `absolute`.
+  struct Accuracy {
+    double relative = 1e-3;
+    double absolute = 0.0;  // W/m² or lx
+    std::uint32_t most = 16384;
+  };
+  // The irradiance by surface source k at a point, or as the mean over several: outlook(n) is where sample n is taken.
+  DirectIrradiance sampled(std::size_t k, const std::function<Outlook(std::uint32_t)>& outlook, const Stream& stream,
+                           std::uint64_t number, const Accuracy& accuracy, TraceCount& count) const;
 
   // How many offers a surface takes: one of every emitter where they are few, else one of one chosen by its power.
   std::size_t offers_per_point() const { return few_ ? sources_.size() : 1; }
@@ -67,47 +70,24 @@ class DirectLight {
   // L. Guibas, Optimally Combining Sampling Techniques for Monte Carlo Rendering, SIGGRAPH 1995). Without it a wall
   // that meets a luminous ceiling would get 1/r² of its edge.
   double hit(std::size_t surface, double cosine_here, double cosine_there, double r_m) const;
-  bool any_surface_shines() const { return any_surface_; }
+  bool any_surface_shines() const { return !surfaces_.empty(); }
   bool shines(std::size_t surface) const { return !sources_of_surface_[surface].empty(); }
 
   // Whether a receiver there is on an emitter: the emitter's number.
   std::optional<std::size_t> emitter_at(const Outlook& outlook) const;
 
  private:
-  struct PointSource {
-    std::size_t number = 0;
-    glm::dvec3 position{0.0};
-    glm::dvec3 axis{0.0, 0.0, 1.0};
-    double power = 0.0;
-    const Emitter* emitter = nullptr;
-  };
-  struct SurfaceSource {
-    std::size_t surface = 0;
-    double power = 0.0;
-    double area_m2 = 0.0;
-    double exponent = 1.0;
-    double share = 1.0;                    // probability of an offer of it
-    double radiance(double cosine) const;  // W/(m² sr) or cd/m² at an angle to the normal
-    std::vector<double> areas_up_to;
-    std::vector<std::size_t> triangles;  // those with an area
-  };
   struct Source {
     bool on_surface = false;
     std::size_t index = 0;  // into points_ or surfaces_
     double share = 1.0;     // probability that an offer is of it
   };
+  using OutlookOf = std::function<Outlook(std::uint32_t)>;
 
-  double intensity(const PointSource& source, const glm::dvec3& direction) const;
-  LightOffer from_point(const PointSource& source, const Outlook& outlook) const;
-  LightOffer from_surface(const SurfaceSource& source, const Outlook& outlook, double u, double v, double w) const;
-  double polygon(const SurfaceSource& source, const Outlook& outlook) const;
-  DirectIrradiance sampled(const SurfaceSource& source, const Outlook& outlook, const Stream& stream,
-                           std::uint64_t number, TraceCount& count) const;
-  std::vector<double> by_points(const SurfaceSource& source, const Outlook& outlook, const Stream& stream,
+  std::vector<double> by_points(const SurfaceSource& source, const OutlookOf& outlook, const Stream& stream,
                                 std::uint64_t number, std::uint32_t first, std::uint32_t n, TraceCount& count) const;
-  std::vector<double> by_flights(const SurfaceSource& source, const Outlook& outlook, const Stream& stream,
+  std::vector<double> by_flights(const SurfaceSource& source, const OutlookOf& outlook, const Stream& stream,
                                  std::uint64_t number, std::uint32_t first, std::uint32_t n, TraceCount& count) const;
-  bool blocked(const Outlook& outlook, const glm::dvec3& target, TraceCount& count) const;
 
   const Room* room_;
   const Tracer* tracer_;
@@ -115,9 +95,9 @@ class DirectLight {
   std::vector<SurfaceSource> surfaces_;
   std::vector<Source> sources_;
   std::vector<double> powers_up_to_;
+  std::vector<double> surface_shares_;                        // of surfaces_: probability that an offer is of it
   std::vector<std::vector<std::size_t>> sources_of_surface_;  // indices into surfaces_
   bool few_ = true;
-  bool any_surface_ = false;
 };
 
 }  // namespace lichtmc

@@ -19,8 +19,7 @@ void Totals::add(const Totals& other) {
   assert(tiles.size() == other.tiles.size() && maps.size() == other.maps.size());
   histories += other.histories;
   impacts += other.impacts;
-  traced.rays += other.traced.rays;
-  traced.retraced += other.traced.retraced;
+  traced.add(other.traced);
   ends.add(other.ends);
   incident.add(other.incident);
   for (std::size_t i = 0; i < tiles.size(); ++i) tiles[i].add(other.tiles[i]);

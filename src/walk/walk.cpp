@@ -13,7 +13,11 @@ namespace {
 template <class Policy>
 class TileGoal {
  public:
-  TileGoal(const Scene& scene, const Stream& stream) : scene_(&scene), stream_(stream), tile_(batch_histories) {}
+  TileGoal(const Scene& scene, const Stream& stream, Direct direct)
+      : scene_(&scene),
+        stream_(stream),
+        first_scored_(direct == Direct::analytic ? 2 : 1),
+        tile_(batch_histories) {}
 
   void begin(std::uint64_t first, Tally& tally) {
     first_ = first;
@@ -22,6 +26,7 @@ class TileGoal {
 
   // Photons start at the emitters.
   void start(Wave& wave, std::uint32_t n) {
+    flight_ = 0;
     for (std::uint32_t i = 0; i < n; ++i) scene_->launcher->launch(stream_, first_ + i, wave.rays, i);
   }
   std::uint64_t history(std::uint32_t photon) const { return first_ + photon; }
@@ -39,20 +44,24 @@ class TileGoal {
     }
   }
 
-  // Every impact falls on a tile.
+  // Every impact falls on a tile. The first is direct light: it scores only where that is not computed.
   void land(const Wave& wave) {
+    ++flight_;
     const Rays& rays = wave.rays;
     const std::vector<Facet>& facets = scene_->tracer->facets();
     tally_->totals().impacts += rays.size;
     for (std::size_t i = 0; i < rays.size; ++i)
       tile_[i] = scene_->tile_at(facets[rays.facet[i]], rays.s[i], rays.t[i], rays.behind[i] != 0);
     if constexpr (Policy::scores_every_impact) {
+      if (flight_ < first_scored_) return;
       for (std::size_t i = 0; i < rays.size; ++i) score(wave, i);
     }
   }
 
   void absorb(const Wave& wave, std::size_t i, double /*reflectance*/) {
-    if constexpr (!Policy::scores_every_impact) score(wave, i);
+    if constexpr (!Policy::scores_every_impact) {
+      if (flight_ >= first_scored_) score(wave, i);
+    }
   }
   void reflect(const Wave& /*wave*/, std::uint32_t /*flight*/) {}
 
@@ -72,6 +81,8 @@ class TileGoal {
 
   const Scene* scene_;
   Stream stream_;
+  std::uint32_t first_scored_;  // number of the first flight whose end scores
+  std::uint32_t flight_ = 0;
   std::vector<std::uint32_t> tile_;  // where the flight ended
   std::uint64_t first_ = 0;
   Tally* tally_ = nullptr;
@@ -80,8 +91,9 @@ class TileGoal {
 template <class Policy, class Reflectance>
 class ForwardWalk final : public Walk {
  public:
-  ForwardWalk(const Scene& scene, std::uint64_t seed, std::uint32_t max_flights)
-      : goal_(scene, Stream(seed)), kernel_(scene, Stream(seed), max_flights) {}
+  ForwardWalk(const Scene& scene, const Settings& settings, std::uint32_t max_flights)
+      : goal_(scene, Stream(settings.seed), settings.direct),
+        kernel_(scene, Stream(settings.seed), max_flights) {}
 
   void simulate_batch(std::uint64_t first, std::uint32_t n, Tally& tally, const Abandon& abandon) override {
     goal_.begin(first, tally);
@@ -106,8 +118,8 @@ class ForwardWalk final : public Walk {
 template <class Policy>
 std::unique_ptr<Walk> walk_with(const Scene& scene, const Settings& settings, std::uint32_t max_flights) {
   if (scene.has_maps())
-    return std::make_unique<ForwardWalk<Policy, MappedReflectance>>(scene, settings.seed, max_flights);
-  return std::make_unique<ForwardWalk<Policy, SurfaceReflectance>>(scene, settings.seed, max_flights);
+    return std::make_unique<ForwardWalk<Policy, MappedReflectance>>(scene, settings, max_flights);
+  return std::make_unique<ForwardWalk<Policy, SurfaceReflectance>>(scene, settings, max_flights);
 }
 
 }  // namespace
@@ -118,8 +130,8 @@ std::unique_ptr<Walk> make_walk(const Scene& scene, const Settings& settings) {
       return walk_with<CollisionPolicy>(scene, settings, 0);
     case Estimator::absorption:
       if (scene.has_maps())
-        return std::make_unique<ForwardWalk<MappedAbsorptionPolicy, MappedReflectance>>(scene, settings.seed, 0);
-      return std::make_unique<ForwardWalk<AbsorptionPolicy, SurfaceReflectance>>(scene, settings.seed, 0);
+        return std::make_unique<ForwardWalk<MappedAbsorptionPolicy, MappedReflectance>>(scene, settings, 0);
+      return std::make_unique<ForwardWalk<AbsorptionPolicy, SurfaceReflectance>>(scene, settings, 0);
     case Estimator::weight:
       break;
   }

@@ -1,0 +1,96 @@
+#include "room/tile_pieces.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "room/clip.hpp"
+#include "room/triangle_shapes.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+struct Cut {
+  std::uint32_t tile = 0;
+  double area_m2 = 0.0;
+  TilePiece piece;
+};
+
+// The pieces of a surface's front tiles, in the order of its triangles.
+std::vector<Cut> cuts_of(const Surface& surface, const TileMap& map,
+                         const std::vector<std::array<glm::dvec2, 3>>& cells) {
+  std::vector<Cut> cuts;
+  std::vector<CellTriangle> triangles;
+  const std::vector<TriangleShape> shapes = triangle_shapes(surface);
+  for (std::uint32_t n = 0; n < shapes.size(); ++n) {
+    const double area = shapes[n].area_m2;
+    if (!(area > 0.0)) continue;
+    cut_into_triangles(cells[n], map.columns, map.rows, triangles);
+    for (const CellTriangle& one : triangles) {
+      const std::uint32_t tile = map.tile_of_cell[std::size_t{one.row} * map.columns + one.column];
+      if (tile != no_tile) cuts.push_back({tile, one.share * area, {0.0, one.weights, n}});
+    }
+  }
+  return cuts;
+}
+
+}  // namespace
+
+TilePieces::TilePieces(const Room& room, const Tiling& tiling)
+    : first_(tiling.tiles.size()), count_(tiling.tiles.size()) {
+  for (const TileMap& map : tiling.maps) {
+    if (map.side == Side::back) continue;
+    std::vector<Cut> cuts = cuts_of(room.surfaces[map.surface], map, tiling.cells[map.surface]);
+    std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.tile < b.tile; });
+    for (std::size_t k = 0; k < cuts.size();) {
+      std::size_t end = k;
+      double area = 0.0;
+      for (; end < cuts.size() && cuts[end].tile == cuts[k].tile; ++end) area += cuts[end].area_m2;
+      first_[cuts[k].tile] = pieces_.size();
+      count_[cuts[k].tile] = static_cast<std::uint32_t>(end - k);
+      double sum = 0.0;
+      for (; k < end; ++k) {
+        sum += cuts[k].area_m2;
+        cuts[k].piece.area_up_to = sum / area;
+        pieces_.push_back(cuts[k].piece);
+      }
+      pieces_.back().area_up_to = 1.0;
+    }
+  }
+  // A back side has the front's pieces.
+  for (std::size_t m = 0; m < tiling.maps.size(); ++m) {
+    if (tiling.maps[m].side == Side::front) continue;
+    const std::vector<std::uint32_t>& front = tiling.maps[m - 1].tile_of_cell;
+    const std::vector<std::uint32_t>& back = tiling.maps[m].tile_of_cell;
+    for (std::size_t cell = 0; cell < back.size(); ++cell) {
+      if (back[cell] == no_tile) continue;
+      first_[back[cell]] = first_[front[cell]];
+      count_[back[cell]] = count_[front[cell]];
+    }
+  }
+}
+
+SurfacePlace TilePieces::place(std::size_t tile, double u, double v) const {
+  const std::span<const TilePiece> pieces = of(tile);
+  assert(!pieces.empty());
+  const auto found = std::upper_bound(pieces.begin(), pieces.end(), u,
+                                      [](double share, const TilePiece& piece) { return share < piece.area_up_to; });
+  const auto chosen = found == pieces.end() ? pieces.end() - 1 : found;
+  const double before = chosen == pieces.begin() ? 0.0 : (chosen - 1)->area_up_to;
+  const double within = (u - before) / (chosen->area_up_to - before);
+  // Uniform on the triangle: √ is the share of the way from its first corner, v goes across.
+  const double root = std::sqrt(std::clamp(within, 0.0, 1.0));
+  const glm::dvec2& a = chosen->weights[0];
+  return {chosen->triangle,
+          a + root * (1.0 - v) * (chosen->weights[1] - a) + root * v * (chosen->weights[2] - a)};
+}
+
+glm::dvec3 point_at(const Surface& surface, std::uint32_t triangle, const glm::dvec2& weights) {
+  const glm::uvec3 corner = surface.triangles[triangle];
+  const glm::dvec3& a = surface.positions[corner.x];
+  return a + weights.x * (surface.positions[corner.y] - a) + weights.y * (surface.positions[corner.z] - a);
+}
+
+}  // namespace lichtmc

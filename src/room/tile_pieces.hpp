@@ -1,0 +1,55 @@
+// Tiles as pieces of the room's triangles, to find points that are uniform over a tile's area.
+//
+// A tile is what of a surface lies in a cell of its grid: triangles cut along the cell's sides. Points are chosen by the
+// area of these pieces in 3-D, so that a chart that stretches the surface does no harm.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "lichtmc/room.hpp"
+#include "lichtmc/tiles.hpp"
+
+namespace lichtmc {
+
+// A triangle that is part of a tile.
+struct TilePiece {
+  double area_up_to = 0.0;              // share of the tile's area in this piece and those before it; 1 for the last
+  std::array<glm::dvec2, 3> weights{};  // barycentric coordinates of its corners in the room's triangle (2nd, 3rd)
+  std::uint32_t triangle = 0;           // index into Surface::triangles
+};
+
+// A place on a surface: barycentric coordinates of the second and third corner of one of its triangles.
+struct SurfacePlace {
+  std::uint32_t triangle = 0;
+  glm::dvec2 weights{0.0};
+};
+
+class TilePieces {
+ public:
+  TilePieces(const Room& room, const Tiling& tiling);
+
+  // The pieces of a tile (below Tiling::tiles.size()): at least one.
+  std::span<const TilePiece> of(std::size_t tile) const {
+    return {pieces_.data() + first_[tile], pieces_.data() + first_[tile] + count_[tile]};
+  }
+
+  // The place on a tile that u, v in [0, 1) choose, uniform over its area: u goes along the pieces, both fill each.
+  SurfacePlace place(std::size_t tile, double u, double v) const;
+
+ private:
+  std::vector<TilePiece> pieces_;
+  std::vector<std::size_t> first_;    // per tile
+  std::vector<std::uint32_t> count_;  // per tile
+};
+
+// The point of a surface at a place.
+glm::dvec3 point_at(const Surface& surface, std::uint32_t triangle, const glm::dvec2& weights);
+
+}  // namespace lichtmc

@@ -1,0 +1,57 @@
+// Backward walks from many origins (receivers, or faces of tiles): direct light → walks → stop rule → sums.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "lichtmc/result.hpp"
+#include "lichtmc/settings.hpp"
+#include "lichtmc/simulate.hpp"
+#include "run/stop_watch.hpp"
+#include "walk/backward.hpp"
+#include "walk/direct_light.hpp"
+
+namespace lichtmc {
+
+// The direct light of every origin, found by all threads. direct(k, count) is called once for each k below `origins`;
+// rays are counted in `traced`. Throws RuntimeError where the watch says stop before all are done.
+using DirectOf = std::function<DirectIrradiance(std::size_t, TraceCount&)>;
+std::vector<DirectIrradiance> direct_light_of(std::size_t origins, const DirectOf& direct, const Control& control,
+                                              unsigned threads, StopWatch& watch, TraceCount& traced);
+
+// What walks from some origins have found.
+struct Gathered {
+  std::vector<DirectIrradiance> direct;  // per origin
+  std::vector<ReceiverSums> sums;        // per origin, of all rounds
+  std::uint64_t rounds = 0;              // per origin
+  std::uint32_t group = 1;               // walks in a round
+  double unit = 1.0;                     // of the sums, W/m² or lx
+  BackwardCount count;
+  StopReason stopped_by = StopReason::photons;
+
+  std::uint64_t histories() const { return rounds * group * sums.size(); }
+  // Irradiance that reached origin k reflected, and its standard error: NaN where fewer than two rounds were simulated.
+  double indirect(std::size_t k) const;
+  double indirect_error(std::size_t k) const;
+};
+
+struct GatherTask {
+  Progress::Stage stage = Progress::Stage::receivers;
+  std::size_t origins = 0;
+  std::uint32_t group = 1;  // as make_walk's origins have
+  double unit = 1.0;        // as make_walk's scale has
+  DirectOf direct;
+  std::function<std::unique_ptr<BackwardWalk>()> make_walk;  // one for each thread
+  std::function<double(const Gathered&)> error;              // what Settings::target_error is about
+};
+
+// Walks until the first stop rule is met. Every origin gets as many walks; Settings::photons is the number of all
+// together. The same settings give the same sums for any number of threads. Throws RuntimeError where the run is
+// stopped before the first round is whole.
+Gathered gather(const GatherTask& task, const Settings& settings, const Control& control, StopWatch& watch,
+                unsigned threads);
+
+}  // namespace lichtmc

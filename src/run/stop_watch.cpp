@@ -1,0 +1,53 @@
+#include "run/stop_watch.hpp"
+
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "lichtmc/error.hpp"
+
+namespace lichtmc {
+
+bool StopWatch::should_stop() {
+  if (stop_) return true;
+  std::optional<StopReason> reason;
+  if (stop_token_.stop_requested()) reason = StopReason::interrupt;
+  if (max_seconds_ && seconds() >= *max_seconds_) reason = StopReason::max_time;
+  if (!reason) return false;
+  const std::lock_guard lock(mutex_);
+  if (!reason_) reason_ = reason;
+  stop_ = true;
+  return true;
+}
+
+std::optional<StopReason> StopWatch::reason() const {
+  const std::lock_guard lock(mutex_);
+  return reason_;
+}
+
+void StopWatch::run_on_threads(unsigned threads, const std::function<void(unsigned)>& work) {
+  const auto guarded = [&](unsigned k) {
+    try {
+      work(k);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      stop_ = true;
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    try {
+      for (unsigned k = 1; k < threads; ++k) helpers.emplace_back(guarded, k);
+    } catch (const std::system_error& error) {
+      stop_ = true;  // those that have started end soon
+      throw RuntimeError("Cannot start " + std::to_string(threads) + " threads (" + error.what() +
+                         "). Give --threads a smaller number.");
+    }
+    guarded(0);
+  }
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+}  // namespace lichtmc

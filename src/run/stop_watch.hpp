@@ -1,0 +1,44 @@
+// When a part of a run is to end early, and the threads that ask.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+
+#include "lichtmc/result.hpp"
+
+namespace lichtmc {
+
+class StopWatch {
+ public:
+  // Time runs from now.
+  StopWatch(std::optional<double> max_seconds, std::stop_token stop)
+      : max_seconds_(max_seconds), stop_token_(std::move(stop)), began_(Clock::now()) {}
+
+  // Whether a stop was asked for, the time is over or a thread has failed. Once true it stays so. Any thread may ask.
+  bool should_stop();
+  // Why should_stop() has said true; none where it has not, or where a thread failed.
+  std::optional<StopReason> reason() const;
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
+
+  // Calls work(0) … work(threads − 1), each on a thread of its own, the first on the calling one. Rethrows what the
+  // first of them to fail threw; the others are told to stop.
+  void run_on_threads(unsigned threads, const std::function<void(unsigned)>& work);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::optional<double> max_seconds_;
+  std::stop_token stop_token_;
+  Clock::time_point began_;
+  std::atomic<bool> stop_{false};
+  mutable std::mutex mutex_;  // guards what follows
+  std::optional<StopReason> reason_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace lichtmc

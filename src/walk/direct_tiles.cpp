@@ -1,0 +1,266 @@
+#include "walk/direct_tiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "walk/triangle_integral.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// An emitter of more triangles is sampled: the closed form would cost more than the rays.
+constexpr std::size_t most_triangles = 64;
+
+// What of a face gets light, part by part.
+using Leaves = std::vector<IntegratedTriangle>;
+
+// Integrates light(outlook) over the pieces of a face that may get some.
+template <class Light, class Lit, class Coarse, class Dark>
+Leaves integrate_face(const TileFaces& faces, std::size_t face, const Light& light, const Lit& lit,
+                      const Coarse& coarse, const Dark& dark, double relative, double absolute) {
+  const Surface& surface = faces.surface(face);
+  const std::span<const TilePiece> pieces = faces.pieces().of(faces[face].tile);
+  Leaves leaves;
+  for (std::size_t n = 0; n < pieces.size(); ++n) {
+    const TilePiece& piece = pieces[n];
+    Outlook outlook = faces.outlook(face, {piece.triangle, piece.weights[0]});
+    if (!lit(outlook)) continue;
+    const auto at = [&](const glm::dvec3& point) {
+      outlook.point = point;
+      return light(outlook);
+    };
+    const Triangle triangle{point_at(surface, piece.triangle, piece.weights[0]),
+                            point_at(surface, piece.triangle, piece.weights[1]),
+                            point_at(surface, piece.triangle, piece.weights[2])};
+    const std::size_t before = leaves.size();
+    integrate(triangle, at, coarse, dark, relative, absolute, leaves);
+    for (std::size_t k = before; k < leaves.size(); ++k) leaves[k].part = n;
+  }
+  return leaves;
+}
+
+double sum_of(const Leaves& leaves) {
+  double sum = 0.0;
+  for (const IntegratedTriangle& leaf : leaves) sum += leaf.integral;
+  return sum;
+}
+
+double error_of(const Leaves& leaves) {
+  double sum = 0.0;
+  for (const IntegratedTriangle& leaf : leaves) sum += leaf.error;
+  return sum;
+}
+
+// How a triangle lies in the beam of a point emitter.
+struct InBeam {
+  const PointSource& source;
+
+  // The angle between the axis and the nearest direction to the triangle, and the angle that it is seen under.
+  double angle_off(const Triangle& t, double& half_size) const {
+    const glm::dvec3 way = centroid_of(t) - source.position();
+    const double distance = glm::length(way);
+    const double radius = radius_of(t);
+    if (!(distance > radius)) {
+      half_size = pi;
+      return 0.0;
+    }
+    half_size = std::asin(radius / distance);
+    const glm::dvec3 towards = way / distance;
+    const double angle =
+        std::atan2(glm::length(glm::cross(towards, source.axis())), glm::dot(towards, source.axis()));
+    return std::max(0.0, angle - half_size);
+  }
+
+  bool dark(const Triangle& t) const {
+    double half_size = 0.0;
+    return angle_off(t, half_size) > source.beam().half_angle;
+  }
+
+  // The light of a lamp changes over its distance from the surface, and over the width of its beam: triangles of half
+  // of either are small enough for the rules to tell the rest.
+  bool coarse(const Triangle& t) const {
+    double half_size = 0.0;
+    angle_off(t, half_size);
+    constexpr double half = 0.5;
+    return half_size > half || half_size > half * source.beam().width;
+  }
+};
+
+// What of a face's light is seen: the mean over pairs of points in s × s strata.
+struct Seen {
+  double share = 1.0;
+  double standard_error = 0.0;
+};
+
+struct Sample {
+  double weight = 0.0;  // light that it stands for, relative to the others'
+  bool seen = false;
+};
+
+// The ratio Σ weight·seen/Σ weight over pairs, two samples in each stratum, and its error by the differences within
+// the pairs.
+Seen ratio_of(const std::vector<Sample>& samples) {
+  double all = 0.0;
+  double seen = 0.0;
+  for (const Sample& sample : samples) {
+    all += sample.weight;
+    if (sample.seen) seen += sample.weight;
+  }
+  if (!(all > 0.0)) return {};
+  Seen result{seen / all, 0.0};
+  const auto residual = [&](const Sample& sample) { return sample.weight * ((sample.seen ? 1.0 : 0.0) - result.share); };
+  double squares = 0.0;
+  for (std::size_t k = 0; k + 1 < samples.size(); k += 2) {
+    const double difference = residual(samples[k]) - residual(samples[k + 1]);
+    squares += difference * difference;
+  }
+  result.standard_error = std::sqrt(squares) / all;
+  return result;
+}
+
+// A point of the leaves, chosen by their light with u and uniform on the one chosen.
+struct LitPoint {
+  Outlook outlook;
+  double density = 0.0;  // light per area that the choice went by
+};
+
+class LitPoints {
+ public:
+  LitPoints(const Leaves& leaves, const TileFaces& faces, std::size_t face)
+      : leaves_(leaves), faces_(faces), face_(face), all_(sum_of(leaves)) {
+    double sum = 0.0;
+    for (const IntegratedTriangle& leaf : leaves) up_to_.push_back(sum += leaf.integral);
+  }
+  LitPoint at(double u, double v) const {
+    const double light = u * all_;
+    const auto found = std::upper_bound(up_to_.begin(), up_to_.end(), light);
+    const std::size_t k = std::min<std::size_t>(static_cast<std::size_t>(found - up_to_.begin()), leaves_.size() - 1);
+    const IntegratedTriangle& leaf = leaves_[k];
+    const double within = (light - (up_to_[k] - leaf.integral)) / leaf.integral;
+    const double root = std::sqrt(std::clamp(within, 0.0, 1.0));
+    const Triangle& t = leaf.triangle;
+    const TilePiece& piece = faces_.pieces().of(faces_[face_].tile)[leaf.part];
+    LitPoint chosen{faces_.outlook(face_, {piece.triangle, piece.weights[0]}), leaf.integral / area_of(t)};
+    chosen.outlook.point = t[0] + root * (1.0 - v) * (t[1] - t[0]) + root * v * (t[2] - t[0]);
+    return chosen;
+  }
+
+ private:
+  const Leaves& leaves_;
+  const TileFaces& faces_;
+  std::size_t face_;
+  double all_;
+  std::vector<double> up_to_;
+};
+
+// Samples in ever finer strata until the error is small enough. take(u, v, n): sample n at a point of the unit square.
+template <class Take>
+Seen share_seen(const Take& take, const Stream& stream, std::uint64_t number, double allowed) {
+  constexpr std::uint32_t coarsest = 4;  // strata along each side
+  constexpr std::uint32_t finest = 32;
+  Seen result;
+  std::vector<Sample> samples;
+  std::uint32_t drawn = 0;
+  for (std::uint32_t s = coarsest; s <= finest; s *= 2) {
+    samples.clear();
+    for (std::uint32_t k = 0; k < 2 * s * s; ++k, ++drawn) {
+      const Words words = stream.draw(number, drawn, Purpose::direct_place);
+      const std::uint32_t stratum = k / 2;
+      samples.push_back(
+          take((stratum % s + unit_open(words[0])) / s, (stratum / s + unit_open(words[1])) / s, drawn));
+    }
+    result = ratio_of(samples);
+    if (result.standard_error <= allowed) break;
+  }
+  return result;
+}
+
+}  // namespace
+
+DirectTiles::DirectTiles(const DirectLight& light, const TileFaces& faces, const Tracer& tracer, const Stream& stream,
+                         double relative, double level)
+    : light_(&light), faces_(&faces), tracer_(&tracer), stream_(stream), relative_(relative), level_(level) {}
+
+// The light of the leaves less what is kept from them. seen(outlook, n): sample n at a point of the face.
+template <class AskSeen>
+DirectIrradiance DirectTiles::shadowed(const Leaves& leaves, std::size_t face, std::uint64_t number,
+                                       const AskSeen& seen) const {
+  if (leaves.empty()) return {};
+  const double unshadowed = sum_of(leaves) / faces_->area_m2(face);
+  const double by_rules = error_of(leaves) / faces_->area_m2(face);
+  if (!tracer_->casts_shadows()) return {unshadowed, by_rules};
+  const LitPoints points(leaves, *faces_, face);
+  const auto take = [&](double u, double v, std::uint32_t n) {
+    const LitPoint chosen = points.at(u, v);
+    Sample sample = seen(chosen.outlook, n);
+    sample.weight /= chosen.density;
+    return sample;
+  };
+  const Seen share = share_seen(take, stream_, number, relative_ * std::max(1.0, level_ / unshadowed));
+  return {unshadowed * share.share, std::hypot(unshadowed * share.standard_error, share.share * by_rules)};
+}
+
+DirectIrradiance DirectTiles::by_point(const PointSource& source, std::size_t face, std::uint64_t number,
+                                       TraceCount& count) const {
+  const InBeam beam{source};
+  const Leaves leaves = integrate_face(
+      *faces_, face, [&](const Outlook& outlook) { return source.offer(outlook).irradiance; },
+      [&](const Outlook& outlook) { return glm::dot(source.position() - outlook.point, outlook.normal) > 0.0; },
+      [&](const Triangle& t) { return beam.coarse(t); }, [&](const Triangle& t) { return beam.dark(t); }, relative_,
+      relative_ * level_);
+  const auto seen = [&](const Outlook& outlook, std::uint32_t) {
+    return Sample{source.offer(outlook).irradiance, !light_->blocked(outlook, source.position(), count)};
+  };
+  return shadowed(leaves, face, number, seen);
+}
+
+DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::uint64_t number,
+                                         TraceCount& count) const {
+  const SurfaceSource& source = light_->surfaces()[k];
+  if (!source.lambertian() || source.triangles() > most_triangles) {
+    const auto outlook = [&](std::uint32_t n) {
+      const Words words = stream_.draw(number, n, Purpose::direct_place);
+      return faces_->outlook(face, faces_->place(face, unit_open(words[0]), unit_open(words[1])));
+    };
+    constexpr std::uint32_t most = 4096;
+    return light_->sampled(k, outlook, stream_, number, {relative_, relative_ * level_, most}, count);
+  }
+  const auto yes = [](const Outlook&) { return true; };
+  const auto no = [](const Triangle&) { return false; };
+  const Leaves leaves = integrate_face(
+      *faces_, face, [&](const Outlook& outlook) { return source.by_polygons(outlook); }, yes, no, no, relative_,
+      relative_ * level_);
+  const auto seen = [&](const Outlook& outlook, std::uint32_t n) {
+    const Words words = stream_.draw(number, n, Purpose::direct_point);
+    const LightOffer offer = source.offer(outlook, unit_open(words[0]), unit_open(words[1]), unit_open(words[2]));
+    if (!(offer.irradiance > 0.0)) return Sample{};
+    return Sample{offer.irradiance, !light_->blocked(outlook, offer.target, count)};
+  };
+  return shadowed(leaves, face, number, seen);
+}
+
+DirectIrradiance DirectTiles::mean(std::size_t face, TraceCount& count) const {
+  DirectIrradiance sum;
+  double variance = 0.0;
+  const std::size_t points = light_->points().size();
+  const std::size_t sources = points + light_->surfaces().size();
+  for (std::size_t k = 0; k < sources; ++k) {
+    const std::uint64_t number = face * sources + k;
+    const DirectIrradiance part = k < points ? by_point(light_->points()[k], face, number, count)
+                                             : by_surface(k - points, face, number, count);
+    sum.value += part.value;
+    variance += part.standard_error * part.standard_error;
+  }
+  sum.standard_error = std::sqrt(variance);
+  return sum;
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,177 @@
+#include "walk/light_source.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <variant>
+
+#include <glm/geometric.hpp>
+
+#include "chance/choice.hpp"
+#include "chance/directions.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+glm::dvec3 corner_of(const Surface& surface, std::size_t triangle, int k) {
+  return surface.positions[surface.triangles[triangle][k]];
+}
+
+// Twice the area long.
+glm::dvec3 cross_of(const Surface& surface, std::size_t triangle) {
+  const glm::dvec3 a = corner_of(surface, triangle, 0);
+  return glm::cross(corner_of(surface, triangle, 1) - a, corner_of(surface, triangle, 2) - a);
+}
+
+// The part of a triangle in front of a plane through the origin: a polygon of up to four corners.
+std::vector<glm::dvec3> above_horizon(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& normal) {
+  std::vector<glm::dvec3> kept;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::dvec3& here = corners[k];
+    const glm::dvec3& next = corners[(k + 1) % 3];
+    const double height = glm::dot(here, normal);
+    const double height_next = glm::dot(next, normal);
+    if (height >= 0.0) kept.push_back(here);
+    if ((height > 0.0 && height_next < 0.0) || (height < 0.0 && height_next > 0.0))
+      kept.push_back(here + height / (height - height_next) * (next - here));
+  }
+  return kept;
+}
+
+// Whether a triangle, given from a point, rises over its horizon by more than rounding: one in the same plane does not.
+bool rises(const std::array<glm::dvec3, 3>& corners, const Outlook& outlook) {
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  double size = glm::length(outlook.point);
+  double height = 0.0;
+  for (const glm::dvec3& corner : corners) {
+    size = std::max(size, glm::length(corner));
+    height = std::max(height, glm::dot(corner, outlook.normal));
+  }
+  return height > rounding * size;
+}
+
+// The angle between two vectors, exact for small ones and for those near π.
+double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+struct BeamOf {
+  PointSource::Beam operator()(const IsotropicEmitter&) const { return {pi, pi}; }
+  PointSource::Beam operator()(const LambertEmitter& law) const {
+    // cos^m θ falls to 10⁻¹⁶ at 1 − cos θ = 36.8/m, and by half over an angle of about √(2 ln 2/m).
+    constexpr double decades = 36.8;
+    const double versine_there = -std::expm1(-decades / std::max(law.exponent, 1.0));
+    return {std::min(0.5 * pi, 2.0 * std::asin(std::sqrt(0.5 * versine_there))), 1.0 / std::sqrt(law.exponent + 1.0)};
+  }
+  PointSource::Beam operator()(const SpotEmitter& law) const { return {law.outer, law.outer}; }
+  PointSource::Beam operator()(const SurfaceEmitter&) const { return {}; }
+};
+
+}  // namespace
+
+PointSource::PointSource(const Emitter& emitter, std::size_t number) : emitter_(&emitter), number_(number) {
+  std::visit(
+      [this](const auto& shape) {
+        if constexpr (requires { shape.position; }) position_ = shape.position;
+        if constexpr (requires { shape.axis; }) {
+          const glm::dvec3 a = shape.axis;
+          axis_ = glm::normalize(a / std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}));
+        }
+      },
+      emitter.shape);
+  beam_ = std::visit(BeamOf{}, emitter.shape);
+}
+
+// Power per solid angle in a direction of length 1.
+double PointSource::intensity(const glm::dvec3& direction) const {
+  const double cosine = glm::dot(direction, axis_);
+  struct Density {
+    double cosine;
+    double operator()(const IsotropicEmitter&) const { return pdf_sphere(cosine); }
+    double operator()(const LambertEmitter& law) const { return pdf_generalized_lambert(law.exponent, cosine); }
+    double operator()(const SpotEmitter& law) const { return pdf_spot(law.inner, law.outer, cosine); }
+    double operator()(const SurfaceEmitter&) const { return 0.0; }
+  };
+  return emitter_->power * std::visit(Density{cosine}, emitter_->shape);
+}
+
+LightOffer PointSource::offer(const Outlook& outlook) const {
+  const glm::dvec3 way = position_ - outlook.point;
+  const double r = glm::length(way);
+  if (!(r > 0.0)) return {};
+  const glm::dvec3 towards = way / r;
+  const double cosine = glm::dot(towards, outlook.normal);
+  if (cosine <= 0.0 || cosine < outlook.least_cosine) return {};
+  return {intensity(-towards) * cosine / (r * r), position_, 0.0};
+}
+
+SurfaceSource::SurfaceSource(const Room& room, const Emitter& emitter) : power_(emitter.power) {
+  const auto& shape = std::get<SurfaceEmitter>(emitter.shape);
+  surface_number_ = shape.surface;
+  surface_ = &room.surfaces[shape.surface];
+  area_m2_ = surface_area(*surface_);
+  exponent_ = shape.exponent;
+  std::vector<double> areas;
+  for (std::size_t k = 0; k < surface_->triangles.size(); ++k) {
+    const double area = glm::length(cross_of(*surface_, k));
+    if (!(area > 0.0)) continue;
+    areas.push_back(area);
+    triangles_.push_back(k);
+  }
+  areas_up_to_ = cumulative(areas);
+}
+
+// L = Φ (m+1)/(2π A) cos^(m−1) θ.
+double SurfaceSource::radiance(double cosine) const {
+  return power_ / area_m2_ * pdf_generalized_lambert(exponent_, cosine) / cosine;
+}
+
+LightOffer SurfaceSource::offer(const Outlook& outlook, double u, double v, double w) const {
+  const std::size_t triangle = triangles_[choose(areas_up_to_, u)];
+  // Uniform on the triangle, as in the launcher.
+  const double root = std::sqrt(v);
+  const glm::dvec3 a = corner_of(*surface_, triangle, 0);
+  const glm::dvec3 target = a + root * (1.0 - w) * (corner_of(*surface_, triangle, 1) - a) +
+                            root * w * (corner_of(*surface_, triangle, 2) - a);
+  const glm::dvec3 way = target - outlook.point;
+  const double r = glm::length(way);
+  if (!(r > 0.0)) return {};
+  const glm::dvec3 towards = way / r;
+  const double cosine = glm::dot(towards, outlook.normal);
+  const double cosine_there = -glm::dot(towards, glm::normalize(cross_of(*surface_, triangle)));
+  if (cosine <= 0.0 || cosine < outlook.least_cosine || cosine_there <= 0.0) return {};
+  return {power_ * pdf_generalized_lambert(exponent_, cosine_there) * cosine / (r * r), target,
+          cosine * cosine_there / (pi * r * r)};
+}
+
+// L/2 Σ Γ_k · n, Γ_k the angle under which edge k is seen times the normal of the plane through the point and it (J. H.
+// Lambert, Photometria, 1760; P. Schröder, P. Hanrahan, SIGGRAPH 1993).
+double SurfaceSource::by_polygons(const Outlook& outlook) const {
+  const double luminance = power_ / area_m2_ / pi;
+  double sum = 0.0;
+  for (const std::size_t triangle : triangles_) {
+    std::array<glm::dvec3, 3> corners{};
+    for (int k = 0; k < 3; ++k)
+      corners[static_cast<std::size_t>(k)] = corner_of(*surface_, triangle, k) - outlook.point;
+    if (glm::dot(cross_of(*surface_, triangle), corners[0]) >= 0.0) continue;  // seen from behind
+    if (!rises(corners, outlook)) continue;
+    const std::vector<glm::dvec3> seen = above_horizon(corners, outlook.normal);
+    double edges = 0.0;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      const glm::dvec3& here = seen[k];
+      const glm::dvec3& next = seen[(k + 1) % seen.size()];
+      const glm::dvec3 across = glm::cross(here, next);
+      const double length = glm::length(across);
+      if (length > 0.0) edges += angle_between(here, next) * glm::dot(across / length, outlook.normal);
+    }
+    sum += std::abs(edges);
+  }
+  return 0.5 * luminance * sum;
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,64 @@
+#include "walk/tile_faces.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "room/triangle_shapes.hpp"
+
+namespace lichtmc {
+
+TileFaces::TileFaces(const Room& room, const Tiling& tiling, const Tracer& tracer)
+    : room_(&room), tiling_(&tiling), pieces_(room, tiling) {
+  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
+    normals_.emplace_back();
+    facets_.emplace_back();
+    const std::vector<TriangleShape> shapes = triangle_shapes(room.surfaces[k]);
+    for (std::size_t n = 0; n < shapes.size(); ++n) {
+      normals_.back().push_back(shapes[n].normal);
+      facets_.back().push_back(shapes[n].area_m2 > 0.0 ? tracer.locate(k, n) : TriangleOnFacet{});
+    }
+  }
+  // The mean of points of a convex room's walls lies inside.
+  glm::dvec3 middle(0.0);
+  for (const Tile& tile : tiling.tiles) middle += tile.point / static_cast<double>(tiling.tiles.size());
+  for (std::size_t tile = 0; tile < tiling.tiles.size(); ++tile) {
+    const TileMap& map = tiling.maps[tiling.tiles[tile].map];
+    const auto number = static_cast<std::uint32_t>(tile);
+    if (room.surfaces[map.surface].sides == Sides::both) {
+      faces_.push_back({number, map.side == Side::back});
+      continue;
+    }
+    // Where nothing casts a shadow the room is convex: nothing is seen from outside.
+    bool front = tracer.casts_shadows();
+    bool back = front;
+    for (const TilePiece& piece : pieces_.of(tile)) {
+      const glm::dvec3& normal = normals_[map.surface][piece.triangle];
+      (glm::dot(normal, middle - tiling.tiles[tile].point) >= 0.0 ? front : back) = true;
+    }
+    if (front) faces_.push_back({number, false});
+    if (back) faces_.push_back({number, true});
+  }
+}
+
+Outlook TileFaces::outlook(std::size_t face, const SurfacePlace& place) const {
+  const glm::dvec3& normal = normals_[surface_number(face)][place.triangle];
+  return {point_at(surface(face), place.triangle, place.weights), faces_[face].behind ? -normal : normal, 0.0};
+}
+
+Outlook TileFaces::start(std::uint64_t face, std::uint64_t sample, std::uint64_t id, const Stream& stream, Rays& rays,
+                         std::size_t i) const {
+  const Words words = stream.draw(id, 0, Purpose::place);
+  const std::uint64_t quarter = sample % group;
+  const double u = 0.5 * (static_cast<double>(quarter % 2) + unit_open(words[0]));
+  const double v = 0.5 * (static_cast<double>(quarter / 2) + unit_open(words[1]));
+  const SurfacePlace spot = place(face, u, v);
+  const TriangleOnFacet& facet = facets_[surface_number(face)][spot.triangle];
+  const glm::vec2 st = facet.st_0 + static_cast<float>(spot.weights.x) * facet.st_1 +
+                       static_cast<float>(spot.weights.y) * facet.st_2;
+  rays.facet[i] = facet.facet;
+  rays.s[i] = st.x;
+  rays.t[i] = st.y;
+  rays.behind[i] = faces_[face].behind ? 1 : 0;
+  return outlook(face, spot);
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,61 @@
+// The faces of tiles: each side of a tile that light can fall on, as a start for walks back to the light.
+//
+// A tile of a surface with one map has two faces where both sides count on it, and its irradiance is the sum of both;
+// in a convex room only the face towards the room can get light. A tile of a two-sided surface has the face of its map.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "chance/stream.hpp"
+#include "lichtmc/room.hpp"
+#include "lichtmc/tiles.hpp"
+#include "room/tile_pieces.hpp"
+#include "tracer/rays.hpp"
+#include "tracer/tracer.hpp"
+#include "walk/light_source.hpp"
+
+namespace lichtmc {
+
+struct TileFace {
+  std::uint32_t tile = 0;
+  bool behind = false;  // it looks to where the surface's back is
+};
+
+class TileFaces {
+ public:
+  // Room, tiling and tracer must outlive the faces.
+  TileFaces(const Room& room, const Tiling& tiling, const Tracer& tracer);
+
+  std::size_t size() const { return faces_.size(); }
+  const TileFace& operator[](std::size_t face) const { return faces_[face]; }
+  double area_m2(std::size_t face) const { return tiling_->tiles[faces_[face].tile].area_m2; }
+  const Surface& surface(std::size_t face) const { return room_->surfaces[surface_number(face)]; }
+  const TilePieces& pieces() const { return pieces_; }
+
+  // The place that u, v in [0, 1) choose, uniform over the face's area.
+  SurfacePlace place(std::size_t face, double u, double v) const { return pieces_.place(faces_[face].tile, u, v); }
+  // How a place of the face looks at the room.
+  Outlook outlook(std::size_t face, const SurfacePlace& place) const;
+
+  // As origins of backward walks (see backward.hpp): walks in rounds of four, one from each quarter of the unit square
+  // that the places on the face are numbered by.
+  static constexpr std::uint32_t group = 4;
+  Outlook start(std::uint64_t face, std::uint64_t sample, std::uint64_t id, const Stream& stream, Rays& rays,
+                std::size_t i) const;
+
+ private:
+  std::size_t surface_number(std::size_t face) const {
+    return tiling_->maps[tiling_->tiles[faces_[face].tile].map].surface;
+  }
+
+  const Room* room_;
+  const Tiling* tiling_;
+  TilePieces pieces_;
+  std::vector<TileFace> faces_;
+  std::vector<std::vector<glm::dvec3>> normals_;           // per surface and triangle
+  std::vector<std::vector<TriangleOnFacet>> facets_;       // per surface and triangle
+};
+
+}  // namespace lichtmc
