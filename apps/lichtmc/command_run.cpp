@@ -292,9 +292,10 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->default_str("sampled")
       ->group(method);
   command
-      .add_option("--tiles", options.tiles,
-                  "forward: photons from the lamps are counted on the tiles; backward: walks from random points of each "
-                  "tile back to the light")
+      .add_option(
+          "--tiles", options.tiles,
+          "forward: photons from the lamps are counted on the tiles; backward: walks from random points of each "
+          "tile back to the light")
       ->type_name("WAY")
       ->capture_default_str()
       ->group(method);

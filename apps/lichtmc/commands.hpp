@@ -9,5 +9,6 @@ namespace lichtmc::app {
 void add_run_command(CLI::App& program);
 void add_cuboid_command(CLI::App& program);
 void add_check_command(CLI::App& program, int& status);
+void add_compare_command(CLI::App& program, int& status);
 
 }  // namespace lichtmc::app

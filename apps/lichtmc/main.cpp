@@ -45,6 +45,7 @@ int run_program(int argc, char** argv) {
   lichtmc::app::add_run_command(program);
   lichtmc::app::add_cuboid_command(program);
   lichtmc::app::add_check_command(program, status);
+  lichtmc::app::add_compare_command(program, status);
   try {
     check_command(program, argc, argv);
     program.parse(argc, argv);

@@ -70,7 +70,9 @@ std::string ProgressLine::describe(const Progress& progress) const {
   const bool limited = progress.target < std::uint64_t{1} << 62;
   std::string text = short_count(static_cast<double>(progress.histories)) +
                      (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") +
-                     (receivers ? " walks from receivers, " : backward ? " walks from tiles, " : " photons, ") +
+                     (receivers  ? " walks from receivers, "
+                      : backward ? " walks from tiles, "
+                                 : " photons, ") +
                      short_count(static_cast<double>(progress.impacts) / progress.seconds) +
                      (backward ? " rays/s" : " impacts/s");
   if (progress.rms_relative_error > 0.0) {

@@ -1,6 +1,7 @@
 // Everything another program needs of lichtmc.
 #pragma once
 
+#include "lichtmc/compare.hpp"    // IWYU pragma: export
 #include "lichtmc/cuboid.hpp"     // IWYU pragma: export
 #include "lichtmc/error.hpp"      // IWYU pragma: export
 #include "lichtmc/gltf.hpp"       // IWYU pragma: export

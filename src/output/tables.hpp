@@ -11,8 +11,8 @@ namespace lichtmc {
 
 // tile,surface,column,row,x,y,z,area,power,irradiance,standard_error,hits,unit[,direct,indirect]
 // x, y, z (m): a point of the surface in the tile; area m²; power W or lm; irradiance and its standard error in `unit`.
-// The standard error is "nan" where fewer than two batches were simulated. direct, indirect: the parts of the irradiance,
-// where they were found apart. Numbers read back as the same doubles.
+// The standard error is "nan" where fewer than two batches were simulated. direct, indirect: the parts of the
+// irradiance, where they were found apart. Numbers read back as the same doubles.
 std::string tiles_csv(const Result& result);
 
 // name,material,reflectance,area,tiles,mean_irradiance,min_irradiance,max_irradiance,standard_error,power,behind_share,hits,unit[,direct,indirect]

@@ -46,8 +46,7 @@ class ByteStream final : public Imf::OStream {
 };
 
 struct Pixels {
-  explicit Pixels(std::size_t cells)
-      : irradiance(cells), standard_error(cells), area(cells), direct(cells) {}
+  explicit Pixels(std::size_t cells) : irradiance(cells), standard_error(cells), area(cells), direct(cells) {}
   std::vector<float> irradiance, standard_error, area, direct;
 };
 

@@ -11,9 +11,9 @@ namespace lichtmc {
 
 // An OpenEXR file of one tile map, as bytes. One pixel per cell, row 0 (the top scan line) at the smallest v, column 0
 // at the smallest u. Channels, all 32-bit float: Y (irradiance), standard_error (NaN where unknown), area (m²);
-// and direct, the part of Y that came straight from the emitters, where that was found apart. Cells without surface have 0 in all of them. Header attributes: unit, quantity, surface, material, side, uv_min, uv_max,
-// tile_count, tile_edge_m, lichtmc_version, software, comments. Throws RuntimeError where OpenEXR or the memory
-// refuses.
+// and direct, the part of Y that came straight from the emitters, where that was found apart. Cells without surface
+// have 0 in all of them. Header attributes: unit, quantity, surface, material, side, uv_min, uv_max, tile_count,
+// tile_edge_m, lichtmc_version, software, comments. Throws RuntimeError where OpenEXR or the memory refuses.
 std::string tile_image(const Result& result, std::size_t map);
 
 // File names for the tile maps of a result, in UTF-8: a map's name with what file systems dislike turned into '_', cut

@@ -83,8 +83,7 @@ SurfacePlace TilePieces::place(std::size_t tile, double u, double v) const {
   // Uniform on the triangle: √ is the share of the way from its first corner, v goes across.
   const double root = std::sqrt(std::clamp(within, 0.0, 1.0));
   const glm::dvec2& a = chosen->weights[0];
-  return {chosen->triangle,
-          a + root * (1.0 - v) * (chosen->weights[1] - a) + root * v * (chosen->weights[2] - a)};
+  return {chosen->triangle, a + root * (1.0 - v) * (chosen->weights[1] - a) + root * v * (chosen->weights[2] - a)};
 }
 
 glm::dvec3 point_at(const Surface& surface, std::uint32_t triangle, const glm::dvec2& weights) {

@@ -1,7 +1,7 @@
 // Tiles as pieces of the room's triangles, to find points that are uniform over a tile's area.
 //
-// A tile is what of a surface lies in a cell of its grid: triangles cut along the cell's sides. Points are chosen by the
-// area of these pieces in 3-D, so that a chart that stretches the surface does no harm.
+// A tile is what of a surface lies in a cell of its grid: triangles cut along the cell's sides. Points are chosen by
+// the area of these pieces in 3-D, so that a chart that stretches the surface does no harm.
 #pragma once
 
 #include <array>

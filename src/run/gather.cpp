@@ -26,7 +26,12 @@ class Gathering {
  public:
   Gathering(const GatherTask& task, const Settings& settings, const Control& control, StopWatch& watch,
             unsigned threads)
-      : task_(task), settings_(settings), control_(control), watch_(watch), threads_(threads), last_(last_round()),
+      : task_(task),
+        settings_(settings),
+        control_(control),
+        watch_(watch),
+        threads_(threads),
+        last_(last_round()),
         reporter_(control, watch, task.stage, histories_of(last_)) {
     found_.sums.resize(task.origins);
     found_.group = task.group;

@@ -145,7 +145,9 @@ void walk_from_tiles(const Room& room, const Scene& scene, const Settings& setti
   task.unit = scale.unit;
   task.direct = [&](std::size_t face, TraceCount& count) { return light.mean(face, count); };
   task.make_walk = [&] { return make_backward_walk(scene, light.direct_light(), light.faces(), scale, settings); };
-  task.error = [&](const Gathered& found) { return rms_relative_error(tiling, tiles_of(tiling, light.faces(), found)); };
+  task.error = [&](const Gathered& found) {
+    return rms_relative_error(tiling, tiles_of(tiling, light.faces(), found));
+  };
   const Gathered found = gather(task, settings, control, watch, result.threads);
 
   result.stopped_by = found.stopped_by;

@@ -28,7 +28,7 @@ class Scores {
   void incident(const Totals& totals, double& power, double& standard_error) const;
 
  private:
-  struct DirectPower {  // what integrated direct light adds to a tile map
+  struct DirectPower {   // what integrated direct light adds to a tile map
     double power = 0.0;  // W or lm
     double behind = 0.0;
     double standard_error = 0.0;
@@ -42,8 +42,8 @@ class Scores {
   ScoreLaw law_;
   std::vector<TileDirect> direct_;
   std::vector<DirectPower> direct_power_;  // per tile map
-  double power_;                // Φ, W or lm
-  std::vector<double> factor_;  // per surface: impacts that a unit stands for
+  double power_;                           // Φ, W or lm
+  std::vector<double> factor_;             // per surface: impacts that a unit stands for
 };
 
 }  // namespace lichtmc

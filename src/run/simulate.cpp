@@ -34,7 +34,8 @@ unsigned threads_for(const Settings& settings) {
 
 // Simulates until the first stop rule is met. The target error is looked at after numbers of histories that depend on
 // nothing but the settings, so that the run ends at the same history for any number of threads.
-StopReason run_until_stopped(Crew& crew, const StopWatch& watch, const Scores& scores, const Tiling& tiling, const Settings& settings) {
+StopReason run_until_stopped(Crew& crew, const StopWatch& watch, const Scores& scores, const Tiling& tiling,
+                             const Settings& settings) {
   constexpr std::uint64_t first_look =
       32 * std::uint64_t{batch_histories};  // an error from 32 batches is known to 13 %
   std::uint64_t look = settings.target_error ? std::min(first_look, settings.photons) : settings.photons;
@@ -114,8 +115,8 @@ void walk_from_emitters(Result& result, const Room& room, const Scene& scene, co
   std::vector<TileDirect> direct;
   if (settings.direct == Direct::analytic) {
     TraceCount count;
-    direct = TileLight(room, result.tiling, scene, settings, Way::forward)
-                 .of_tiles(control, result.threads, watch, count);
+    direct =
+        TileLight(room, result.tiling, scene, settings, Way::forward).of_tiles(control, result.threads, watch, count);
     result.rays = count.rays;
     result.shadow_rays = count.shadow_rays;
   }

@@ -125,6 +125,9 @@ class CuboidTracer final : public Tracer {
   }
 
   // A cuboid is convex and empty.
+  bool is_blocked(const glm::vec3& /*start*/, const glm::vec3& /*way*/, TraceCount& /*count*/) const override {
+    return false;
+  }
   void find_blocked(ShadowRays& rays, TraceCount& /*count*/) const override {
     std::fill_n(rays.blocked.begin(), rays.size, std::uint8_t{0});
   }

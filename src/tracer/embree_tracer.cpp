@@ -153,22 +153,17 @@ class EmbreeTracer final : public Tracer {
 
   Start start(const glm::dvec3& world_point_m) const override;
 
+  bool is_blocked(const glm::vec3& start, const glm::vec3& way, TraceCount& count) const override {
+    EmbreeQuery query;
+    ++count.rays;
+    ++count.shadow_rays;
+    return meets_something(query, start, way);
+  }
+
   void find_blocked(ShadowRays& rays, TraceCount& count) const override {
     EmbreeQuery query;
-    for (std::size_t i = 0; i < rays.size; ++i) {
-      RTCRay ray{};
-      ray.org_x = rays.starts[i].x;
-      ray.org_y = rays.starts[i].y;
-      ray.org_z = rays.starts[i].z;
-      ray.dir_x = rays.ways[i].x;
-      ray.dir_y = rays.ways[i].y;
-      ray.dir_z = rays.ways[i].z;
-      ray.tnear = 0.0F;
-      ray.tfar = 1.0F;
-      ray.mask = 0xFFFFFFFF;
-      query.occluded(scene_.get(), ray);
-      rays.blocked[i] = ray.tfar < 0.0F ? 1 : 0;  // Embree's word for yes is −∞
-    }
+    for (std::size_t i = 0; i < rays.size; ++i)
+      rays.blocked[i] = meets_something(query, rays.starts[i], rays.ways[i]) ? 1 : 0;
     count.rays += rays.size;
     count.shadow_rays += rays.size;
   }
@@ -183,6 +178,21 @@ class EmbreeTracer final : public Tracer {
   }
 
  private:
+  bool meets_something(EmbreeQuery& query, const glm::vec3& start, const glm::vec3& way) const {
+    RTCRay ray{};
+    ray.org_x = start.x;
+    ray.org_y = start.y;
+    ray.org_z = start.z;
+    ray.dir_x = way.x;
+    ray.dir_y = way.y;
+    ray.dir_z = way.z;
+    ray.tnear = 0.0F;
+    ray.tfar = 1.0F;
+    ray.mask = 0xFFFFFFFF;
+    query.occluded(scene_.get(), ray);
+    return ray.tfar < 0.0F;  // Embree's word for yes is −∞
+  }
+
   void place(const Room& room);
   void add_facets(const Room& room, const Tiling& tiling);
 

@@ -75,6 +75,9 @@ class Tracer {
   // any surface between.
   virtual void find_blocked(ShadowRays& rays, TraceCount& count) const = 0;
 
+  // The same for one of them.
+  virtual bool is_blocked(const glm::vec3& start, const glm::vec3& way, TraceCount& count) const = 0;
+
   // Whether some surface can stand between two points in the room. Where none can, nothing is asked.
   virtual bool casts_shadows() const = 0;
 

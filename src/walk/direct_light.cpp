@@ -69,10 +69,7 @@ bool DirectLight::blocked(const Outlook& outlook, const glm::dvec3& target, Trac
   const glm::dvec3 way = tracer_->tracer_point(target) - start;
   const double length = glm::length(way);
   if (length <= 2.0 * step) return false;
-  ShadowRays ray;
-  ray.add(glm::vec3(start), glm::vec3(way * (1.0 - 2.0 * step / length)));
-  tracer_->find_blocked(ray, count);
-  return ray.blocked[0] != 0;
+  return tracer_->is_blocked(glm::vec3(start), glm::vec3(way * (1.0 - 2.0 * step / length)), count);
 }
 
 // Two kinds of samples: points on the emitter, in strata of its area, and flights from the receiver, in strata of its
@@ -115,8 +112,8 @@ double in_stratum(std::uint32_t k, std::uint32_t n, double u) {
 }  // namespace
 
 std::vector<double> DirectLight::by_points(const SurfaceSource& source, const OutlookOf& outlook_of,
-                                           const Stream& stream, std::uint64_t number, std::uint32_t first, std::uint32_t n,
-                                           TraceCount& count) const {
+                                           const Stream& stream, std::uint64_t number, std::uint32_t first,
+                                           std::uint32_t n, TraceCount& count) const {
   std::vector<double> values(n, 0.0);
   const double by_point = 1.0 / source.area_m2();
   for (std::uint32_t k = 0; k < n; ++k) {
@@ -131,8 +128,8 @@ std::vector<double> DirectLight::by_points(const SurfaceSource& source, const Ou
 }
 
 std::vector<double> DirectLight::by_flights(const SurfaceSource& source, const OutlookOf& outlook_of,
-                                            const Stream& stream, std::uint64_t number, std::uint32_t first, std::uint32_t n,
-                                            TraceCount& count) const {
+                                            const Stream& stream, std::uint64_t number, std::uint32_t first,
+                                            std::uint32_t n, TraceCount& count) const {
   std::vector<double> values(n, 0.0);
   Rays rays(n);
   rays.size = n;

@@ -74,8 +74,7 @@ struct InBeam {
     }
     half_size = std::asin(radius / distance);
     const glm::dvec3 towards = way / distance;
-    const double angle =
-        std::atan2(glm::length(glm::cross(towards, source.axis())), glm::dot(towards, source.axis()));
+    const double angle = std::atan2(glm::length(glm::cross(towards, source.axis())), glm::dot(towards, source.axis()));
     return std::max(0.0, angle - half_size);
   }
 
@@ -116,7 +115,9 @@ Seen ratio_of(const std::vector<Sample>& samples) {
   }
   if (!(all > 0.0)) return {};
   Seen result{seen / all, 0.0};
-  const auto residual = [&](const Sample& sample) { return sample.weight * ((sample.seen ? 1.0 : 0.0) - result.share); };
+  const auto residual = [&](const Sample& sample) {
+    return sample.weight * ((sample.seen ? 1.0 : 0.0) - result.share);
+  };
   double squares = 0.0;
   for (std::size_t k = 0; k + 1 < samples.size(); k += 2) {
     const double difference = residual(samples[k]) - residual(samples[k + 1]);
@@ -147,10 +148,15 @@ class LitPoints {
     const double within = (light - (up_to_[k] - leaf.integral)) / leaf.integral;
     const double root = std::sqrt(std::clamp(within, 0.0, 1.0));
     const Triangle& t = leaf.triangle;
+    return {outlook(leaf, t[0] + root * (1.0 - v) * (t[1] - t[0]) + root * v * (t[2] - t[0])),
+            leaf.integral / area_of(t)};
+  }
+  // How a point of a leaf looks at the room.
+  Outlook outlook(const IntegratedTriangle& leaf, const glm::dvec3& point) const {
     const TilePiece& piece = faces_.pieces().of(faces_[face_].tile)[leaf.part];
-    LitPoint chosen{faces_.outlook(face_, {piece.triangle, piece.weights[0]}), leaf.integral / area_of(t)};
-    chosen.outlook.point = t[0] + root * (1.0 - v) * (t[1] - t[0]) + root * v * (t[2] - t[0]);
-    return chosen;
+    Outlook result = faces_.outlook(face_, {piece.triangle, piece.weights[0]});
+    result.point = point;
+    return result;
   }
 
  private:
@@ -162,9 +168,10 @@ class LitPoints {
 };
 
 // Samples in ever finer strata until the error is small enough. take(u, v, n): sample n at a point of the unit square.
-template <class Take>
-Seen share_seen(const Take& take, const Stream& stream, std::uint64_t number, double allowed) {
-  constexpr std::uint32_t coarsest = 4;  // strata along each side
+// Where all samples are seen, or none, sure(all) tells whether that is to be believed.
+template <class Take, class Sure>
+Seen share_seen(const Take& take, const Sure& sure, const Stream& stream, std::uint64_t number, double allowed) {
+  constexpr std::uint32_t coarsest = 8;  // strata along each side
   constexpr std::uint32_t finest = 32;
   Seen result;
   std::vector<Sample> samples;
@@ -174,11 +181,12 @@ Seen share_seen(const Take& take, const Stream& stream, std::uint64_t number, do
     for (std::uint32_t k = 0; k < 2 * s * s; ++k, ++drawn) {
       const Words words = stream.draw(number, drawn, Purpose::direct_place);
       const std::uint32_t stratum = k / 2;
-      samples.push_back(
-          take((stratum % s + unit_open(words[0])) / s, (stratum / s + unit_open(words[1])) / s, drawn));
+      samples.push_back(take((stratum % s + unit_open(words[0])) / s, (stratum / s + unit_open(words[1])) / s, drawn));
     }
     result = ratio_of(samples);
-    if (result.standard_error <= allowed) break;
+    if (result.standard_error > allowed) continue;
+    const bool unanimous = result.share == 0.0 || result.share == 1.0;
+    if (s > coarsest || !unanimous || sure(result.share == 1.0)) break;
   }
   return result;
 }
@@ -198,13 +206,32 @@ DirectIrradiance DirectTiles::shadowed(const Leaves& leaves, std::size_t face, s
   const double by_rules = error_of(leaves) / faces_->area_m2(face);
   if (!tracer_->casts_shadows()) return {unshadowed, by_rules};
   const LitPoints points(leaves, *faces_, face);
+  // The edge of a shadow, or of a patch of light, that takes part of a tile mostly goes through its rim: points close
+  // to it, some on each side of each triangle, tell.
+  const auto sure = [&](bool all) {
+    constexpr double to_rim = 0.99;
+    constexpr int on_side = 6;
+    std::uint32_t n = std::uint32_t{1} << 24;  // beyond the numbers of the samples
+    for (const IntegratedTriangle& leaf : leaves) {
+      const glm::dvec3 middle = centroid_of(leaf.triangle);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec3 side = leaf.triangle[(k + 1) % 3] - leaf.triangle[k];
+        for (int i = 0; i < on_side; ++i) {
+          const glm::dvec3 rim = leaf.triangle[k] + (static_cast<double>(i) / on_side) * side;
+          const Sample sample = seen(points.outlook(leaf, middle + to_rim * (rim - middle)), n++);
+          if (sample.weight > 0.0 && sample.seen != all) return false;
+        }
+      }
+    }
+    return true;
+  };
   const auto take = [&](double u, double v, std::uint32_t n) {
     const LitPoint chosen = points.at(u, v);
     Sample sample = seen(chosen.outlook, n);
     sample.weight /= chosen.density;
     return sample;
   };
-  const Seen share = share_seen(take, stream_, number, relative_ * std::max(1.0, level_ / unshadowed));
+  const Seen share = share_seen(take, sure, stream_, number, relative_ * std::max(1.0, level_ / unshadowed));
   return {unshadowed * share.share, std::hypot(unshadowed * share.standard_error, share.share * by_rules)};
 }
 
@@ -233,11 +260,10 @@ DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::u
     constexpr std::uint32_t most = 4096;
     return light_->sampled(k, outlook, stream_, number, {relative_, relative_ * level_, most}, count);
   }
-  const auto yes = [](const Outlook&) { return true; };
   const auto no = [](const Triangle&) { return false; };
   const Leaves leaves = integrate_face(
-      *faces_, face, [&](const Outlook& outlook) { return source.by_polygons(outlook); }, yes, no, no, relative_,
-      relative_ * level_);
+      *faces_, face, [&](const Outlook& outlook) { return source.by_polygons(outlook); },
+      [&](const Outlook& outlook) { return source.rises_over(outlook); }, no, no, relative_, relative_ * level_);
   const auto seen = [&](const Outlook& outlook, std::uint32_t n) {
     const Words words = stream_.draw(number, n, Purpose::direct_point);
     const LightOffer offer = source.offer(outlook, unit_open(words[0]), unit_open(words[1]), unit_open(words[2]));
@@ -254,8 +280,8 @@ DirectIrradiance DirectTiles::mean(std::size_t face, TraceCount& count) const {
   const std::size_t sources = points + light_->surfaces().size();
   for (std::size_t k = 0; k < sources; ++k) {
     const std::uint64_t number = face * sources + k;
-    const DirectIrradiance part = k < points ? by_point(light_->points()[k], face, number, count)
-                                             : by_surface(k - points, face, number, count);
+    const DirectIrradiance part =
+        k < points ? by_point(light_->points()[k], face, number, count) : by_surface(k - points, face, number, count);
     sum.value += part.value;
     variance += part.standard_error * part.standard_error;
   }

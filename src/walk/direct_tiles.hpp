@@ -1,8 +1,8 @@
 // The direct light on tiles, integrated over their area instead of counted.
 //
 // What would fall on a tile if nothing stood between is integrated: over triangles that are divided until a rule of
-// degree 5 and one of degree 2 agree, and that are small against the distance from a lamp and the width of its beam. How
-// much of it arrives is then asked by shadow rays: the mean of what is seen, over pairs of points in strata of that
+// degree 5 and one of degree 2 agree, and that are small against the distance from a lamp and the width of its beam.
+// How much of it arrives is then asked by shadow rays: the mean of what is seen, over pairs of points in strata of that
 // light, is unbiased up to the second order of its own error. Where nothing casts a shadow nothing is asked.
 //
 // Emitters without a closed form (surfaces that do not follow Lambert's law, or of very many triangles) are sampled as

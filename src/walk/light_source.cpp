@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <variant>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "chance/choice.hpp"
@@ -28,17 +30,32 @@ glm::dvec3 cross_of(const Surface& surface, std::size_t triangle) {
   return glm::cross(corner_of(surface, triangle, 1) - a, corner_of(surface, triangle, 2) - a);
 }
 
-// The part of a triangle in front of a plane through the origin: a polygon of up to four corners.
-std::vector<glm::dvec3> above_horizon(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& normal) {
-  std::vector<glm::dvec3> kept;
+// Up to four corners; rounding adds none, since each side of a triangle gives two at most.
+class Outline {
+ public:
+  void add(const glm::dvec3& corner) {
+    assert(size_ < corners_.size());
+    corners_[size_++] = corner;
+  }
+  std::size_t size() const { return size_; }
+  const glm::dvec3& operator[](std::size_t k) const { return corners_[k]; }
+
+ private:
+  std::array<glm::dvec3, 6> corners_;
+  std::size_t size_ = 0;
+};
+
+// The part of a triangle in front of a plane through the origin.
+Outline above_horizon(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& normal) {
+  Outline kept;
   for (std::size_t k = 0; k < 3; ++k) {
     const glm::dvec3& here = corners[k];
     const glm::dvec3& next = corners[(k + 1) % 3];
     const double height = glm::dot(here, normal);
     const double height_next = glm::dot(next, normal);
-    if (height >= 0.0) kept.push_back(here);
+    if (height >= 0.0) kept.add(here);
     if ((height > 0.0 && height_next < 0.0) || (height < 0.0 && height_next > 0.0))
-      kept.push_back(here + height / (height - height_next) * (next - here));
+      kept.add(here + height / (height - height_next) * (next - here));
   }
   return kept;
 }
@@ -117,13 +134,25 @@ SurfaceSource::SurfaceSource(const Room& room, const Emitter& emitter) : power_(
   area_m2_ = surface_area(*surface_);
   exponent_ = shape.exponent;
   std::vector<double> areas;
+  low_ = glm::dvec3(std::numeric_limits<double>::infinity());
+  high_ = -low_;
   for (std::size_t k = 0; k < surface_->triangles.size(); ++k) {
     const double area = glm::length(cross_of(*surface_, k));
     if (!(area > 0.0)) continue;
     areas.push_back(area);
     triangles_.push_back(k);
+    for (int c = 0; c < 3; ++c) {
+      low_ = glm::min(low_, corner_of(*surface_, k, c));
+      high_ = glm::max(high_, corner_of(*surface_, k, c));
+    }
   }
   areas_up_to_ = cumulative(areas);
+}
+
+bool SurfaceSource::rises_over(const Outlook& outlook) const {
+  const glm::dvec3& n = outlook.normal;
+  const glm::dvec3 highest(n.x > 0.0 ? high_.x : low_.x, n.y > 0.0 ? high_.y : low_.y, n.z > 0.0 ? high_.z : low_.z);
+  return glm::dot(highest - outlook.point, n) > 0.0;
 }
 
 // L = Φ (m+1)/(2π A) cos^(m−1) θ.
@@ -160,7 +189,7 @@ double SurfaceSource::by_polygons(const Outlook& outlook) const {
       corners[static_cast<std::size_t>(k)] = corner_of(*surface_, triangle, k) - outlook.point;
     if (glm::dot(cross_of(*surface_, triangle), corners[0]) >= 0.0) continue;  // seen from behind
     if (!rises(corners, outlook)) continue;
-    const std::vector<glm::dvec3> seen = above_horizon(corners, outlook.normal);
+    const Outline seen = above_horizon(corners, outlook.normal);
     double edges = 0.0;
     for (std::size_t k = 0; k < seen.size(); ++k) {
       const glm::dvec3& here = seen[k];

@@ -70,6 +70,9 @@ class SurfaceSource {
   // irradiance, if nothing stood between.
   LightOffer offer(const Outlook& outlook, double u, double v, double w) const;
 
+  // Whether the box about the emitter reaches over a point's horizon: else it sends nothing there.
+  bool rises_over(const Outlook& outlook) const;
+
   bool lambertian() const { return exponent_ == 1.0; }
   // The irradiance of a Lambertian emitter over the whole hemisphere, if nothing stood between.
   double by_polygons(const Outlook& outlook) const;
@@ -85,6 +88,8 @@ class SurfaceSource {
   double power_;
   double area_m2_;
   double exponent_;
+  glm::dvec3 low_{0.0};  // the box about it
+  glm::dvec3 high_{0.0};
   std::vector<double> areas_up_to_;
   std::vector<std::size_t> triangles_;  // those with an area
 };

@@ -52,8 +52,8 @@ Outlook TileFaces::start(std::uint64_t face, std::uint64_t sample, std::uint64_t
   const double v = 0.5 * (static_cast<double>(quarter / 2) + unit_open(words[1]));
   const SurfacePlace spot = place(face, u, v);
   const TriangleOnFacet& facet = facets_[surface_number(face)][spot.triangle];
-  const glm::vec2 st = facet.st_0 + static_cast<float>(spot.weights.x) * facet.st_1 +
-                       static_cast<float>(spot.weights.y) * facet.st_2;
+  const glm::vec2 st =
+      facet.st_0 + static_cast<float>(spot.weights.x) * facet.st_1 + static_cast<float>(spot.weights.y) * facet.st_2;
   rays.facet[i] = facet.facet;
   rays.s[i] = st.x;
   rays.t[i] = st.y;

@@ -54,8 +54,8 @@ class TileFaces {
   const Tiling* tiling_;
   TilePieces pieces_;
   std::vector<TileFace> faces_;
-  std::vector<std::vector<glm::dvec3>> normals_;           // per surface and triangle
-  std::vector<std::vector<TriangleOnFacet>> facets_;       // per surface and triangle
+  std::vector<std::vector<glm::dvec3>> normals_;      // per surface and triangle
+  std::vector<std::vector<TriangleOnFacet>> facets_;  // per surface and triangle
 };
 
 }  // namespace lichtmc

@@ -24,8 +24,8 @@ inline glm::dvec3 centroid_of(const Triangle& t) {
 // The greatest distance of a corner from the centroid.
 inline double radius_of(const Triangle& t) {
   const glm::dvec3 c = centroid_of(t);
-  return std::sqrt(std::fmax(glm::dot(t[0] - c, t[0] - c),
-                             std::fmax(glm::dot(t[1] - c, t[1] - c), glm::dot(t[2] - c, t[2] - c))));
+  return std::sqrt(
+      std::fmax(glm::dot(t[0] - c, t[0] - c), std::fmax(glm::dot(t[1] - c, t[1] - c), glm::dot(t[2] - c, t[2] - c))));
 }
 
 // A triangle that was not divided further.
@@ -48,12 +48,10 @@ IntegratedTriangle integrate_once(const Triangle& t, const Function& f) {
   constexpr double weight_centre = 9.0 / 40.0;
   // Degree 2 from the centre and the points near the corners: Σ w λ² = 1/6.
   const double opposite = 1.0 - 2.0 * near_corner;
-  const double weight_low =
-      (1.0 / 18.0) / (2.0 * near_corner * near_corner + opposite * opposite - 1.0 / 3.0);
+  const double weight_low = (1.0 / 18.0) / (2.0 * near_corner * near_corner + opposite * opposite - 1.0 / 3.0);
   const auto three = [&](double a) {
     double sum = 0.0;
-    for (std::size_t k = 0; k < 3; ++k)
-      sum += f((1.0 - 2.0 * a) * t[k] + a * t[(k + 1) % 3] + a * t[(k + 2) % 3]);
+    for (std::size_t k = 0; k < 3; ++k) sum += f((1.0 - 2.0 * a) * t[k] + a * t[(k + 1) % 3] + a * t[(k + 2) % 3]);
     return sum;
   };
   const double centre = f(centroid_of(t));

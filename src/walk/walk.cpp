@@ -14,10 +14,7 @@ template <class Policy>
 class TileGoal {
  public:
   TileGoal(const Scene& scene, const Stream& stream, Direct direct)
-      : scene_(&scene),
-        stream_(stream),
-        first_scored_(direct == Direct::analytic ? 2 : 1),
-        tile_(batch_histories) {}
+      : scene_(&scene), stream_(stream), first_scored_(direct == Direct::analytic ? 2 : 1), tile_(batch_histories) {}
 
   void begin(std::uint64_t first, Tally& tally) {
     first_ = first;
@@ -92,8 +89,7 @@ template <class Policy, class Reflectance>
 class ForwardWalk final : public Walk {
  public:
   ForwardWalk(const Scene& scene, const Settings& settings, std::uint32_t max_flights)
-      : goal_(scene, Stream(settings.seed), settings.direct),
-        kernel_(scene, Stream(settings.seed), max_flights) {}
+      : goal_(scene, Stream(settings.seed), settings.direct), kernel_(scene, Stream(settings.seed), max_flights) {}
 
   void simulate_batch(std::uint64_t first, std::uint32_t n, Tally& tally, const Abandon& abandon) override {
     goal_.begin(first, tally);
@@ -117,8 +113,7 @@ class ForwardWalk final : public Walk {
 
 template <class Policy>
 std::unique_ptr<Walk> walk_with(const Scene& scene, const Settings& settings, std::uint32_t max_flights) {
-  if (scene.has_maps())
-    return std::make_unique<ForwardWalk<Policy, MappedReflectance>>(scene, settings, max_flights);
+  if (scene.has_maps()) return std::make_unique<ForwardWalk<Policy, MappedReflectance>>(scene, settings, max_flights);
   return std::make_unique<ForwardWalk<Policy, SurfaceReflectance>>(scene, settings, max_flights);
 }
 

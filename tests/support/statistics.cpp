@@ -4,34 +4,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "chance/significance.hpp"
+
 namespace lichtmc::test {
-
-double normal_tail(double z) {
-  return 0.5 * std::erfc(z / std::sqrt(2.0));
-}
-
-double normal_quantile_above(double p) {
-  // Bisection: the tail is monotonic, and 200 halvings of [−40, 40] reach the last digit.
-  double low = -40.0;
-  double high = 40.0;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    (normal_tail(middle) > p ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 double largest_z_allowed(std::size_t figures) {
   // Šidák: each figure may be beyond with 1 − (1 − α)^{1/K}, on two sides.
   const double each = -std::expm1(std::log1p(-false_alarm) / static_cast<double>(figures));
   return normal_quantile_above(0.5 * each);
-}
-
-double chi_square_above(std::size_t k, double p) {
-  const auto n = static_cast<double>(k);
-  const double c = 2.0 / (9.0 * n);
-  const double root = std::max(0.0, 1.0 - c + normal_quantile_above(p) * std::sqrt(c));
-  return n * root * root * root;
 }
 
 Verdict compare(const std::vector<Compared>& figures) {
@@ -58,8 +38,8 @@ Verdict compare(const std::vector<Compared>& figures) {
   double low = 0.0;
   double high = allowed * allowed;
   if (verdict.figures >= 3) {
-    high = chi_square_above(verdict.figures, false_alarm);
-    low = chi_square_above(verdict.figures, 1.0 - false_alarm);
+    high = chi_square_above(static_cast<double>(verdict.figures), false_alarm);
+    low = chi_square_above(static_cast<double>(verdict.figures), 1.0 - false_alarm);
     if (verdict.chi_square > high || verdict.chi_square < low) verdict.agrees = false;
   }
   // With a common bias b the expectation of Σ z² grows by b² · information; from K it must reach the limit.
@@ -95,7 +75,7 @@ Verdict compare_counts(const std::vector<double>& counts, const std::vector<doub
     count = expectation = 0.0;
   }
   verdict.figures = bins;
-  const double allowed = chi_square_above(bins - 1, false_alarm);
+  const double allowed = chi_square_above(static_cast<double>(bins - 1), false_alarm);
   verdict.agrees = bins > 1 && verdict.chi_square <= allowed;
   verdict.smallest_bias = std::sqrt((allowed - static_cast<double>(bins)) / total);
   char text[160];

@@ -39,14 +39,6 @@ Verdict compare(const std::vector<Compared>& figures);
 // z-score that the largest of K standard normal variables exceeds in size with probability false_alarm.
 double largest_z_allowed(std::size_t figures);
 
-// Probability that a standard normal variable lies above z.
-double normal_tail(double z);
-// Inverse of normal_tail for 0 < p < 1.
-double normal_quantile_above(double p);
-// Value that χ² with k degrees of freedom exceeds with probability p (Wilson and Hilferty 1931; better than 1 % of
-// √(2k) for k ≥ 3).
-double chi_square_above(std::size_t k, double p);
-
 // χ² of counts against expected counts, bins of less than 10 expected pooled with their neighbours; agrees when not
 // beyond false_alarm on the upper side.
 Verdict compare_counts(const std::vector<double>& counts, const std::vector<double>& expected);

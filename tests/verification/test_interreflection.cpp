@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "chance/significance.hpp"
 #include "support/catch.hpp"
 #include "support/form_factors.hpp"
 #include "support/rooms.hpp"
@@ -166,7 +167,7 @@ TEST_CASE("open-top cube: the share that escapes") {
     const Verdict verdict = compare(figures);
     INFO(to_string(estimator) << ": " << verdict.text);
     CHECK(verdict.largest_z <= largest_z_allowed(figures.size()));
-    CHECK(verdict.chi_square <= chi_square_above(figures.size(), false_alarm));
+    CHECK(verdict.chi_square <= chi_square_above(static_cast<double>(figures.size()), false_alarm));
   }
 }
 

@@ -1,0 +1,144 @@
+// lichtmc compare: do two results agree within their errors?
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "lichtmc/compare.hpp"
+
+namespace lichtmc::app {
+
+namespace {
+
+constexpr int exit_disagree = 1;
+
+struct CompareOptions {
+  std::string a;
+  std::string b;
+  bool json = false;
+  std::size_t worst = 5;
+};
+
+std::string text(const char* form, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, form, value);
+  return buffer;
+}
+
+std::string chance(double probability) {
+  return probability < 1e-9 ? "less than 1e-9" : text("%.2g", probability);
+}
+
+// The figures that deviate most, the worst first.
+std::vector<const FigurePair*> worst_of(const Comparison& comparison, std::size_t count) {
+  std::vector<const FigurePair*> worst;
+  for (const FigurePair& pair : comparison.figures) worst.push_back(&pair);
+  count = std::min(count, worst.size());
+  std::partial_sort(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(count), worst.end(),
+                    [](const FigurePair* a, const FigurePair* b) { return std::abs(a->z()) > std::abs(b->z()); });
+  worst.resize(count);
+  return worst;
+}
+
+void print(const Comparison& comparison, std::size_t count) {
+  std::cout << to_string(comparison.what) << ": " << comparison.figures.size() << " compared";
+  if (comparison.dark > 0) std::cout << "; " << comparison.dark << " are 0 in both";
+  if (comparison.unknown > 0) std::cout << "; " << comparison.unknown << " left out, their errors are not known";
+  if (comparison.unmatched > 0)
+    std::cout << "; " << comparison.unmatched << " receivers left out, not at the point of one tile alone";
+  std::cout << ".\n";
+  if (comparison.figures.empty()) return;
+  std::cout << "  B over A: " << text("%+.3g", 100.0 * comparison.difference) << " % with a standard error of "
+            << text("%.2g", 100.0 * comparison.difference_error) << " % (mean of all)\n"
+            << "  chi-square " << text("%.5g", comparison.chi_square) << ", expected "
+            << text("%.5g", comparison.expected_chi_square) << "; as large by chance with probability "
+            << chance(comparison.chi_square_chance) << '\n'
+            << "  largest |z| " << text("%.3g", std::abs(comparison.largest_z)) << " ("
+            << comparison.figures[comparison.largest].name << "); one as large by chance with probability "
+            << chance(comparison.largest_chance) << '\n';
+  if (!comparison.agree) {
+    for (const FigurePair* pair : worst_of(comparison, count)) {
+      std::cout << "    " << pair->name << ": A " << text("%.5g", pair->a) << " +- " << text("%.2g", pair->error_a)
+                << ", B " << text("%.5g", pair->b) << " +- " << text("%.2g", pair->error_b) << ", z "
+                << text("%+.3g", pair->z()) << '\n';
+    }
+  }
+  std::cout << (comparison.agree ? "  They agree within their errors.\n"
+                                 : "  They disagree: chance makes this less than once in a million comparisons.\n");
+  if (!comparison.agree && comparison.what == ComparisonOf::tiles_at_receivers)
+    std::cout << "  A tile is the mean over its area, a receiver one point: with smaller tiles they come closer.\n";
+}
+
+nlohmann::ordered_json json_of(const Comparison& comparison, std::size_t count) {
+  nlohmann::ordered_json worst = nlohmann::ordered_json::array();
+  for (const FigurePair* pair : worst_of(comparison, count)) {
+    worst.push_back({{"name", pair->name},
+                     {"a", pair->a},
+                     {"a_standard_error", pair->error_a},
+                     {"b", pair->b},
+                     {"b_standard_error", pair->error_b},
+                     {"z", pair->z()}});
+  }
+  return {{"what", to_string(comparison.what)},
+          {"agree", comparison.agree},
+          {"compared", comparison.figures.size()},
+          {"dark", comparison.dark},
+          {"unknown", comparison.unknown},
+          {"unmatched", comparison.unmatched},
+          {"relative_difference", comparison.difference},
+          {"relative_difference_standard_error", comparison.difference_error},
+          {"chi_square", comparison.chi_square},
+          {"expected_chi_square", comparison.expected_chi_square},
+          {"chi_square_chance", comparison.chi_square_chance},
+          {"largest_z", comparison.largest_z},
+          {"largest_chance", comparison.largest_chance},
+          {"worst", worst}};
+}
+
+void compare(const CompareOptions& options, int& status) {
+  const std::vector<Comparison> comparisons = compare_results(options.a, options.b);
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const Comparison& comparison : comparisons) {
+    if (!comparison.agree) status = exit_disagree;
+    if (options.json) {
+      all.push_back(json_of(comparison, options.worst));
+    } else {
+      print(comparison, options.worst);
+    }
+  }
+  if (options.json) {
+    std::cout << all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+  }
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& program, int& status) {
+  CLI::App* command =
+      program.add_subcommand("compare", "Hold two results against each other: do they agree within their errors?");
+  auto options = std::make_shared<CompareOptions>();
+  command->add_option("A", options->a, "Folder with results")->required();
+  command->add_option("B", options->b, "Folder with results of the same tiles or receivers")->required();
+  command->add_option("--worst", options->worst, "How many of the figures that deviate most are listed")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "Write the comparison as JSON");
+  command->footer(
+      "Every figure that both have gives z = (B - A) / sqrt(se_A^2 + se_B^2). Tiles are compared with tiles and\n"
+      "receivers with receivers; where one result has tiles only and the other receivers only, each receiver with the\n"
+      "tile whose point (x, y, z in tiles.csv) it stands at. Use different seeds: results of the same seed share "
+      "their\n"
+      "errors.\n"
+      "Exit status: 0 they agree; 1 they do not; 2 they cannot be compared.\n\n"
+      "Example:\n"
+      "  lichtmc run room.glb --seed 1 -o one\n"
+      "  lichtmc run room.glb --seed 2 --tiles backward -o two\n"
+      "  lichtmc compare one two");
+  command->callback([options, &status] { compare(*options, status); });
+}
+
+}  // namespace lichtmc::app

@@ -1,0 +1,24 @@
+// How unlikely a deviation is that chance alone makes.
+#pragma once
+
+#include <cstddef>
+
+namespace lichtmc {
+
+// Probability that a standard normal variable lies above z, and its inverse for 0 < p < 1.
+double normal_tail(double z);
+double normal_quantile_above(double p);
+
+// Value that χ² with k degrees of freedom (≥ 3, not only whole numbers) exceeds with probability p, and its inverse. E.
+// Wilson, M. Hilferty: The Distribution of Chi-Square, 1931; better than 1 % of √(2k).
+double chi_square_above(double k, double p);
+double chi_square_tail(double k, double chi_square);
+
+// A figure whose error was estimated from few differences follows Student's law: the standard normal variable that is
+// as unlikely as t with `freedom` (> 1) degrees of freedom. D. Peizer, J. Pratt: A Normal Approximation, 1968.
+double normal_from_student(double t, double freedom);
+
+// Probability that the largest of n independent standard normal variables is beyond z in size (Z. Šidák, 1967).
+double largest_of_normals_tail(double z, std::size_t n);
+
+}  // namespace lichtmc
