@@ -28,16 +28,15 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
+  // Collects small pieces: a call of the system for each would take longer than making them.
   void write(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail();
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
+    constexpr std::size_t enough = std::size_t{1} << 18;
+    waiting_ += bytes;
+    if (waiting_.size() >= enough) flush();
   }
 
   void become_target() {
+    flush();
     if (::fsync(descriptor_) != 0) fail();
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
@@ -46,6 +45,17 @@ class TemporaryFile {
   }
 
  private:
+  void flush() {
+    std::string_view bytes = waiting_;
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail();
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    waiting_.clear();
+  }
+
   [[noreturn]] void fail() const {
     const int error = errno;
     if (!renamed_) ::unlink(path_.c_str());
@@ -55,16 +65,21 @@ class TemporaryFile {
 
   std::filesystem::path target_;
   std::filesystem::path path_;
+  std::string waiting_;
   int descriptor_ = -1;
   bool renamed_ = false;
 };
 
 }  // namespace
 
-void write_file_atomically(const std::filesystem::path& file, std::string_view bytes) {
+void write_file_atomically(const std::filesystem::path& file, const std::function<void(const Sink&)>& produce) {
   TemporaryFile temporary(file);
-  temporary.write(bytes);
+  produce([&temporary](std::string_view bytes) { temporary.write(bytes); });
   temporary.become_target();
+}
+
+void write_file_atomically(const std::filesystem::path& file, std::string_view bytes) {
+  write_file_atomically(file, [bytes](const Sink& sink) { sink(bytes); });
 }
 
 }  // namespace lichtmc

@@ -1,9 +1,11 @@
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include "lichtmc/output.hpp"
 #include "lichtmc/version.hpp"
 #include "output/json.hpp"
+#include "output/summary.hpp"
 #include "output/tile_image.hpp"
 
 namespace lichtmc {
@@ -38,24 +40,27 @@ Json surfaces_of(const Result& result) {
   return surfaces;
 }
 
-Json receivers_of(const Result& result) {
-  Json receivers = Json::array();
+Json receiver_of(const Receiver& r, const ReceiverResult& one) {
+  return {{"name", r.name},
+          {"position", {number(r.position.x), number(r.position.y), number(r.position.z)}},
+          {"normal", {number(r.normal.x), number(r.normal.y), number(r.normal.z)}},
+          {"fov", number(r.half_angle_deg)},
+          {"area", number(r.area_m2)},
+          {"irradiance", number(one.irradiance)},
+          {"direct", number(one.direct)},
+          {"indirect", number(one.indirect)},
+          {"standard_error", number(one.standard_error)},
+          {"gain", number(one.gain)},
+          {"gain_db", one.gain > 0.0 ? number(10.0 * std::log10(one.gain)) : Json(nullptr)}};
+}
+
+// The receivers as the elements of an array, each on a line.
+void write_receivers(const Result& result, const Sink& sink) {
   for (std::size_t k = 0; k < result.receiver_results.size(); ++k) {
-    const Receiver& r = result.receivers[k];
-    const ReceiverResult& one = result.receiver_results[k];
-    receivers.push_back({{"name", r.name},
-                         {"position", {number(r.position.x), number(r.position.y), number(r.position.z)}},
-                         {"normal", {number(r.normal.x), number(r.normal.y), number(r.normal.z)}},
-                         {"fov", number(r.half_angle_deg)},
-                         {"area", number(r.area_m2)},
-                         {"irradiance", number(one.irradiance)},
-                         {"direct", number(one.direct)},
-                         {"indirect", number(one.indirect)},
-                         {"standard_error", number(one.standard_error)},
-                         {"gain", number(one.gain)},
-                         {"gain_db", one.gain > 0.0 ? number(10.0 * std::log10(one.gain)) : Json(nullptr)}});
+    sink(k > 0 ? ",\n    " : "\n    ");
+    sink(receiver_of(result.receivers[k], result.receiver_results[k]).dump(-1, ' ', false, Json::error_handler_t::replace));
   }
-  return receivers;
+  if (!result.receiver_results.empty()) sink("\n  ");
 }
 
 // How the receivers' results were got; null without any.
@@ -114,7 +119,7 @@ Json units_of(const Result& result) {
 
 }  // namespace
 
-std::string summary_json(const Room& room, const Result& result) {
+void write_summary(const Room& room, const Result& result, const Sink& sink) {
   const Balance& balance = result.balance;
   Json summary{{"version", std::string(version())},
                {"room", result.room},
@@ -139,7 +144,7 @@ std::string summary_json(const Room& room, const Result& result) {
                {"figure_of_merit", number(result.figure_of_merit)},
                {"stopped_by", std::string(to_string(result.stopped_by))},
                {"surfaces", surfaces_of(result)},
-               {"receivers", receivers_of(result)},
+               {"receivers", Json::array()},
                {"ignored", texts_of(result.ignored)}};
   summary["tiles_by"] = std::string(to_string(result.settings.tiles));
   summary["direct"] = std::string(to_string(direct_is_apart(result) ? Direct::analytic : Direct::sampled));
@@ -155,7 +160,19 @@ std::string summary_json(const Room& room, const Result& result) {
   summary["retraced"] = result.retraced;
   summary["lost_histories"] = result.lost_histories;
   summary["units"] = units_of(result);
-  return json_text(summary);
+  // Receivers go where the empty array stands.
+  const std::string text = json_text(summary);
+  const std::string_view place = "\n  \"receivers\": [";
+  const std::size_t cut = text.find(place) + place.size();
+  sink(std::string_view(text).substr(0, cut));
+  write_receivers(result, sink);
+  sink(std::string_view(text).substr(cut));
+}
+
+std::string summary_json(const Room& room, const Result& result) {
+  std::string text;
+  write_summary(room, result, [&text](std::string_view piece) { text += piece; });
+  return text;
 }
 
 }  // namespace lichtmc

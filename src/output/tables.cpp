@@ -32,6 +32,12 @@ std::string csv_field(std::string_view text) {
 
 namespace {
 
+// Hands on what there is of a table.
+void pass_on(std::string& table, const Sink& sink) {
+  sink(table);
+  table.clear();
+}
+
 constexpr const char* parts = ",direct,indirect";
 
 // The unit, and the parts of an irradiance where they are known apart.
@@ -41,7 +47,7 @@ std::string unit_and_parts(const std::string& unit, double irradiance, double di
 
 }  // namespace
 
-std::string tiles_csv(const Result& result) {
+void write_tiles_csv(const Result& result, const Sink& sink) {
   std::string table = "tile,surface,column,row,x,y,z,area,power,irradiance,standard_error,hits,unit";
   if (direct_is_apart(result)) table += parts;
   table += '\n';
@@ -55,11 +61,12 @@ std::string tiles_csv(const Result& result) {
                to_text(tile.point.x), to_text(tile.point.y), to_text(tile.point.z), to_text(tile.area_m2),
                to_text(figures.power), to_text(figures.irradiance), to_text(figures.standard_error),
                std::to_string(figures.hits), unit_and_parts(unit, figures.irradiance, figures.direct));
+    pass_on(table, sink);
   }
-  return table;
+  sink(table);
 }
 
-std::string receivers_csv(const Result& result) {
+void write_receivers_csv(const Result& result, const Sink& sink) {
   std::string table = "receiver,name,x,y,z,nx,ny,nz,irradiance,direct,indirect,standard_error,gain,gain_db,unit\n";
   const std::string unit(irradiance_unit(result.quantity));
   for (std::size_t k = 0; k < result.receiver_results.size(); ++k) {
@@ -69,8 +76,9 @@ std::string receivers_csv(const Result& result) {
                to_text(r.position.z), to_text(r.normal.x), to_text(r.normal.y), to_text(r.normal.z),
                to_text(one.irradiance), to_text(one.direct), to_text(one.indirect), to_text(one.standard_error),
                to_text(one.gain), one.gain > 0.0 ? to_text(10.0 * std::log10(one.gain)) : std::string(), unit);
+    pass_on(table, sink);
   }
-  return table;
+  sink(table);
 }
 
 std::string surfaces_csv(const Result& result) {

@@ -1,10 +1,11 @@
 // Results as tables of comma-separated values (RFC 4180): a header row with the names of the columns, then a row per
-// tile or surface.
+// tile, surface or receiver. Long ones are written piece by piece.
 #pragma once
 
 #include <string>
 #include <string_view>
 
+#include "base/atomic_file.hpp"
 #include "lichtmc/result.hpp"
 
 namespace lichtmc {
@@ -13,7 +14,7 @@ namespace lichtmc {
 // x, y, z (m): a point of the surface in the tile; area m²; power W or lm; irradiance and its standard error in `unit`.
 // The standard error is "nan" where fewer than two batches were simulated. direct, indirect: the parts of the
 // irradiance, where they were found apart. Numbers read back as the same doubles.
-std::string tiles_csv(const Result& result);
+void write_tiles_csv(const Result& result, const Sink& sink);
 
 // name,material,reflectance,area,tiles,mean_irradiance,min_irradiance,max_irradiance,standard_error,power,behind_share,hits,unit[,direct,indirect]
 // One row per tile map: a surface, or the back of a two-sided one. standard_error is that of the mean, as direct and
@@ -26,6 +27,6 @@ std::string csv_field(std::string_view text);
 // receiver,name,x,y,z,nx,ny,nz,irradiance,direct,indirect,standard_error,gain,gain_db,unit
 // One row per receiver: position (m) and the direction that it looks to; irradiance = direct + indirect with its
 // standard error in `unit`; gain H = irradiance · area / emitted power, plain and as 10 log₁₀ H (empty where H is 0).
-std::string receivers_csv(const Result& result);
+void write_receivers_csv(const Result& result, const Sink& sink);
 
 }  // namespace lichtmc

@@ -11,6 +11,7 @@
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/output.hpp"
+#include "output/summary.hpp"
 #include "output/tables.hpp"
 #include "output/tile_image.hpp"
 
@@ -108,18 +109,18 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
     write_file_atomically(folder / "tiles" / names[m], tile_image(result, m));
   remove_foreign_maps(folder / "tiles", {names.begin(), names.end()});
   if (!result.tiles.empty()) {
-    write_file_atomically(folder / "tiles.csv", tiles_csv(result));
+    write_file_atomically(folder / "tiles.csv", [&](const Sink& sink) { write_tiles_csv(result, sink); });
     write_file_atomically(folder / "surfaces.csv", surfaces_csv(result));
   } else {
     remove_old(folder / "tiles.csv");
     remove_old(folder / "surfaces.csv");
   }
   if (!result.receiver_results.empty()) {
-    write_file_atomically(folder / "receivers.csv", receivers_csv(result));
+    write_file_atomically(folder / "receivers.csv", [&](const Sink& sink) { write_receivers_csv(result, sink); });
   } else {
     remove_old(folder / "receivers.csv");
   }
-  write_file_atomically(folder / "summary.json", summary_json(room, result));
+  write_file_atomically(folder / "summary.json", [&](const Sink& sink) { write_summary(room, result, sink); });
 }
 
 }  // namespace lichtmc
