@@ -58,7 +58,8 @@ Json receiver_of(const Receiver& r, const ReceiverResult& one) {
 void write_receivers(const Result& result, const Sink& sink) {
   for (std::size_t k = 0; k < result.receiver_results.size(); ++k) {
     sink(k > 0 ? ",\n    " : "\n    ");
-    sink(receiver_of(result.receivers[k], result.receiver_results[k]).dump(-1, ' ', false, Json::error_handler_t::replace));
+    sink(receiver_of(result.receivers[k], result.receiver_results[k])
+             .dump(-1, ' ', false, Json::error_handler_t::replace));
   }
   if (!result.receiver_results.empty()) sink("\n  ");
 }

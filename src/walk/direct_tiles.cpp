@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/frame.hpp"
+#include "chance/directions.hpp"
 #include "walk/triangle_integral.hpp"
 
 namespace lichtmc {
@@ -264,8 +266,20 @@ DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::u
   const Leaves leaves = integrate_face(
       *faces_, face, [&](const Outlook& outlook) { return source.by_polygons(outlook); },
       [&](const Outlook& outlook) { return source.rises_over(outlook); }, no, no, relative_, relative_ * level_);
+  // Random points of an emitter close by would seldom be those that shine most: there, flights by Lambert's law find
+  // them, which meet it with the probability of its share of the hemisphere.
+  constexpr double close = 0.1;
+  const double whole_hemisphere = pi * source.radiance(1.0);
   const auto seen = [&](const Outlook& outlook, std::uint32_t n) {
     const Words words = stream_.draw(number, n, Purpose::direct_point);
+    if (source.by_polygons(outlook) > close * whole_hemisphere) {
+      const glm::dvec3 local(sample_lambert(words[0], words[1]));
+      const Frame frame = frame_about(outlook.normal);
+      const auto target =
+          source.first_met(outlook.point, local.x * frame.tangent + local.y * frame.bitangent + local.z * frame.normal);
+      if (!target) return Sample{};
+      return Sample{whole_hemisphere, !light_->blocked(outlook, *target, count)};
+    }
     const LightOffer offer = source.offer(outlook, unit_open(words[0]), unit_open(words[1]), unit_open(words[2]));
     if (!(offer.irradiance > 0.0)) return Sample{};
     return Sample{offer.irradiance, !light_->blocked(outlook, offer.target, count)};

@@ -155,6 +155,28 @@ bool SurfaceSource::rises_over(const Outlook& outlook) const {
   return glm::dot(highest - outlook.point, n) > 0.0;
 }
 
+// Cramer's rule for point + λ direction = a + s b + t c (T. Möller, B. Trumbore, Fast, Minimum Storage Ray/Triangle
+// Intersection, 1997).
+std::optional<glm::dvec3> SurfaceSource::first_met(const glm::dvec3& point, const glm::dvec3& direction) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::size_t triangle : triangles_) {
+    const glm::dvec3 a = corner_of(*surface_, triangle, 0);
+    const glm::dvec3 b = corner_of(*surface_, triangle, 1) - a;
+    const glm::dvec3 c = corner_of(*surface_, triangle, 2) - a;
+    const glm::dvec3 across = glm::cross(direction, c);
+    const double determinant = glm::dot(b, across);  // above 0 where the front is met
+    if (!(determinant > 0.0)) continue;
+    const glm::dvec3 from = point - a;
+    const double s = glm::dot(from, across) / determinant;
+    const glm::dvec3 up = glm::cross(from, b);
+    const double t = glm::dot(direction, up) / determinant;
+    const double length = glm::dot(c, up) / determinant;
+    if (s >= 0.0 && t >= 0.0 && s + t <= 1.0 && length > 0.0) nearest = std::min(nearest, length);
+  }
+  if (!std::isfinite(nearest)) return std::nullopt;
+  return point + nearest * direction;
+}
+
 // L = Φ (m+1)/(2π A) cos^(m−1) θ.
 double SurfaceSource::radiance(double cosine) const {
   return power_ / area_m2_ * pdf_generalized_lambert(exponent_, cosine) / cosine;

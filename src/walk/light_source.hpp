@@ -70,6 +70,9 @@ class SurfaceSource {
   // irradiance, if nothing stood between.
   LightOffer offer(const Outlook& outlook, double u, double v, double w) const;
 
+  // Where a straight way from a point first meets the emitter's front, if nothing else stood in its way.
+  std::optional<glm::dvec3> first_met(const glm::dvec3& point, const glm::dvec3& direction) const;
+
   // Whether the box about the emitter reaches over a point's horizon: else it sends nothing there.
   bool rises_over(const Outlook& outlook) const;
 

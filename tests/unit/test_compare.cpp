@@ -3,6 +3,8 @@
 #include <fstream>
 #include <string>
 
+#include <unistd.h>
+
 #include "lichtmc/error.hpp"
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
@@ -18,7 +20,7 @@ namespace fs = std::filesystem;
 class Folder {
  public:
   Folder(const std::string& name, const Room& room, const Settings& settings)
-      : path_(fs::temp_directory_path() / ("lichtmc_compare_" + name)) {
+      : path_(fs::temp_directory_path() / ("lichtmc_compare_" + std::to_string(getpid()) + "_" + name)) {
     fs::remove_all(path_);
     prepare_output(path_);
     write_results(room, simulate(room, settings), path_);
