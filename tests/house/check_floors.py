@@ -25,7 +25,7 @@ PUBLIC = {
     "room": "room", "cuboid": "room", "mend": "room", "tiles": "room",
     "settings": "room",  # plain data that every floor may read
     "result": "run", "simulate": "run", "receivers": "run", "inspect": "inspect",
-    "gltf": "gltf", "output": "output",
+    "gltf": "gltf", "output": "output", "compare": "output",
 }
 WINGS_SEE_RESULTS = {"output": ["result", "inspect"], "gltf": []}
 # Libraries that one file or folder alone may name.
@@ -37,6 +37,7 @@ LIBRARIES = {
     r"draco/": ["src/gltf/"],
     r"meshoptimizer": ["src/gltf/"],
     r"stb/": ["src/gltf/", "src/output/"],
+    r"libfccp": ["src/output/"],
 }
 
 
