@@ -20,6 +20,13 @@ class EmbreeQuery {
   void intersect(RTCScene scene, RTCRayHit& ray) {
     rtcIntersect1(scene, &ray, &arguments_);
   }
+  // Packets; valid: −1 for every ray to trace, 0 for the others.
+  void intersect8(const int* valid, RTCScene scene, RTCRayHit8& rays) {
+    rtcIntersect8(valid, scene, &rays, &arguments_);
+  }
+  void intersect16(const int* valid, RTCScene scene, RTCRayHit16& rays) {
+    rtcIntersect16(valid, scene, &rays, &arguments_);
+  }
   void occluded(RTCScene scene, RTCRay& ray) {
     rtcOccluded1(scene, &ray, &occluded_);
   }
@@ -33,6 +40,13 @@ class EmbreeQuery {
   }
   void intersect(RTCScene scene, RTCRayHit& ray) {
     rtcIntersect1(scene, &context_, &ray);
+  }
+  // Packets; valid: −1 for every ray to trace, 0 for the others.
+  void intersect8(const int* valid, RTCScene scene, RTCRayHit8& rays) {
+    rtcIntersect8(valid, scene, &context_, &rays);
+  }
+  void intersect16(const int* valid, RTCScene scene, RTCRayHit16& rays) {
+    rtcIntersect16(valid, scene, &context_, &rays);
   }
   void occluded(RTCScene scene, RTCRay& ray) {
     rtcOccluded1(scene, &context_, &ray);

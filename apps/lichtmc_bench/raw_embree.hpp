@@ -1,0 +1,27 @@
+// Embree alone: how many of a walk's own flights it answers in a second.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "rooms.hpp"
+
+namespace lichtmc::bench {
+
+class RawEmbree {
+ public:
+  // Takes the flights of the first `flights` impacts or so of a walk through the stage's room.
+  RawEmbree(const Stage& stage, std::size_t flights);
+  ~RawEmbree();
+  RawEmbree(const RawEmbree&) = delete;
+  RawEmbree& operator=(const RawEmbree&) = delete;
+
+  // Traces all flights, prepared beforehand, one by one or in packets of 8 or 16; returns their number.
+  double trace(int packet);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace lichtmc::bench
