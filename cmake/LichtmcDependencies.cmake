@@ -13,6 +13,7 @@ if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)
 endif()
 find_package(draco REQUIRED)
+find_package(hwy REQUIRED)
 find_package(meshoptimizer REQUIRED)
 # stb comes without a CMake package.
 if(NOT TARGET stb::stb)

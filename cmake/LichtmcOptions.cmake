@@ -12,7 +12,8 @@ if(LICHTMC_WARNINGS_AS_ERRORS)
 endif()
 # The same source gives the same bits wherever it is compiled for the same machine: no contraction into fused
 # multiply-adds at the compiler's whim, and never -ffast-math.
-target_compile_options(lichtmc_options INTERFACE -ffp-contract=off)
+# Nobody reads errno after a square root, or traps on floating-point exceptions: without them loops run in lanes.
+target_compile_options(lichtmc_options INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(LICHTMC_FUZZ)
   # Everything tells the fuzzer which way it went.
   target_compile_options(lichtmc_options INTERFACE -fsanitize=fuzzer-no-link)

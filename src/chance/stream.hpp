@@ -31,10 +31,14 @@ class Stream {
         way_(static_cast<std::uint32_t>(way) << 16) {}
 
   Words draw(std::uint64_t history, std::uint32_t flight, Purpose purpose) const {
-    return philox4x32_10({static_cast<std::uint32_t>(history), static_cast<std::uint32_t>(history >> 32), flight,
-                          static_cast<std::uint32_t>(purpose) | way_},
-                         key_);
+    return philox4x32_10(
+        {static_cast<std::uint32_t>(history), static_cast<std::uint32_t>(history >> 32), flight, word_of(purpose)},
+        key_);
   }
+
+  // What draw() feeds to Philox besides history and flight.
+  const std::array<std::uint32_t, 2>& key() const { return key_; }
+  std::uint32_t word_of(Purpose purpose) const { return static_cast<std::uint32_t>(purpose) | way_; }
 
  private:
   std::array<std::uint32_t, 2> key_;

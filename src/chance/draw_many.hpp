@@ -1,0 +1,16 @@
+// Random words for many photons at once: the same words as Stream::draw(), several in each instruction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "chance/stream.hpp"
+
+namespace lichtmc {
+
+// The four words of photon i: 0 and 1 in polar_azimuth[i], word 0 in the lower half; 2 and 3 in chance[i], word 2 in
+// the upper half, so that unit_fine(word 2, word 3) = (chance[i] >> 11) · 2⁻⁵³.
+void draw_many(const Stream& stream, std::size_t n, const std::uint64_t* history, std::uint32_t flight, Purpose purpose,
+               std::uint64_t* polar_azimuth, std::uint64_t* chance);
+
+}  // namespace lichtmc
