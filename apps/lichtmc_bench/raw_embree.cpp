@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "room/bounds.hpp"
+#include "chance/directions.hpp"
 #include "tracer/embree.hpp"
 #include "walk/wave.hpp"
 

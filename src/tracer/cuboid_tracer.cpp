@@ -16,6 +16,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "base/lanes.hpp"
+#include "chance/directions.hpp"
 #include "room/cuboid_shape.hpp"
 #include "tracer/tracer.hpp"
 
@@ -34,16 +36,82 @@ constexpr std::size_t t_axis(std::size_t axis) {
   return (axis + 2) % 3;
 }
 
-// Distance along a ray in one coordinate of the unit cube to the wall it flies to; infinite where it flies along the
-// walls.
-inline float distance(float start, float direction) {
-  const float wall = direction > 0.0F ? 1.0F : 0.0F;
-  const float length = (wall - start) / direction;
-  return direction == 0.0F ? std::numeric_limits<float>::infinity() : length;
+using Three = std::array<const float*, 3>;
+
+// Where flights through the unit cube end. `behind`: bit by bit, whether a face is met on its back.
+LICHTMC_LANES void trace_lanes(std::size_t n, const Three& start, const Three& direction, std::uint32_t behind,
+                               std::uint32_t* LICHTMC_APART facet, float* LICHTMC_APART s, float* LICHTMC_APART t,
+                               std::uint32_t* LICHTMC_APART back, float* LICHTMC_APART length) {
+  const float* LICHTMC_APART x = start[0];
+  const float* LICHTMC_APART y = start[1];
+  const float* LICHTMC_APART z = start[2];
+  const float* LICHTMC_APART dx = direction[0];
+  const float* LICHTMC_APART dy = direction[1];
+  const float* LICHTMC_APART dz = direction[2];
+  // Distance in one coordinate to the wall that the flight goes to; infinite where it goes along the walls.
+  const auto distance = [](float from, float along) {
+    const float wall = along > 0.0F ? 1.0F : 0.0F;
+    const float lambda = (wall - from) / along;
+    return along == 0.0F ? std::numeric_limits<float>::infinity() : lambda;
+  };
+  const auto inside = [](float coordinate) {
+    const float low = coordinate < 0.0F ? 0.0F : coordinate;
+    return low > 1.0F ? 1.0F : low;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const float to_x = distance(x[i], dx[i]);
+    const float to_y = distance(y[i], dy[i]);
+    const float to_z = distance(z[i], dz[i]);
+    const bool y_first = to_y < to_x;
+    const float nearer = y_first ? to_y : to_x;
+    const bool z_first = to_z < nearer;
+    const float lambda = z_first ? to_z : nearer;
+    const std::uint32_t axis = z_first ? 2U : (y_first ? 1U : 0U);
+    const float along = z_first ? dz[i] : (y_first ? dy[i] : dx[i]);
+    const std::uint32_t face = 2 * axis + (along > 0.0F ? 1U : 0U);
+    const float end_x = inside(x[i] + lambda * dx[i]);
+    const float end_y = inside(y[i] + lambda * dy[i]);
+    const float end_z = inside(z[i] + lambda * dz[i]);
+    // Only the light of an emitter on a wall can start towards that wall: it leaves the room at once.
+    const bool leaves = (facet[i] == no_facet) & (lambda <= 0.0F);
+    facet[i] = leaves ? no_facet : face;
+    s[i] = z_first ? end_x : (y_first ? end_z : end_y);
+    t[i] = z_first ? end_y : (y_first ? end_x : end_z);
+    back[i] = (behind >> face) & 1U;
+    length[i] = lambda;
+  }
 }
 
-inline float inside(float coordinate) {
-  return std::min(std::max(coordinate, 0.0F), 1.0F);
+// Points on faces from their own coordinates.
+LICHTMC_LANES void depart_lanes(std::size_t n, const std::uint32_t* LICHTMC_APART facet, const float* LICHTMC_APART s,
+                                const float* LICHTMC_APART t, float* LICHTMC_APART x, float* LICHTMC_APART y,
+                                float* LICHTMC_APART z) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool stays = facet[i] == no_facet;
+    const std::uint32_t axis = facet[i] >> 1;
+    const float on = (facet[i] & 1U) != 0 ? 1.0F : 0.0F;
+    x[i] = stays ? x[i] : (axis == 0 ? on : (axis == 1 ? t[i] : s[i]));
+    y[i] = stays ? y[i] : (axis == 0 ? s[i] : (axis == 1 ? on : t[i]));
+    z[i] = stays ? z[i] : (axis == 0 ? t[i] : (axis == 1 ? s[i] : on));
+  }
+}
+
+// Directions off the faces into the cube by Lambert's law.
+LICHTMC_LANES void scatter_lanes(std::size_t n, const std::uint32_t* LICHTMC_APART facet,
+                                 const std::uint64_t* LICHTMC_APART words, const std::array<float, 3>& unit,
+                                 float* LICHTMC_APART dx, float* LICHTMC_APART dy, float* LICHTMC_APART dz) {
+  const float unit_x = unit[0];
+  const float unit_y = unit[1];
+  const float unit_z = unit[2];
+  for (std::size_t i = 0; i < n; ++i) {
+    const glm::vec3 local =
+        sample_lambert(static_cast<std::uint32_t>(words[i]), static_cast<std::uint32_t>(words[i] >> 32));
+    const std::uint32_t axis = facet[i] >> 1;
+    const float inwards = (facet[i] & 1U) != 0 ? -local.z : local.z;
+    dx[i] = unit_x * (axis == 0 ? inwards : (axis == 1 ? local.y : local.x));
+    dy[i] = unit_y * (axis == 0 ? local.x : (axis == 1 ? inwards : local.y));
+    dz[i] = unit_z * (axis == 0 ? local.y : (axis == 1 ? local.x : inwards));
+  }
 }
 
 class CuboidTracer final : public Tracer {
@@ -64,37 +132,26 @@ class CuboidTracer final : public Tracer {
     // A direction may have any length: scaled to the longest edge, its components stay near 1.
     directions_ = longest * to_unit;
     for (std::size_t face = 0; face < 6; ++face) face_frame(face);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      unit_[axis] = std::abs(facets_[2 * axis].normal[static_cast<int>(axis)]);
   }
 
   void trace(Rays& rays, Misses /*misses*/, TraceCount& count) const override {
-    for (std::size_t i = 0; i < rays.size; ++i) {
-      const std::array<float, 3> a{rays.x[i], rays.y[i], rays.z[i]};
-      const std::array<float, 3> v{rays.dx[i], rays.dy[i], rays.dz[i]};
-      const std::array<float, 3> lambda{distance(a[0], v[0]), distance(a[1], v[1]), distance(a[2], v[2])};
-      std::size_t axis = lambda[1] < lambda[0] ? 1 : 0;
-      axis = lambda[2] < lambda[axis] ? 2 : axis;
-      // Only the light of an emitter on a wall can start towards that wall: it leaves the room at once.
-      if (rays.facet[i] == no_facet && lambda[axis] <= 0.0F) continue;
-      const std::size_t face = 2 * axis + (v[axis] > 0.0F ? 1 : 0);
-      rays.facet[i] = static_cast<std::uint32_t>(face);
-      rays.s[i] = inside(a[s_axis(axis)] + lambda[axis] * v[s_axis(axis)]);
-      rays.t[i] = inside(a[t_axis(axis)] + lambda[axis] * v[t_axis(axis)]);
-      rays.behind[i] = behind_[face];
-      rays.length[i] = lambda[axis];
-    }
+    trace_lanes(rays.size, {rays.x.data(), rays.y.data(), rays.z.data()},
+                {rays.dx.data(), rays.dy.data(), rays.dz.data()}, behind_, rays.facet.data(), rays.s.data(),
+                rays.t.data(), rays.behind.data(), rays.length.data());
     count.rays += rays.size;
   }
 
   void depart(Rays& rays) const override {
-    for (std::size_t i = 0; i < rays.size; ++i) {
-      if (rays.facet[i] == no_facet) continue;
-      const std::size_t axis = axis_of(rays.facet[i]);
-      std::array<float, 3> point{};
-      point[axis] = static_cast<float>(rays.facet[i] % 2);
-      point[s_axis(axis)] = rays.s[i];
-      point[t_axis(axis)] = rays.t[i];
-      rays.set_start(i, {point[0], point[1], point[2]});
-    }
+    depart_lanes(rays.size, rays.facet.data(), rays.s.data(), rays.t.data(), rays.x.data(), rays.y.data(),
+                 rays.z.data());
+  }
+
+  void scatter(Rays& rays, const std::uint64_t* words, float* cosines) const override {
+    scatter_lanes(rays.size, rays.facet.data(), words, unit_, rays.dx.data(), rays.dy.data(), rays.dz.data());
+    for (std::size_t i = 0; cosines != nullptr && i < rays.size; ++i)
+      cosines[i] = sample_lambert(static_cast<std::uint32_t>(words[i]), 0).z;
   }
 
   Start start(const glm::dvec3& world_point_m) const override {
@@ -119,7 +176,7 @@ class CuboidTracer final : public Tracer {
   // Whether a surface's front, from which it emits, is the outside of the cuboid anywhere.
   bool emits_outwards(std::size_t surface) const {
     for (std::size_t face = 0; face < 6; ++face) {
-      if (facets_[face].surface == surface && behind_[face] != 0) return true;
+      if (facets_[face].surface == surface && (behind_ >> face & 1U) != 0) return true;
     }
     return false;
   }
@@ -161,12 +218,13 @@ class CuboidTracer final : public Tracer {
     facet.bitangent = along(t_axis(axis));
     facet.normal = normal_inwards ? along(axis) : -along(axis);
     const bool towards_middle = normal_inwards == (face % 2 == 0);
-    behind_[face] = towards_middle ? 0 : 1;
+    if (!towards_middle) behind_ |= 1U << face;
   }
 
   glm::dvec3 corner_;
   glm::dmat3 points_{1.0};
-  std::array<std::uint8_t, 6> behind_{};  // 1 where the inside of the room is the back of the face
+  std::uint32_t behind_ = 0;     // bit by bit: 1 where the inside of the room is the back of the face
+  std::array<float, 3> unit_{};  // lengths of the world's unit vectors along the axes, in the tracer's coordinates
   std::vector<std::vector<TriangleOnFacet>> triangles_;
 };
 

@@ -21,6 +21,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/frame.hpp"
+#include "chance/directions.hpp"
 #include "lichtmc/error.hpp"
 #include "room/bounds.hpp"
 #include "room/convexity.hpp"
@@ -148,6 +149,15 @@ class EmbreeTracer final : public Tracer {
       const double side = rays.behind[i] != 0 ? -1.0 : 1.0;
       const glm::dvec3 point = glm::dvec3(from.corner) + s * glm::dvec3(from.edge_s) + t * glm::dvec3(from.edge_t);
       rays.set_start(i, glm::vec3(point + side * glm::dvec3(from.step)));
+    }
+  }
+
+  void scatter(Rays& rays, const std::uint64_t* words, float* cosines) const override {
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      const glm::vec3 local =
+          sample_lambert(static_cast<std::uint32_t>(words[i]), static_cast<std::uint32_t>(words[i] >> 32));
+      rays.set_direction(i, direction_from(facets_[rays.facet[i]], rays.behind[i] != 0, local));
+      if (cosines != nullptr) cosines[i] = local.z;
     }
   }
 

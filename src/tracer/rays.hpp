@@ -33,9 +33,9 @@ struct Rays {
   // Before a flight: the facet the photon leaves, or no_facet where it starts in the open. After it: the facet it
   // landed on, or no_facet.
   std::vector<std::uint32_t> facet;
-  std::vector<float> s, t;           // where on the facet
-  std::vector<std::uint8_t> behind;  // 1: on the back of the facet, 0: on its front
-  std::vector<float> length;         // of the flight, in lengths of its direction
+  std::vector<float> s, t;            // where on the facet
+  std::vector<std::uint32_t> behind;  // 1: on the back of the facet, 0: on its front
+  std::vector<float> length;          // of the flight, in lengths of its direction
 
   void set_start(std::size_t i, const glm::vec3& point) {
     x[i] = point.x;

@@ -72,7 +72,9 @@ class ReceiverGoal {
       direct_[i] = 0.0;
     }
   }
-  std::uint64_t history(std::uint32_t photon) const { return ids_[photon]; }
+  void histories(Wave& wave) const {
+    for (std::size_t i = 0; i < wave.rays.size; ++i) wave.history[i] = ids_[wave.photon[i]];
+  }
   // Leaving through an opening is being absorbed by ρ = 0, also where rounding made the opening.
   Misses misses() const { return Misses::escape; }
   TraceCount& traced() { return count_->traced; }
@@ -107,6 +109,7 @@ class ReceiverGoal {
     }
   }
 
+  static constexpr bool watches_absorption = true;
   // Variant 3: only the direct light of the last surface survived scores.
   void absorb(const Wave& wave, std::size_t i, double reflectance) {
     if constexpr (!Policy::scores_every_impact) found_[i] += direct_[i] / (1.0 - reflectance);
@@ -134,7 +137,7 @@ class ReceiverGoal {
   }
 
   void cut_off(const Wave& wave, std::size_t i) { finish(wave, i); }
-  void scatter(std::size_t i, float cosine) { cosine_[i] = cosine; }
+  float* cosines() { return cosine_.data(); }
   void move(Wave& wave, std::size_t from, std::size_t to) {
     // land() asks how each flight came.
     wave.rays.set_direction(to, wave.rays.direction(from));

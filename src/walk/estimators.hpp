@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "walk/tally.hpp"
@@ -17,6 +18,7 @@ namespace lichtmc {
 
 // Variant 2: the photon survives with probability ρ; every impact scores 1.
 struct CollisionPolicy {
+  static constexpr bool analog = true;  // whether a photon survives depends on ρ alone
   static constexpr Hits hits = Hits::are_the_score;
   static constexpr bool scores_every_impact = true;
   static constexpr bool carries_weight = false;
@@ -27,6 +29,7 @@ struct CollisionPolicy {
     ends.absorbed += 1;
     return false;
   }
+  static void absorbed(std::size_t photons, Ends& ends) { ends.absorbed += static_cast<int128>(photons); }
 };
 
 // Variant 3: as variant 2, but only the last impact counts. It stands for 1/(1 − ρ) impacts, a factor that belongs to
@@ -38,6 +41,7 @@ struct AbsorptionPolicy : CollisionPolicy {
 // Variant 3 where ρ changes from point to point: the factor belongs to the place, so it is scored there. The power that
 // ends stays that of a photon.
 struct MappedAbsorptionPolicy {
+  static constexpr bool analog = false;
   static constexpr Hits hits = Hits::apart;
   static constexpr bool scores_every_impact = false;
   static constexpr bool carries_weight = true;
@@ -54,6 +58,7 @@ struct MappedAbsorptionPolicy {
 // Variant 1: the photon is never absorbed, its weight falls by ρ at every impact. The units of its weight that are gone
 // have been absorbed; rounding the weight itself, not what is gone, keeps the balance exact.
 struct WeightPolicy {
+  static constexpr bool analog = false;
   static constexpr Hits hits = Hits::apart;
   static constexpr bool scores_every_impact = true;
   static constexpr bool carries_weight = true;

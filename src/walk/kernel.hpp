@@ -5,22 +5,24 @@
 // and what it is all for (Goal): where photons start and what is scored. A Goal has
 //
 //   start(wave, n)            sets the first n photons and how they start
-//   history(photon)           the number of a photon's history, which selects its random numbers
+//   histories(wave)           sets the numbers of the photons' histories, which select their random words
 //   misses(), traced(), ends()
 //   escape(wave, i)           photon i met no surface
 //   land(wave)                all photons have landed
+//   watches_absorption        constant: whether absorb() is to be called
 //   absorb(wave, i, ρ)        photon i ends on its surface
 //   reflect(wave, flight)     all photons left stand on their surfaces, about to fly on
 //   cut_off(wave, i)          the walk ends for photon i
-//   scatter(i, cosine)        photon i flies off at this angle to the normal
+//   cosines()                 where to put the cosines of the angles to the normals that photons fly off at, or null
 //   move(wave, from, to)      photon `from` takes place `to` of the wave, which itself has moved what flying on needs
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 
-#include "chance/directions.hpp"
+#include "chance/draw_many.hpp"
 #include "chance/stream.hpp"
 #include "walk/scene.hpp"
 #include "walk/wave.hpp"
@@ -33,11 +35,13 @@ using Abandon = std::function<bool()>;
 
 // ρ where a flight ended: of the surface as a whole,
 struct SurfaceReflectance {
+  static constexpr bool of_facet = true;
   static double at(const Scene& scene, const Rays& rays, std::size_t i) { return scene.surface_reflectance(rays, i); }
 };
 
 // or of the place, in rooms with maps.
 struct MappedReflectance {
+  static constexpr bool of_facet = false;
   static double at(const Scene& scene, const Rays& rays, std::size_t i) { return scene.reflectance(rays, i); }
 };
 
@@ -83,6 +87,9 @@ class Kernel {
   // A photon that meets no surface has left through an opening; where there is none it is lost to rounding.
   void lose_what_escaped(Goal& goal) {
     Rays& rays = wave_.rays;
+    if (std::find(rays.facet.begin(), rays.facet.begin() + static_cast<std::ptrdiff_t>(rays.size), no_facet) ==
+        rays.facet.begin() + static_cast<std::ptrdiff_t>(rays.size))
+      return;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < rays.size; ++i) {
       if (rays.facet[i] == no_facet) {
@@ -94,19 +101,41 @@ class Kernel {
     rays.size = kept;
   }
 
-  void draw(std::uint32_t flight, const Goal& goal) {
-    for (std::size_t i = 0; i < wave_.rays.size; ++i) {
-      wave_.words[i] = stream_.draw(goal.history(wave_.photon[i]), flight, Purpose::flight);
-    }
+  void draw(std::uint32_t flight, Goal& goal) {
+    goal.histories(wave_);
+    draw_many(stream_, wave_.rays.size, wave_.history.data(), flight, Purpose::flight, wave_.polar_azimuth.data(),
+              wave_.chance.data());
   }
 
   // The surface that was hit decides what becomes of the photon; survivors close ranks.
   void survive_or_be_absorbed(Goal& goal) {
+    if constexpr (Policy::analog && Reflectance::of_facet && !Goal::watches_absorption) {
+      survive_by_facet(goal);
+    } else {
+      survive_one_by_one(goal);
+    }
+  }
+
+  // As below, without a branch: every photon moves to the next place, which the one after it takes if it was absorbed.
+  void survive_by_facet(Goal& goal) {
+    Rays& rays = wave_.rays;
+    const std::uint64_t* survival = scene_->survival_of_facet.data();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      const bool survives = (wave_.chance[i] >> 11) < survival[rays.facet[i]];
+      wave_.move(i, kept);
+      kept += survives ? 1 : 0;
+    }
+    Policy::absorbed(rays.size - kept, goal.ends());
+    rays.size = kept;
+  }
+
+  void survive_one_by_one(Goal& goal) {
     Rays& rays = wave_.rays;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < rays.size; ++i) {
       const double reflectance = Reflectance::at(*scene_, rays, i);
-      const double chance = unit_fine(wave_.words[i][2], wave_.words[i][3]);
+      const double chance = static_cast<double>(wave_.chance[i] >> 11) * 0x1p-53;
       if (!Policy::survive(reflectance, chance, wave_.weight[i], goal.ends())) {
         goal.absorb(wave_, i, reflectance);
         continue;
@@ -119,6 +148,7 @@ class Kernel {
   void keep(std::size_t i, std::size_t& kept, Goal& goal) {
     if (kept != i) {
       wave_.move(i, kept);
+      wave_.weight[kept] = wave_.weight[i];
       goal.move(wave_, i, kept);
     }
     ++kept;
@@ -131,15 +161,7 @@ class Kernel {
   }
 
   // Diffuse reflection: Lambert's law about the normal, on the side that was hit.
-  void scatter(Goal& goal) {
-    Rays& rays = wave_.rays;
-    const std::vector<Facet>& facets = scene_->tracer->facets();
-    for (std::size_t i = 0; i < rays.size; ++i) {
-      const glm::vec3 local = sample_lambert(wave_.words[i][0], wave_.words[i][1]);
-      rays.set_direction(i, direction_from(facets[rays.facet[i]], rays.behind[i] != 0, local));
-      goal.scatter(i, local.z);
-    }
-  }
+  void scatter(Goal& goal) { scene_->tracer->scatter(wave_.rays, wave_.polar_azimuth.data(), goal.cosines()); }
 
   const Scene* scene_;
   Stream stream_;

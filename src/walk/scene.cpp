@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
+#include "base/lanes.hpp"
 #include "lichtmc/error.hpp"
 #include "room/enclosure.hpp"
 #include "room/nearest_tile.hpp"
@@ -113,10 +115,51 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
   map_of_tile.reserve(tiling.tiles.size());
   for (const Tile& tile : tiling.tiles) map_of_tile.push_back(tile.map);
 
+  for (const Facet& facet : tracer->facets()) {
+    const SurfaceOptics& surface = surfaces[facet.surface];
+    // unit_fine() counts in 2⁻⁵³: below this count are as many of its values as below ρ.
+    survival_of_facet.push_back(static_cast<std::uint64_t>(std::ceil(surface.reflectance * 0x1p53)));
+    cells_of_facet.push_back(
+        {static_cast<float>(facet.cell_0.x), static_cast<float>(facet.cell_s.x), static_cast<float>(facet.cell_t.x),
+         static_cast<float>(facet.cell_0.y), static_cast<float>(facet.cell_s.y), static_cast<float>(facet.cell_t.y),
+         static_cast<std::int32_t>(surface.columns - 1), static_cast<std::int32_t>(surface.rows - 1), surface.columns,
+         static_cast<std::uint32_t>(surface.first_cell), surface.tiles_to_back});
+  }
+
   launcher = std::make_unique<Launcher>(room, *tracer);
   if (engine == Engine::embree && launcher->hangs_free()) {
     const Enclosure enclosure(room);
     if (enclosure.has_closed_shell() && all_inside(room, enclosure)) misses = Misses::retrace;
+  }
+}
+
+namespace {
+
+LICHTMC_LANES void find_cells(std::size_t n, const FacetCells* LICHTMC_APART facets,
+                              const std::uint32_t* LICHTMC_APART facet, const float* LICHTMC_APART s,
+                              const float* LICHTMC_APART t, std::uint32_t* LICHTMC_APART cell) {
+  // Beside the grid, or nowhere, counts as on its rim.
+  constexpr float most = 2147483520.0F;  // the largest float below 2³¹
+  const auto index = [](float cell_at, std::int32_t last) {
+    const float low = cell_at > 0.0F ? cell_at : 0.0F;
+    const auto whole = static_cast<std::int32_t>(low < most ? low : most);
+    return whole < last ? whole : last;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const FacetCells& at = facets[facet[i]];
+    const std::int32_t column = index(at.column_0 + s[i] * at.column_s + t[i] * at.column_t, at.last_column);
+    const std::int32_t row = index(at.row_0 + s[i] * at.row_s + t[i] * at.row_t, at.last_row);
+    cell[i] = at.first_cell + static_cast<std::uint32_t>(row) * at.columns + static_cast<std::uint32_t>(column);
+  }
+}
+
+}  // namespace
+
+void Scene::tile_of_each(const Rays& rays, std::uint32_t* tile) const {
+  find_cells(rays.size, cells_of_facet.data(), rays.facet.data(), rays.s.data(), rays.t.data(), tile);
+  for (std::size_t i = 0; i < rays.size; ++i) {
+    assert(tile_of_cell[tile[i]] != no_tile);  // a surface that was hit has an area, and so a tile
+    tile[i] = tile_of_cell[tile[i]] + rays.behind[i] * cells_of_facet[rays.facet[i]].to_back;
   }
 }
 

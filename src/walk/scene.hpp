@@ -2,7 +2,6 @@
 // start.
 #pragma once
 
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -24,8 +23,23 @@ struct SurfaceOptics {
   double reflectance = 0.0;
   std::uint32_t columns = 1;
   std::uint32_t rows = 1;
-  std::size_t first_cell = 0;       // into Scene::tile_of_cell
+  std::size_t first_cell = 0;       // into Scene::tile_of_cell; cells number fewer than 2³¹
   std::uint32_t tiles_to_back = 0;  // a back side's tile number less the front's; 0 where both sides share one map
+};
+
+// A facet's place in the grid of its surface, as tile_of_each() reads it: cell = cell_0 + s·cell_s + t·cell_t.
+struct FacetCells {
+  float column_0 = 0.0F;
+  float column_s = 0.0F;
+  float column_t = 0.0F;
+  float row_0 = 0.0F;
+  float row_s = 0.0F;
+  float row_t = 0.0F;
+  std::int32_t last_column = 0;
+  std::int32_t last_row = 0;
+  std::uint32_t columns = 1;
+  std::uint32_t first_cell = 0;  // into Scene::tile_of_cell
+  std::uint32_t to_back = 0;     // SurfaceOptics::tiles_to_back
 };
 
 // A facet's place on a reflectance map: (u, v) = uv_0 + s·uv_s + t·uv_t.
@@ -47,6 +61,8 @@ struct Scene {
   std::vector<MapPlace> map_places;         // per facet; empty where no surface has a map
   std::vector<std::uint32_t> tile_of_cell;  // every cell has a tile, empty ones the nearest
   std::vector<std::uint32_t> map_of_tile;
+  std::vector<std::uint64_t> survival_of_facet;  // ρ of the facet's surface in units of 2⁻⁵³, rounded up
+  std::vector<FacetCells> cells_of_facet;
   std::size_t maps = 0;
   bool reflects_all_somewhere = false;  // a surface, or a place of one, has ρ = 1
   std::unique_ptr<Launcher> launcher;
@@ -65,25 +81,9 @@ struct Scene {
     return reflectance_at(*place.map, uv.x, uv.y);
   }
 
-  // The tile that a place on a facet belongs to.
-  std::uint32_t tile_at(const Facet& facet, float s, float t, bool behind) const {
-    const SurfaceOptics& surface = surfaces[facet.surface];
-    const std::uint32_t column =
-        cell_index(facet.cell_0.x + double{s} * facet.cell_s.x + double{t} * facet.cell_t.x, surface.columns);
-    const std::uint32_t row =
-        cell_index(facet.cell_0.y + double{s} * facet.cell_s.y + double{t} * facet.cell_t.y, surface.rows);
-    const std::size_t cell = surface.first_cell + std::size_t{row} * surface.columns + column;
-    assert(tile_of_cell[cell] != no_tile);  // a surface that was hit has an area, and so a tile
-    return tile_of_cell[cell] + (behind ? surface.tiles_to_back : 0);
-  }
-
- private:
-  // A place that rounding puts beside the grid belongs to its outermost cells.
-  static std::uint32_t cell_index(double cell, std::uint32_t count) {
-    if (!(cell > 0.0)) return 0;
-    const auto index = static_cast<std::uint32_t>(cell);  // cells number fewer than 2³¹
-    return index < count ? index : count - 1;
-  }
+  // The tile that each flight of a wave ended on. A place that rounding puts beside the grid belongs to its outermost
+  // cells.
+  void tile_of_each(const Rays& rays, std::uint32_t* tile) const;
 };
 
 }  // namespace lichtmc

@@ -26,7 +26,9 @@ class TileGoal {
     flight_ = 0;
     for (std::uint32_t i = 0; i < n; ++i) scene_->launcher->launch(stream_, first_ + i, wave.rays, i);
   }
-  std::uint64_t history(std::uint32_t photon) const { return first_ + photon; }
+  void histories(Wave& wave) const {
+    for (std::size_t i = 0; i < wave.rays.size; ++i) wave.history[i] = first_ + wave.photon[i];
+  }
   Misses misses() const { return scene_->misses; }
   TraceCount& traced() { return tally_->totals().traced; }
   Ends& ends() { return tally_->totals().ends; }
@@ -45,16 +47,15 @@ class TileGoal {
   void land(const Wave& wave) {
     ++flight_;
     const Rays& rays = wave.rays;
-    const std::vector<Facet>& facets = scene_->tracer->facets();
     tally_->totals().impacts += rays.size;
-    for (std::size_t i = 0; i < rays.size; ++i)
-      tile_[i] = scene_->tile_at(facets[rays.facet[i]], rays.s[i], rays.t[i], rays.behind[i] != 0);
+    scene_->tile_of_each(rays, tile_.data());
     if constexpr (Policy::scores_every_impact) {
       if (flight_ < first_scored_) return;
       for (std::size_t i = 0; i < rays.size; ++i) score(wave, i);
     }
   }
 
+  static constexpr bool watches_absorption = !Policy::scores_every_impact;
   void absorb(const Wave& wave, std::size_t i, double /*reflectance*/) {
     if constexpr (!Policy::scores_every_impact) {
       if (flight_ >= first_scored_) score(wave, i);
@@ -66,7 +67,7 @@ class TileGoal {
   void cut_off(const Wave& wave, std::size_t i) {
     ends().residual += static_cast<int128>(Policy::units(wave.weight[i]));
   }
-  void scatter(std::size_t /*i*/, float /*cosine*/) {}
+  static float* cosines() { return nullptr; }
   void move(const Wave& /*wave*/, std::size_t /*from*/, std::size_t /*to*/) {}
 
  private:

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "chance/moments.hpp"
-#include "chance/philox.hpp"
 #include "tracer/rays.hpp"
 
 namespace lichtmc {
@@ -14,18 +13,25 @@ namespace lichtmc {
 // The photons of a batch start together and fly in step: the number of the flight is the same for all. Those that end
 // leave the wave, the others close ranks, so that every loop runs over photons that fly.
 struct Wave {
-  Wave() : rays(batch_histories), photon(batch_histories), weight(batch_histories), words(batch_histories) {}
+  Wave()
+      : rays(batch_histories),
+        photon(batch_histories),
+        weight(batch_histories),
+        history(batch_histories),
+        polar_azimuth(batch_histories),
+        chance(batch_histories) {}
 
   Rays rays;
-  std::vector<std::uint32_t> photon;  // number of the history within the batch
-  std::vector<double> weight;         // for estimators that carry one
-  std::vector<Words> words;           // random words of the flight
+  std::vector<std::uint32_t> photon;         // number of the history within the batch
+  std::vector<double> weight;                // for estimators that carry one
+  std::vector<std::uint64_t> history;        // number that selects the random words
+  std::vector<std::uint64_t> polar_azimuth;  // random words 0 and 1 of the flight, see draw_many()
+  std::vector<std::uint64_t> chance;         // words 2 and 3
 
   // Moves photon `from` to place `to` ≤ from; what the next flight needs of it.
   void move(std::size_t from, std::size_t to) {
     photon[to] = photon[from];
-    weight[to] = weight[from];
-    words[to] = words[from];
+    polar_azimuth[to] = polar_azimuth[from];
     rays.facet[to] = rays.facet[from];
     rays.s[to] = rays.s[from];
     rays.t[to] = rays.t[from];
