@@ -87,12 +87,22 @@ LICHTMC_LANES void depart_lanes(std::size_t n, const std::uint32_t* LICHTMC_APAR
                                 const float* LICHTMC_APART t, float* LICHTMC_APART x, float* LICHTMC_APART y,
                                 float* LICHTMC_APART z) {
   for (std::size_t i = 0; i < n; ++i) {
-    const bool stays = facet[i] == no_facet;
-    const std::uint32_t axis = facet[i] >> 1;
-    const float on = (facet[i] & 1U) != 0 ? 1.0F : 0.0F;
-    x[i] = stays ? x[i] : (axis == 0 ? on : (axis == 1 ? t[i] : s[i]));
-    y[i] = stays ? y[i] : (axis == 0 ? s[i] : (axis == 1 ? on : t[i]));
-    z[i] = stays ? z[i] : (axis == 0 ? t[i] : (axis == 1 ? s[i] : on));
+    const std::uint32_t from = facet[i];
+    const float along_s = s[i];
+    const float along_t = t[i];
+    const float old_x = x[i];
+    const float old_y = y[i];
+    const float old_z = z[i];
+    const bool stays = from == no_facet;
+    const bool on_x = from < 2;
+    const bool on_z = from >= 4;
+    const float on = (from & 1U) != 0 ? 1.0F : 0.0F;
+    const float new_x = on_x ? on : (on_z ? along_s : along_t);
+    const float new_y = on_x ? along_s : (on_z ? along_t : on);
+    const float new_z = on_x ? along_t : (on_z ? on : along_s);
+    x[i] = stays ? old_x : new_x;
+    y[i] = stays ? old_y : new_y;
+    z[i] = stays ? old_z : new_z;
   }
 }
 

@@ -17,7 +17,6 @@
 //   move(wave, from, to)      photon `from` takes place `to` of the wave, which itself has moved what flying on needs
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -87,9 +86,7 @@ class Kernel {
   // A photon that meets no surface has left through an opening; where there is none it is lost to rounding.
   void lose_what_escaped(Goal& goal) {
     Rays& rays = wave_.rays;
-    if (std::find(rays.facet.begin(), rays.facet.begin() + static_cast<std::ptrdiff_t>(rays.size), no_facet) ==
-        rays.facet.begin() + static_cast<std::ptrdiff_t>(rays.size))
-      return;
+    if (none_escaped(rays)) return;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < rays.size; ++i) {
       if (rays.facet[i] == no_facet) {
@@ -99,6 +96,13 @@ class Kernel {
       keep(i, kept, goal);
     }
     rays.size = kept;
+  }
+
+  static bool none_escaped(const Rays& rays) {
+    std::uint32_t escaped = 0;
+    const std::uint32_t* facet = rays.facet.data();
+    for (std::size_t i = 0; i < rays.size; ++i) escaped += facet[i] == no_facet ? 1U : 0U;
+    return escaped == 0;
   }
 
   void draw(std::uint32_t flight, Goal& goal) {
@@ -116,18 +120,11 @@ class Kernel {
     }
   }
 
-  // As below, without a branch: every photon moves to the next place, which the one after it takes if it was absorbed.
+  // As below, without a branch.
   void survive_by_facet(Goal& goal) {
-    Rays& rays = wave_.rays;
-    const std::uint64_t* survival = scene_->survival_of_facet.data();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < rays.size; ++i) {
-      const bool survives = (wave_.chance[i] >> 11) < survival[rays.facet[i]];
-      wave_.move(i, kept);
-      kept += survives ? 1 : 0;
-    }
-    Policy::absorbed(rays.size - kept, goal.ends());
-    rays.size = kept;
+    const std::size_t kept = close_ranks(wave_, scene_->survival_of_facet.data());
+    Policy::absorbed(wave_.rays.size - kept, goal.ends());
+    wave_.rays.size = kept;
   }
 
   void survive_one_by_one(Goal& goal) {

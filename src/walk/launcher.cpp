@@ -1,13 +1,18 @@
 #include "walk/launcher.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
 #include "base/frame.hpp"
+#include "base/lanes.hpp"
 #include "chance/choice.hpp"
 #include "chance/directions.hpp"
+#include "chance/draw_many.hpp"
+#include "chance/lane_math.hpp"
+#include "chance/moments.hpp"
 
 namespace lichtmc {
 
@@ -21,6 +26,44 @@ glm::dvec3 sample(const LambertEmitter& law, double u, double turns) {
 }
 glm::dvec3 sample(const SpotEmitter& law, double u, double turns) {
   return sample_spot(law.inner, law.outer, u, turns);
+}
+
+// 1 − cos θ = −expm1(ln u · share), share = 1/(m + 1): generalized Lambert emitters (see directions.hpp).
+LICHTMC_LANES void lambert_versines(std::size_t n, const std::uint64_t* LICHTMC_APART words, double share,
+                                    double* LICHTMC_APART versine) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const double u = (static_cast<double>(static_cast<std::int32_t>(words[i] ^ 0x80000000U)) + 2147483648.5) * 0x1p-32;
+    versine[i] = -lane_expm1(share * lane_log(u));
+  }
+}
+
+LICHTMC_LANES void isotropic_versines(std::size_t n, const std::uint64_t* LICHTMC_APART words,
+                                      double* LICHTMC_APART versine) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const double u = (static_cast<double>(static_cast<std::int32_t>(words[i] ^ 0x80000000U)) + 2147483648.5) * 0x1p-32;
+    versine[i] = 2.0 * u;
+  }
+}
+
+// Directions at these angles to the third axis of a frame, with uniform azimuth.
+LICHTMC_LANES void aim(std::size_t n, const double* LICHTMC_APART versine, const std::uint64_t* LICHTMC_APART words,
+                       const glm::dmat3& frame, float* LICHTMC_APART dx, float* LICHTMC_APART dy,
+                       float* LICHTMC_APART dz) {
+  const glm::dvec3 a = frame[0];
+  const glm::dvec3 b = frame[1];
+  const glm::dvec3 c = frame[2];
+  for (std::size_t i = 0; i < n; ++i) {
+    float sine = 0.0F;
+    float cosine = 0.0F;
+    sine_cosine(static_cast<float>(static_cast<std::uint32_t>(words[i] >> 32)) * 0x1p-32F, sine, cosine);
+    const double across = std::sqrt(versine[i] * (2.0 - versine[i]));
+    const double x = across * double{cosine};
+    const double y = across * double{sine};
+    const double z = 1.0 - versine[i];
+    dx[i] = static_cast<float>(x * a.x + y * b.x + z * c.x);
+    dy[i] = static_cast<float>(x * a.y + y * b.y + z * c.y);
+    dz[i] = static_cast<float>(x * a.z + y * b.z + z * c.z);
+  }
 }
 
 }  // namespace
@@ -87,6 +130,33 @@ void Launcher::launch(const Stream& stream, std::uint64_t history, Rays& rays, s
   } else {
     start_on(std::get<SurfaceSource>(source), words, stream.draw(history, 0, Purpose::place), rays, i);
   }
+}
+
+void Launcher::launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays) const {
+  const PointSource* only = sources_.size() == 1 ? std::get_if<PointSource>(&sources_.front()) : nullptr;
+  if (only != nullptr && only->start.steps.empty() && !std::holds_alternative<SpotEmitter>(only->law))
+    return launch_from(*only, stream, first, n, rays);
+  for (std::uint32_t i = 0; i < n; ++i) launch(stream, first + i, rays, i);
+}
+
+void Launcher::launch_from(const PointSource& source, const Stream& stream, std::uint64_t first, std::uint32_t n,
+                           Rays& rays) const {
+  std::array<std::uint64_t, batch_histories> words;
+  std::array<std::uint64_t, batch_histories> history;
+  std::array<double, batch_histories> versine;
+  for (std::uint32_t i = 0; i < n; ++i) history[i] = first + i;
+  std::array<std::uint64_t, batch_histories> rest;
+  draw_many(stream, n, history.data(), 0, Purpose::emission, words.data(), rest.data());
+  if (const auto* lambert = std::get_if<LambertEmitter>(&source.law)) {
+    lambert_versines(n, words.data(), 1.0 / (lambert->exponent + 1.0), versine.data());
+  } else {
+    isotropic_versines(n, words.data(), versine.data());
+  }
+  aim(n, versine.data(), words.data(), source.to_tracer, rays.dx.data(), rays.dy.data(), rays.dz.data());
+  std::fill_n(rays.facet.begin(), n, no_facet);
+  std::fill_n(rays.x.begin(), n, source.start.point.x);
+  std::fill_n(rays.y.begin(), n, source.start.point.y);
+  std::fill_n(rays.z.begin(), n, source.start.point.z);
 }
 
 void Launcher::start_at(const PointSource& source, const Words& words, Rays& rays, std::size_t i) const {

@@ -26,6 +26,10 @@ class Launcher {
   // facet it leaves.
   void launch(const Stream& stream, std::uint64_t history, Rays& rays, std::size_t i) const;
 
+  // The same for photons 0 … n − 1 (n ≤ batch_histories) with histories from `first` on; in rooms with one point
+  // emitter several at once.
+  void launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays) const;
+
   // Whether every point emitter hangs free of all surfaces.
   bool hangs_free() const { return hangs_free_; }
 
@@ -43,6 +47,8 @@ class Launcher {
 
   PointSource point_source(const Emitter& emitter, const Tracer& tracer);
   static SurfaceSource surface_source(const Room& room, const SurfaceEmitter& emitter, const Tracer& tracer);
+  void launch_from(const PointSource& source, const Stream& stream, std::uint64_t first, std::uint32_t n,
+                   Rays& rays) const;
   void start_at(const PointSource& source, const Words& words, Rays& rays, std::size_t i) const;
   void start_on(const SurfaceSource& source, const Words& words, const Words& place, Rays& rays, std::size_t i) const;
 

@@ -118,6 +118,7 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
   for (const Facet& facet : tracer->facets()) {
     const SurfaceOptics& surface = surfaces[facet.surface];
     // unit_fine() counts in 2⁻⁵³: below this count are as many of its values as below ρ.
+    any_tiles_to_back = any_tiles_to_back || surface.tiles_to_back != 0;
     survival_of_facet.push_back(static_cast<std::uint64_t>(std::ceil(surface.reflectance * 0x1p53)));
     cells_of_facet.push_back(
         {static_cast<float>(facet.cell_0.x), static_cast<float>(facet.cell_s.x), static_cast<float>(facet.cell_t.x),
@@ -157,10 +158,13 @@ LICHTMC_LANES void find_cells(std::size_t n, const FacetCells* LICHTMC_APART fac
 
 void Scene::tile_of_each(const Rays& rays, std::uint32_t* tile) const {
   find_cells(rays.size, cells_of_facet.data(), rays.facet.data(), rays.s.data(), rays.t.data(), tile);
+  const std::uint32_t* LICHTMC_APART tiles = tile_of_cell.data();
   for (std::size_t i = 0; i < rays.size; ++i) {
-    assert(tile_of_cell[tile[i]] != no_tile);  // a surface that was hit has an area, and so a tile
-    tile[i] = tile_of_cell[tile[i]] + rays.behind[i] * cells_of_facet[rays.facet[i]].to_back;
+    assert(tiles[tile[i]] != no_tile);  // a surface that was hit has an area, and so a tile
+    tile[i] = tiles[tile[i]];
   }
+  if (!any_tiles_to_back) return;
+  for (std::size_t i = 0; i < rays.size; ++i) tile[i] += rays.behind[i] * cells_of_facet[rays.facet[i]].to_back;
 }
 
 }  // namespace lichtmc

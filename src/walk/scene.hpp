@@ -63,6 +63,7 @@ struct Scene {
   std::vector<std::uint32_t> map_of_tile;
   std::vector<std::uint64_t> survival_of_facet;  // ρ of the facet's surface in units of 2⁻⁵³, rounded up
   std::vector<FacetCells> cells_of_facet;
+  bool any_tiles_to_back = false;  // some surface has tiles of its own on its back
   std::size_t maps = 0;
   bool reflects_all_somewhere = false;  // a surface, or a place of one, has ρ = 1
   std::unique_ptr<Launcher> launcher;

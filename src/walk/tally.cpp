@@ -33,12 +33,14 @@ Tally::Tally(const std::vector<std::uint32_t>& map_of_tile, std::size_t maps, Hi
       batch_score_(map_of_tile.size()),
       batch_hits_(hits == Hits::apart ? map_of_tile.size() : 0),
       batch_maps_(maps),
+      touched_(map_of_tile.size() + 1),
       totals_(map_of_tile.size(), maps, hits) {}
 
 void Tally::close_batch(std::uint32_t n) {
   assert(n >= 1 && n <= batch_histories);
   std::uint64_t all = 0;
-  for (const std::uint32_t tile : touched_) {
+  for (std::size_t k = 0; k < touched_count_; ++k) {
+    const std::uint32_t tile = touched_[k];
     const std::uint64_t score = batch_score_[tile];
     totals_.tiles[tile].add(score, n);
     batch_maps_[(*map_of_tile_)[tile]] += score;
@@ -47,7 +49,7 @@ void Tally::close_batch(std::uint32_t n) {
     totals_.hits[tile] += batch_hits_[tile];
     batch_hits_[tile] = 0;
   }
-  touched_.clear();
+  touched_count_ = 0;
   for (std::size_t map = 0; map < batch_maps_.size(); ++map) {
     if (batch_maps_[map] == 0) continue;
     totals_.maps[map].add(batch_maps_[map], n);

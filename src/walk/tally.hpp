@@ -60,9 +60,22 @@ class Tally {
 
   // An impact on a tile scores `units` (> 0).
   void score(std::uint32_t tile, std::uint64_t units) {
-    if (batch_score_[tile] == 0) touched_.push_back(tile);
+    touch(tile);
     batch_score_[tile] += units;
     if (!batch_hits_.empty()) ++batch_hits_[tile];
+  }
+  // One unit for each of n impacts, where hits are the score.
+  void score_each(const std::uint32_t* tiles, std::size_t n) {
+    std::uint64_t* scores = batch_score_.data();
+    std::uint32_t* touched = touched_.data();
+    std::size_t count = touched_count_;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::uint32_t tile = tiles[i];
+      touched[count] = tile;
+      count += scores[tile] == 0 ? std::size_t{1} : std::size_t{0};
+      ++scores[tile];
+    }
+    touched_count_ = count;
   }
   void score_behind(std::uint32_t tile, std::uint64_t units) { totals_.behind[(*map_of_tile_)[tile]] += units; }
 
@@ -73,11 +86,18 @@ class Tally {
   const Totals& totals() const { return totals_; }
 
  private:
+  // Without a branch: the place is taken only if the tile is new in this batch.
+  void touch(std::uint32_t tile) {
+    touched_[touched_count_] = tile;
+    touched_count_ += batch_score_[tile] == 0 ? std::size_t{1} : std::size_t{0};
+  }
+
   const std::vector<std::uint32_t>* map_of_tile_;
   std::vector<std::uint64_t> batch_score_;
   std::vector<std::uint64_t> batch_hits_;
   std::vector<std::uint64_t> batch_maps_;
-  std::vector<std::uint32_t> touched_;  // tiles that the batch has scored on
+  std::vector<std::uint32_t> touched_;  // tiles that the batch has scored on, one place more than there are tiles
+  std::size_t touched_count_ = 0;
   Totals totals_;
 };
 

@@ -24,7 +24,7 @@ class TileGoal {
   // Photons start at the emitters.
   void start(Wave& wave, std::uint32_t n) {
     flight_ = 0;
-    for (std::uint32_t i = 0; i < n; ++i) scene_->launcher->launch(stream_, first_ + i, wave.rays, i);
+    scene_->launcher->launch_all(stream_, first_, n, wave.rays);
   }
   void histories(Wave& wave) const {
     for (std::size_t i = 0; i < wave.rays.size; ++i) wave.history[i] = first_ + wave.photon[i];
@@ -51,7 +51,12 @@ class TileGoal {
     scene_->tile_of_each(rays, tile_.data());
     if constexpr (Policy::scores_every_impact) {
       if (flight_ < first_scored_) return;
-      for (std::size_t i = 0; i < rays.size; ++i) score(wave, i);
+      if constexpr (Policy::analog) {
+        tally_->score_each(tile_.data(), rays.size);
+        score_from_behind(rays);
+      } else {
+        for (std::size_t i = 0; i < rays.size; ++i) score(wave, i);
+      }
     }
   }
 
@@ -71,6 +76,15 @@ class TileGoal {
   void move(const Wave& /*wave*/, std::size_t /*from*/, std::size_t /*to*/) {}
 
  private:
+  // Most rooms are hit on their fronts alone.
+  void score_from_behind(const Rays& rays) {
+    std::uint32_t any = 0;
+    for (std::size_t i = 0; i < rays.size; ++i) any |= rays.behind[i];
+    if (any == 0) return;
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      if (rays.behind[i] != 0) tally_->score_behind(tile_[i], 1);
+    }
+  }
   void score(const Wave& wave, std::size_t i) {
     const std::uint64_t units = Policy::units(wave.weight[i]);
     tally_->score(tile_[i], units);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/lanes.hpp"
 #include "chance/moments.hpp"
 #include "tracer/rays.hpp"
 
@@ -38,5 +39,31 @@ struct Wave {
     rays.behind[to] = rays.behind[from];
   }
 };
+
+// Of the photons in flight those survive whose chance (see draw_many()), counted in 2⁻⁵³, is below the survival of the
+// facet that they are on. They close ranks, in their order, with what the next flight needs of them; returns how many.
+// Without a branch: every photon moves to the next place, which the one after it takes if it was absorbed.
+inline std::size_t close_ranks(Wave& wave, const std::uint64_t* LICHTMC_APART survival_of_facet) {
+  const std::uint64_t* LICHTMC_APART chance = wave.chance.data();
+  std::uint32_t* LICHTMC_APART photon = wave.photon.data();
+  std::uint64_t* LICHTMC_APART words = wave.polar_azimuth.data();
+  std::uint32_t* LICHTMC_APART facet = wave.rays.facet.data();
+  float* LICHTMC_APART s = wave.rays.s.data();
+  float* LICHTMC_APART t = wave.rays.t.data();
+  std::uint32_t* LICHTMC_APART behind = wave.rays.behind.data();
+  const std::size_t n = wave.rays.size;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t on = facet[i];
+    photon[kept] = photon[i];
+    words[kept] = words[i];
+    facet[kept] = on;
+    s[kept] = s[i];
+    t[kept] = t[i];
+    behind[kept] = behind[i];
+    kept += (chance[i] >> 11) < survival_of_facet[on] ? std::size_t{1} : std::size_t{0};
+  }
+  return kept;
+}
 
 }  // namespace lichtmc
