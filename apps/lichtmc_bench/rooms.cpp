@@ -85,17 +85,17 @@ Stage::Stage(Room room, const Settings& settings, double tile_edge_m)
     : room_(std::move(room)), tiling_(make_tiling(room_, tile_edge_m)) {
   scene_ = std::make_unique<Scene>(room_, tiling_, settings.engine);
   walk_ = make_walk(*scene_, settings);
-  tally_ = std::make_unique<Tally>(scene_->map_of_tile, scene_->maps,
+  tally_ = std::make_unique<Tally>(scene_->tiles, scene_->maps,
                                    score_law(settings.estimator, scene_->has_maps()).hits);
 }
 
 double Stage::walk(double impacts) {
-  const std::uint64_t before = tally_->totals().impacts;
-  while (static_cast<double>(tally_->totals().impacts - before) < impacts) {
+  const std::uint64_t before = tally_->counts().impacts;
+  while (static_cast<double>(tally_->counts().impacts - before) < impacts) {
     walk_->simulate_batch(next_, batch_histories, *tally_, [] { return false; });
     next_ += batch_histories;
   }
-  return static_cast<double>(tally_->totals().impacts - before);
+  return static_cast<double>(tally_->counts().impacts - before);
 }
 
 }  // namespace lichtmc::bench

@@ -38,6 +38,12 @@ struct Moments {
     squares += n == batch_histories ? square * for_full : (square * square_units + n / 2) / n;
   }
 
+  // Adds so many full batches with score 1.
+  void add_singles(std::uint64_t batches) {
+    sum += batches;
+    squares += static_cast<uint128>(batches) * (square_units / batch_histories);
+  }
+
   void add(const Moments& other) {
     sum += other.sum;
     squares += other.squares;

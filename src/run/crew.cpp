@@ -7,11 +7,13 @@
 namespace lichtmc {
 
 Crew::Crew(const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch, unsigned threads)
-    : watch_(&watch), reporter_(control, watch, Progress::Stage::tiles, settings.photons) {
+    : scene_(&scene),
+      hits_(score_law(settings.estimator, scene.has_maps()).hits),
+      watch_(&watch),
+      reporter_(control, watch, Progress::Stage::tiles, settings.photons) {
   for (unsigned k = 0; k < threads; ++k) {
-    workers_.push_back(std::make_unique<Worker>(
-        Worker{Tally(scene.map_of_tile, scene.maps, score_law(settings.estimator, scene.has_maps()).hits),
-               make_walk(scene, settings)}));
+    workers_.push_back(
+        std::make_unique<Worker>(Worker{Tally(scene.tiles, scene.maps, hits_), make_walk(scene, settings)}));
   }
 }
 
@@ -22,10 +24,10 @@ void Crew::simulate_up_to(std::uint64_t end) {
 }
 
 void Crew::work(Worker& worker, std::uint64_t end) {
-  std::uint64_t told = worker.tally.totals().impacts;
+  std::uint64_t told = worker.tally.counts().impacts;
   const auto tell = [&](std::uint64_t histories) {
-    reporter_.add(histories, worker.tally.totals().impacts - told);
-    told = worker.tally.totals().impacts;
+    reporter_.add(histories, worker.tally.counts().impacts - told);
+    told = worker.tally.counts().impacts;
   };
   while (!watch_->should_stop()) {
     const std::uint64_t first = next_.fetch_add(batch_histories);
@@ -40,8 +42,8 @@ void Crew::work(Worker& worker, std::uint64_t end) {
 }
 
 Totals Crew::totals() const {
-  Totals sum = workers_.front()->tally.totals();
-  for (std::size_t k = 1; k < workers_.size(); ++k) sum.add(workers_[k]->tally.totals());
+  Totals sum(scene_->tiles, scene_->maps, hits_);
+  for (const auto& worker : workers_) worker->tally.add_to(sum);
   return sum;
 }
 

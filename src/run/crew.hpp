@@ -40,6 +40,8 @@ class Crew {
 
   void work(Worker& worker, std::uint64_t end);
 
+  const Scene* scene_;
+  Hits hits_;
   StopWatch* watch_;
   Reporter reporter_;
   std::vector<std::unique_ptr<Worker>> workers_;

@@ -108,14 +108,14 @@ LICHTMC_LANES void depart_lanes(std::size_t n, const std::uint32_t* LICHTMC_APAR
 
 // Directions off the faces into the cube by Lambert's law.
 LICHTMC_LANES void scatter_lanes(std::size_t n, const std::uint32_t* LICHTMC_APART facet,
-                                 const std::uint64_t* LICHTMC_APART words, const std::array<float, 3>& unit,
+                                 const std::uint32_t* LICHTMC_APART polar, const std::uint32_t* LICHTMC_APART azimuth,
+                                 const std::array<float, 3>& unit,
                                  float* LICHTMC_APART dx, float* LICHTMC_APART dy, float* LICHTMC_APART dz) {
   const float unit_x = unit[0];
   const float unit_y = unit[1];
   const float unit_z = unit[2];
   for (std::size_t i = 0; i < n; ++i) {
-    const glm::vec3 local =
-        sample_lambert(static_cast<std::uint32_t>(words[i]), static_cast<std::uint32_t>(words[i] >> 32));
+    const glm::vec3 local = sample_lambert(polar[i], azimuth[i]);
     const std::uint32_t axis = facet[i] >> 1;
     const float inwards = (facet[i] & 1U) != 0 ? -local.z : local.z;
     dx[i] = unit_x * (axis == 0 ? inwards : (axis == 1 ? local.y : local.x));
@@ -147,21 +147,21 @@ class CuboidTracer final : public Tracer {
   }
 
   void trace(Rays& rays, Misses /*misses*/, TraceCount& count) const override {
-    trace_lanes(rays.size, {rays.x.data(), rays.y.data(), rays.z.data()},
+    trace_lanes(whole_lanes(rays.size), {rays.x.data(), rays.y.data(), rays.z.data()},
                 {rays.dx.data(), rays.dy.data(), rays.dz.data()}, behind_, rays.facet.data(), rays.s.data(),
                 rays.t.data(), rays.behind.data(), rays.length.data());
     count.rays += rays.size;
   }
 
   void depart(Rays& rays) const override {
-    depart_lanes(rays.size, rays.facet.data(), rays.s.data(), rays.t.data(), rays.x.data(), rays.y.data(),
+    depart_lanes(whole_lanes(rays.size), rays.facet.data(), rays.s.data(), rays.t.data(), rays.x.data(), rays.y.data(),
                  rays.z.data());
   }
 
-  void scatter(Rays& rays, const std::uint64_t* words, float* cosines) const override {
-    scatter_lanes(rays.size, rays.facet.data(), words, unit_, rays.dx.data(), rays.dy.data(), rays.dz.data());
+  void scatter(Rays& rays, const std::uint32_t* polar, const std::uint32_t* azimuth, float* cosines) const override {
+    scatter_lanes(whole_lanes(rays.size), rays.facet.data(), polar, azimuth, unit_, rays.dx.data(), rays.dy.data(), rays.dz.data());
     for (std::size_t i = 0; cosines != nullptr && i < rays.size; ++i)
-      cosines[i] = sample_lambert(static_cast<std::uint32_t>(words[i]), 0).z;
+      cosines[i] = sample_lambert(polar[i], 0).z;
   }
 
   Start start(const glm::dvec3& world_point_m) const override {

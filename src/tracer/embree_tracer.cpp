@@ -152,10 +152,9 @@ class EmbreeTracer final : public Tracer {
     }
   }
 
-  void scatter(Rays& rays, const std::uint64_t* words, float* cosines) const override {
+  void scatter(Rays& rays, const std::uint32_t* polar, const std::uint32_t* azimuth, float* cosines) const override {
     for (std::size_t i = 0; i < rays.size; ++i) {
-      const glm::vec3 local =
-          sample_lambert(static_cast<std::uint32_t>(words[i]), static_cast<std::uint32_t>(words[i] >> 32));
+      const glm::vec3 local = sample_lambert(polar[i], azimuth[i]);
       rays.set_direction(i, direction_from(facets_[rays.facet[i]], rays.behind[i] != 0, local));
       if (cosines != nullptr) cosines[i] = local.z;
     }

@@ -69,8 +69,8 @@ class Tracer {
   virtual void depart(Rays& rays) const = 0;
 
   // Sends flights off the facets they stand on by Lambert's law, on the side named: sets dx, dy, dz from two random
-  // words each (word 0 in the lower half). cosines: of the angles to the normals, unless null.
-  virtual void scatter(Rays& rays, const std::uint64_t* words, float* cosines) const = 0;
+  // words each. cosines: of the angles to the normals, unless null.
+  virtual void scatter(Rays& rays, const std::uint32_t* polar, const std::uint32_t* azimuth, float* cosines) const = 0;
 
   virtual Start start(const glm::dvec3& world_point_m) const = 0;
   virtual TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const = 0;

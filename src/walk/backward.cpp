@@ -109,6 +109,8 @@ class ReceiverGoal {
     }
   }
 
+  void score(const Wave& /*wave*/) {}
+
   static constexpr bool watches_absorption = true;
   // Variant 3: only the direct light of the last surface survived scores.
   void absorb(const Wave& wave, std::size_t i, double reflectance) {

@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "base/lanes.hpp"
 #include "chance/draw_many.hpp"
 #include "chance/stream.hpp"
 #include "walk/scene.hpp"
@@ -57,8 +58,10 @@ class Kernel {
     for (std::uint32_t flight = 1; wave_.rays.size > 0; ++flight) {
       scene_->tracer->trace(wave_.rays, goal.misses(), goal.traced());
       lose_what_escaped(goal);
+      fill_up_lanes();
       goal.land(wave_);
       draw(flight, goal);
+      goal.score(wave_);
       survive_or_be_absorbed(goal);
       scene_->tracer->depart(wave_.rays);
       goal.reflect(wave_, flight);
@@ -105,10 +108,15 @@ class Kernel {
     return escaped == 0;
   }
 
+  // Loops that run in lanes look at some elements beyond the last: on a facet that there is.
+  void fill_up_lanes() {
+    for (std::size_t i = wave_.rays.size; i < whole_lanes(wave_.rays.size); ++i) wave_.rays.facet[i] = 0;
+  }
+
   void draw(std::uint32_t flight, Goal& goal) {
     goal.histories(wave_);
-    draw_many(stream_, wave_.rays.size, wave_.history.data(), flight, Purpose::flight, wave_.polar_azimuth.data(),
-              wave_.chance.data());
+    draw_many(stream_, wave_.rays.size, wave_.history.data(), flight, Purpose::flight, wave_.polar.data(),
+              wave_.azimuth.data(), wave_.chance.data());
   }
 
   // The surface that was hit decides what becomes of the photon; survivors close ranks.
@@ -158,7 +166,7 @@ class Kernel {
   }
 
   // Diffuse reflection: Lambert's law about the normal, on the side that was hit.
-  void scatter(Goal& goal) { scene_->tracer->scatter(wave_.rays, wave_.polar_azimuth.data(), goal.cosines()); }
+  void scatter(Goal& goal) { scene_->tracer->scatter(wave_.rays, wave_.polar.data(), wave_.azimuth.data(), goal.cosines()); }
 
   const Scene* scene_;
   Stream stream_;

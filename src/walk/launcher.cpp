@@ -29,7 +29,7 @@ glm::dvec3 sample(const SpotEmitter& law, double u, double turns) {
 }
 
 // 1 − cos θ = −expm1(ln u · share), share = 1/(m + 1): generalized Lambert emitters (see directions.hpp).
-LICHTMC_LANES void lambert_versines(std::size_t n, const std::uint64_t* LICHTMC_APART words, double share,
+LICHTMC_LANES void lambert_versines(std::size_t n, const std::uint32_t* LICHTMC_APART words, double share,
                                     double* LICHTMC_APART versine) {
   for (std::size_t i = 0; i < n; ++i) {
     const double u = (static_cast<double>(static_cast<std::int32_t>(words[i] ^ 0x80000000U)) + 2147483648.5) * 0x1p-32;
@@ -37,7 +37,7 @@ LICHTMC_LANES void lambert_versines(std::size_t n, const std::uint64_t* LICHTMC_
   }
 }
 
-LICHTMC_LANES void isotropic_versines(std::size_t n, const std::uint64_t* LICHTMC_APART words,
+LICHTMC_LANES void isotropic_versines(std::size_t n, const std::uint32_t* LICHTMC_APART words,
                                       double* LICHTMC_APART versine) {
   for (std::size_t i = 0; i < n; ++i) {
     const double u = (static_cast<double>(static_cast<std::int32_t>(words[i] ^ 0x80000000U)) + 2147483648.5) * 0x1p-32;
@@ -46,7 +46,7 @@ LICHTMC_LANES void isotropic_versines(std::size_t n, const std::uint64_t* LICHTM
 }
 
 // Directions at these angles to the third axis of a frame, with uniform azimuth.
-LICHTMC_LANES void aim(std::size_t n, const double* LICHTMC_APART versine, const std::uint64_t* LICHTMC_APART words,
+LICHTMC_LANES void aim(std::size_t n, const double* LICHTMC_APART versine, const std::uint32_t* LICHTMC_APART words,
                        const glm::dmat3& frame, float* LICHTMC_APART dx, float* LICHTMC_APART dy,
                        float* LICHTMC_APART dz) {
   const glm::dvec3 a = frame[0];
@@ -55,7 +55,7 @@ LICHTMC_LANES void aim(std::size_t n, const double* LICHTMC_APART versine, const
   for (std::size_t i = 0; i < n; ++i) {
     float sine = 0.0F;
     float cosine = 0.0F;
-    sine_cosine(static_cast<float>(static_cast<std::uint32_t>(words[i] >> 32)) * 0x1p-32F, sine, cosine);
+    sine_cosine(static_cast<float>(words[i]) * 0x1p-32F, sine, cosine);
     const double across = std::sqrt(versine[i] * (2.0 - versine[i]));
     const double x = across * double{cosine};
     const double y = across * double{sine};
@@ -141,18 +141,19 @@ void Launcher::launch_all(const Stream& stream, std::uint64_t first, std::uint32
 
 void Launcher::launch_from(const PointSource& source, const Stream& stream, std::uint64_t first, std::uint32_t n,
                            Rays& rays) const {
-  std::array<std::uint64_t, batch_histories> words;
+  std::array<std::uint32_t, batch_histories> polar;
+  std::array<std::uint32_t, batch_histories> azimuth;
   std::array<std::uint64_t, batch_histories> history;
   std::array<double, batch_histories> versine;
-  for (std::uint32_t i = 0; i < n; ++i) history[i] = first + i;
+  for (std::uint32_t i = 0; i < batch_histories; ++i) history[i] = first + i;
   std::array<std::uint64_t, batch_histories> rest;
-  draw_many(stream, n, history.data(), 0, Purpose::emission, words.data(), rest.data());
+  draw_many(stream, n, history.data(), 0, Purpose::emission, polar.data(), azimuth.data(), rest.data());
   if (const auto* lambert = std::get_if<LambertEmitter>(&source.law)) {
-    lambert_versines(n, words.data(), 1.0 / (lambert->exponent + 1.0), versine.data());
+    lambert_versines(whole_lanes(n), polar.data(), 1.0 / (lambert->exponent + 1.0), versine.data());
   } else {
-    isotropic_versines(n, words.data(), versine.data());
+    isotropic_versines(whole_lanes(n), polar.data(), versine.data());
   }
-  aim(n, versine.data(), words.data(), source.to_tracer, rays.dx.data(), rays.dy.data(), rays.dz.data());
+  aim(whole_lanes(n), versine.data(), azimuth.data(), source.to_tracer, rays.dx.data(), rays.dy.data(), rays.dz.data());
   std::fill_n(rays.facet.begin(), n, no_facet);
   std::fill_n(rays.x.begin(), n, source.start.point.x);
   std::fill_n(rays.y.begin(), n, source.start.point.y);

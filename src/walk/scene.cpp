@@ -93,6 +93,7 @@ std::vector<MapPlace> places_on_maps(const Room& room, const Tracer& tracer) {
 
 Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make_tracer(room, tiling, asked, engine)) {
   surfaces.resize(room.surfaces.size());
+  tiles = tiling.tiles.size();
   maps = tiling.maps.size();
   for (std::size_t k = 0; k < surfaces.size(); ++k) surfaces[k].reflectance = room.surfaces[k].reflectance;
   for (std::size_t m = 0; m < tiling.maps.size(); ++m) {
@@ -100,10 +101,12 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
     SurfaceOptics& surface = surfaces[map.surface];
     if (map.side == Side::back) {
       surface.tiles_to_back = tiles_between(tiling.maps[m - 1], map);
+      any_tiles_to_back = any_tiles_to_back || surface.tiles_to_back != 0;
       continue;
     }
     surface.columns = map.columns;
     surface.rows = map.rows;
+    surface.map = static_cast<std::uint32_t>(m);
     surface.first_cell = tile_of_cell.size();
     const std::vector<std::uint32_t> filled = nearest_tiles(map);
     tile_of_cell.insert(tile_of_cell.end(), filled.begin(), filled.end());
@@ -112,20 +115,18 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
   const HighestReflectance highest(room);
   reflects_all_somewhere = std::any_of(room.surfaces.begin(), room.surfaces.end(),
                                        [&](const Surface& surface) { return highest.of(surface) == 1.0; });
-  map_of_tile.reserve(tiling.tiles.size());
-  for (const Tile& tile : tiling.tiles) map_of_tile.push_back(tile.map);
-
+  std::vector<FacetCells> cells_of_facet;
   for (const Facet& facet : tracer->facets()) {
     const SurfaceOptics& surface = surfaces[facet.surface];
     // unit_fine() counts in 2⁻⁵³: below this count are as many of its values as below ρ.
-    any_tiles_to_back = any_tiles_to_back || surface.tiles_to_back != 0;
-    survival_of_facet.push_back(static_cast<std::uint64_t>(std::ceil(surface.reflectance * 0x1p53)));
-    cells_of_facet.push_back(
-        {static_cast<float>(facet.cell_0.x), static_cast<float>(facet.cell_s.x), static_cast<float>(facet.cell_t.x),
-         static_cast<float>(facet.cell_0.y), static_cast<float>(facet.cell_s.y), static_cast<float>(facet.cell_t.y),
-         static_cast<std::int32_t>(surface.columns - 1), static_cast<std::int32_t>(surface.rows - 1), surface.columns,
-         static_cast<std::uint32_t>(surface.first_cell), surface.tiles_to_back});
+    survival_of_facet.push_back(static_cast<std::int64_t>(std::ceil(surface.reflectance * 0x1p53)));
+    cells_of_facet.push_back({facet.cell_0, facet.cell_s, facet.cell_t, surface.columns, surface.rows,
+                              static_cast<std::uint32_t>(surface.first_cell), surface.map});
   }
+  cells = std::make_unique<CellFinder>(cells_of_facet);
+  cells_are_tiles = true;
+  for (std::size_t cell = 0; cell < tile_of_cell.size(); ++cell)
+    cells_are_tiles = cells_are_tiles && tile_of_cell[cell] == cell;
 
   launcher = std::make_unique<Launcher>(room, *tracer);
   if (engine == Engine::embree && launcher->hangs_free()) {
@@ -134,37 +135,21 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
   }
 }
 
-namespace {
-
-LICHTMC_LANES void find_cells(std::size_t n, const FacetCells* LICHTMC_APART facets,
-                              const std::uint32_t* LICHTMC_APART facet, const float* LICHTMC_APART s,
-                              const float* LICHTMC_APART t, std::uint32_t* LICHTMC_APART cell) {
-  // Beside the grid, or nowhere, counts as on its rim.
-  constexpr float most = 2147483520.0F;  // the largest float below 2³¹
-  const auto index = [](float cell_at, std::int32_t last) {
-    const float low = cell_at > 0.0F ? cell_at : 0.0F;
-    const auto whole = static_cast<std::int32_t>(low < most ? low : most);
-    return whole < last ? whole : last;
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    const FacetCells& at = facets[facet[i]];
-    const std::int32_t column = index(at.column_0 + s[i] * at.column_s + t[i] * at.column_t, at.last_column);
-    const std::int32_t row = index(at.row_0 + s[i] * at.row_s + t[i] * at.row_t, at.last_row);
-    cell[i] = at.first_cell + static_cast<std::uint32_t>(row) * at.columns + static_cast<std::uint32_t>(column);
-  }
-}
-
-}  // namespace
-
-void Scene::tile_of_each(const Rays& rays, std::uint32_t* tile) const {
-  find_cells(rays.size, cells_of_facet.data(), rays.facet.data(), rays.s.data(), rays.t.data(), tile);
-  const std::uint32_t* LICHTMC_APART tiles = tile_of_cell.data();
-  for (std::size_t i = 0; i < rays.size; ++i) {
-    assert(tiles[tile[i]] != no_tile);  // a surface that was hit has an area, and so a tile
-    tile[i] = tiles[tile[i]];
+void Scene::tile_of_each(const Rays& rays, std::uint32_t* tile, std::uint32_t* map) const {
+  cells->find(rays.size, rays.facet.data(), rays.s.data(), rays.t.data(), tile, map);
+  if (!cells_are_tiles) {
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      assert(tile_of_cell[tile[i]] != no_tile);  // a surface that was hit has an area, and so a tile
+      tile[i] = tile_of_cell[tile[i]];
+    }
   }
   if (!any_tiles_to_back) return;
-  for (std::size_t i = 0; i < rays.size; ++i) tile[i] += rays.behind[i] * cells_of_facet[rays.facet[i]].to_back;
+  for (std::size_t i = 0; i < rays.size; ++i) {
+    const std::uint32_t to_back = surfaces[tracer->facets()[rays.facet[i]].surface].tiles_to_back;
+    if (rays.behind[i] == 0 || to_back == 0) continue;
+    tile[i] += to_back;
+    ++map[i];
+  }
 }
 
 }  // namespace lichtmc

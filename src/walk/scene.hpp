@@ -14,6 +14,7 @@
 #include "lichtmc/tiles.hpp"
 #include "room/reflectance.hpp"
 #include "tracer/tracer.hpp"
+#include "walk/cell_finder.hpp"
 #include "walk/launcher.hpp"
 
 namespace lichtmc {
@@ -23,23 +24,9 @@ struct SurfaceOptics {
   double reflectance = 0.0;
   std::uint32_t columns = 1;
   std::uint32_t rows = 1;
+  std::uint32_t map = 0;            // its tile map; that of its back, if it has its own, follows it
   std::size_t first_cell = 0;       // into Scene::tile_of_cell; cells number fewer than 2³¹
   std::uint32_t tiles_to_back = 0;  // a back side's tile number less the front's; 0 where both sides share one map
-};
-
-// A facet's place in the grid of its surface, as tile_of_each() reads it: cell = cell_0 + s·cell_s + t·cell_t.
-struct FacetCells {
-  float column_0 = 0.0F;
-  float column_s = 0.0F;
-  float column_t = 0.0F;
-  float row_0 = 0.0F;
-  float row_s = 0.0F;
-  float row_t = 0.0F;
-  std::int32_t last_column = 0;
-  std::int32_t last_row = 0;
-  std::uint32_t columns = 1;
-  std::uint32_t first_cell = 0;  // into Scene::tile_of_cell
-  std::uint32_t to_back = 0;     // SurfaceOptics::tiles_to_back
 };
 
 // A facet's place on a reflectance map: (u, v) = uv_0 + s·uv_s + t·uv_t.
@@ -60,10 +47,11 @@ struct Scene {
   std::vector<SurfaceOptics> surfaces;
   std::vector<MapPlace> map_places;         // per facet; empty where no surface has a map
   std::vector<std::uint32_t> tile_of_cell;  // every cell has a tile, empty ones the nearest
-  std::vector<std::uint32_t> map_of_tile;
-  std::vector<std::uint64_t> survival_of_facet;  // ρ of the facet's surface in units of 2⁻⁵³, rounded up
-  std::vector<FacetCells> cells_of_facet;
+  std::vector<std::int64_t> survival_of_facet;  // ρ of the facet's surface in units of 2⁻⁵³, rounded up
+  std::unique_ptr<CellFinder> cells;
+  bool cells_are_tiles = false;    // tile_of_cell[k] = k: rooms of rectangles
   bool any_tiles_to_back = false;  // some surface has tiles of its own on its back
+  std::size_t tiles = 0;
   std::size_t maps = 0;
   bool reflects_all_somewhere = false;  // a surface, or a place of one, has ρ = 1
   std::unique_ptr<Launcher> launcher;
@@ -82,9 +70,9 @@ struct Scene {
     return reflectance_at(*place.map, uv.x, uv.y);
   }
 
-  // The tile that each flight of a wave ended on. A place that rounding puts beside the grid belongs to its outermost
+  // The tile that each flight of a wave ended on, and its tile map. A place that rounding puts beside the grid belongs to its outermost
   // cells.
-  void tile_of_each(const Rays& rays, std::uint32_t* tile) const;
+  void tile_of_each(const Rays& rays, std::uint32_t* tile, std::uint32_t* map) const;
 };
 
 }  // namespace lichtmc

@@ -35,15 +35,21 @@ struct Ends {
   void add(const Ends& other);
 };
 
-// Everything that the batches of a thread add up to. Adding two is exact: the order does not matter.
-struct Totals {
-  Totals(std::size_t tiles, std::size_t maps, Hits hits);
-
+// What concerns all tiles together.
+struct Counts {
   std::uint64_t histories = 0;
   std::uint64_t impacts = 0;
   TraceCount traced;
   Ends ends;
-  Moments incident;                 // all tiles together
+  Moments incident;
+
+  void add(const Counts& other);
+};
+
+// Everything that batches add up to. Adding two is exact: the order does not matter.
+struct Totals : Counts {
+  Totals(std::size_t tiles, std::size_t maps, Hits hits);
+
   std::vector<Moments> tiles;       // per tile
   std::vector<std::uint64_t> hits;  // per tile; empty where hits are the score
   std::vector<Moments> maps;        // per tile map
@@ -55,49 +61,73 @@ struct Totals {
 // A batch being simulated, and the totals of those that were.
 class Tally {
  public:
-  // map_of_tile: for every tile the index of its tile map, below `maps`.
-  Tally(const std::vector<std::uint32_t>& map_of_tile, std::size_t maps, Hits hits);
+  Tally(std::size_t tiles, std::size_t maps, Hits hits);
 
-  // An impact on a tile scores `units` (> 0).
-  void score(std::uint32_t tile, std::uint64_t units) {
-    touch(tile);
-    batch_score_[tile] += units;
-    if (!batch_hits_.empty()) ++batch_hits_[tile];
+  // Tiles that will score soon: where they are many, they are fetched from memory meanwhile.
+  void expect(const std::uint32_t* tiles, std::size_t n) const {
+    if (sweeps_) return;
+    for (std::size_t i = 0; i < n; ++i) __builtin_prefetch(&tiles_[tiles[i]], 1);
+  }
+
+  // An impact on a tile of a tile map scores `units` (> 0).
+  void score(std::uint32_t tile, std::uint32_t map, std::uint64_t units) {
+    take(tile, units);
+    batch_maps_[map * map_slots] += units;
+    // 2³² hits at a time are moved to the totals.
+    if (hits_ == Hits::apart && ++tiles_[tile].count == 0) totals_.hits[tile] += std::uint64_t{1} << 32;
   }
   // One unit for each of n impacts, where hits are the score.
-  void score_each(const std::uint32_t* tiles, std::size_t n) {
-    std::uint64_t* scores = batch_score_.data();
-    std::uint32_t* touched = touched_.data();
-    std::size_t count = touched_count_;
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::uint32_t tile = tiles[i];
-      touched[count] = tile;
-      count += scores[tile] == 0 ? std::size_t{1} : std::size_t{0};
-      ++scores[tile];
+  void score_each(const std::uint32_t* tiles, const std::uint32_t* maps, std::size_t n) {
+    BatchTile* batch = tiles_.data();
+    if (sweeps_) {
+      for (std::size_t i = 0; i < n; ++i) ++batch[tiles[i]].score;
+    } else {
+      for (std::size_t i = 0; i < n; ++i) take(tiles[i], 1);
     }
-    touched_count_ = count;
+    std::uint64_t* batch_maps = batch_maps_.data();
+    for (std::size_t i = 0; i < n; ++i) ++batch_maps[maps[i] * map_slots + i % map_slots];
   }
-  void score_behind(std::uint32_t tile, std::uint64_t units) { totals_.behind[(*map_of_tile_)[tile]] += units; }
+  void score_behind(std::uint32_t map, std::uint64_t units) { totals_.behind[map] += units; }
 
   // Ends a batch of n histories (1 … batch_histories).
   void close_batch(std::uint32_t n);
 
-  Totals& totals() { return totals_; }
-  const Totals& totals() const { return totals_; }
+  Counts& counts() { return totals_; }
+  const Counts& counts() const { return totals_; }
+
+  // Adds all batches that were closed.
+  void add_to(Totals& sum) const;
 
  private:
-  // Without a branch: the place is taken only if the tile is new in this batch.
-  void touch(std::uint32_t tile) {
-    touched_[touched_count_] = tile;
-    touched_count_ += batch_score_[tile] == 0 ? std::size_t{1} : std::size_t{0};
-  }
+  // A tile's score in the batch that hit it last. It goes to the totals when another batch hits the tile: so each impact
+  // goes to one place in memory, and closing a batch to none. Few tiles are swept when a batch is closed instead.
+  struct BatchTile {
+    std::uint64_t score = 0;
+    std::uint32_t batch = 0;  // number of that batch
+    std::uint32_t count = 0;  // not yet in the totals: hits, where they are counted apart; else full batches that scored
+                              // 1, the commonest result where tiles are many
+  };
 
-  const std::vector<std::uint32_t>* map_of_tile_;
-  std::vector<std::uint64_t> batch_score_;
-  std::vector<std::uint64_t> batch_hits_;
+  void take(std::uint32_t tile, std::uint64_t units) {
+    BatchTile& at = tiles_[tile];
+    const bool again = sweeps_ || at.batch == batch_;
+    if (!again && at.score > most_counted_) settle(tile, batch_histories);
+    at.count += !again && at.score == 1 ? 1 : 0;
+    at.score = again ? at.score + units : units;
+    at.batch = batch_;
+  }
+  void settle(std::uint32_t tile, std::uint32_t n);
+  void settle_all(std::uint32_t n);
+
+  // Neighbours in the array take turns: adding to a number waits for the addition before.
+  static constexpr std::size_t map_slots = 4;
+
+  Hits hits_;
+  bool sweeps_;
+  std::uint64_t most_counted_;  // scores up to this one are counted, not settled
+  std::uint32_t batch_ = 1;     // number of the batch being simulated
+  std::vector<BatchTile> tiles_;
   std::vector<std::uint64_t> batch_maps_;
-  std::vector<std::uint32_t> touched_;  // tiles that the batch has scored on, one place more than there are tiles
-  std::size_t touched_count_ = 0;
   Totals totals_;
 };
 

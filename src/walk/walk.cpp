@@ -14,7 +14,7 @@ template <class Policy>
 class TileGoal {
  public:
   TileGoal(const Scene& scene, const Stream& stream, Direct direct)
-      : scene_(&scene), stream_(stream), first_scored_(direct == Direct::analytic ? 2 : 1), tile_(batch_histories) {}
+      : scene_(&scene), stream_(stream), first_scored_(direct == Direct::analytic ? 2 : 1), tile_(batch_histories), map_(batch_histories) {}
 
   void begin(std::uint64_t first, Tally& tally) {
     first_ = first;
@@ -30,8 +30,8 @@ class TileGoal {
     for (std::size_t i = 0; i < wave.rays.size; ++i) wave.history[i] = first_ + wave.photon[i];
   }
   Misses misses() const { return scene_->misses; }
-  TraceCount& traced() { return tally_->totals().traced; }
-  Ends& ends() { return tally_->totals().ends; }
+  TraceCount& traced() { return tally_->counts().traced; }
+  Ends& ends() { return tally_->counts().ends; }
 
   void escape(const Wave& wave, std::size_t i) {
     const auto units = static_cast<int128>(Policy::units(wave.weight[i]));
@@ -43,16 +43,21 @@ class TileGoal {
     }
   }
 
-  // Every impact falls on a tile. The first is direct light: it scores only where that is not computed.
+  // Every impact falls on a tile.
   void land(const Wave& wave) {
     ++flight_;
-    const Rays& rays = wave.rays;
-    tally_->totals().impacts += rays.size;
-    scene_->tile_of_each(rays, tile_.data());
+    tally_->counts().impacts += wave.rays.size;
+    scene_->tile_of_each(wave.rays, tile_.data(), map_.data());
+    tally_->expect(tile_.data(), wave.rays.size);
+  }
+
+  // The first impact is direct light: it scores only where that is not computed.
+  void score(const Wave& wave) {
     if constexpr (Policy::scores_every_impact) {
       if (flight_ < first_scored_) return;
+      const Rays& rays = wave.rays;
       if constexpr (Policy::analog) {
-        tally_->score_each(tile_.data(), rays.size);
+        tally_->score_each(tile_.data(), map_.data(), rays.size);
         score_from_behind(rays);
       } else {
         for (std::size_t i = 0; i < rays.size; ++i) score(wave, i);
@@ -82,13 +87,13 @@ class TileGoal {
     for (std::size_t i = 0; i < rays.size; ++i) any |= rays.behind[i];
     if (any == 0) return;
     for (std::size_t i = 0; i < rays.size; ++i) {
-      if (rays.behind[i] != 0) tally_->score_behind(tile_[i], 1);
+      if (rays.behind[i] != 0) tally_->score_behind(map_[i], 1);
     }
   }
   void score(const Wave& wave, std::size_t i) {
     const std::uint64_t units = Policy::units(wave.weight[i]);
-    tally_->score(tile_[i], units);
-    if (wave.rays.behind[i] != 0) tally_->score_behind(tile_[i], units);
+    tally_->score(tile_[i], map_[i], units);
+    if (wave.rays.behind[i] != 0) tally_->score_behind(map_[i], units);
   }
 
   const Scene* scene_;
@@ -96,6 +101,7 @@ class TileGoal {
   std::uint32_t first_scored_;  // number of the first flight whose end scores
   std::uint32_t flight_ = 0;
   std::vector<std::uint32_t> tile_;  // where the flight ended
+  std::vector<std::uint32_t> map_;   // the tile's map
   std::uint64_t first_ = 0;
   Tally* tally_ = nullptr;
 };
@@ -116,9 +122,9 @@ class ForwardWalk final : public Walk {
  private:
   // Emitted = absorbed + escaped + residual + lost, in integers.
   static bool every_history_has_ended(const Tally& tally) {
-    const Totals& totals = tally.totals();
-    const Ends& ends = totals.ends;
-    const auto emitted = static_cast<int128>(totals.histories) * static_cast<int128>(Policy::units(1.0));
+    const Counts& counts = tally.counts();
+    const Ends& ends = counts.ends;
+    const auto emitted = static_cast<int128>(counts.histories) * static_cast<int128>(Policy::units(1.0));
     return ends.absorbed + ends.escaped + ends.residual + ends.lost == emitted;
   }
 

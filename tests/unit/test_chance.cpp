@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "chance/directions.hpp"
+#include "base/lanes.hpp"
 #include "chance/draw_many.hpp"
 #include "chance/lane_math.hpp"
 #include "chance/philox.hpp"
@@ -170,17 +171,20 @@ TEST_CASE("words drawn for many photons are those drawn one by one") {
   for (const Way way : {Way::forward, Way::backward}) {
     const Stream stream(0x123456789ABCDEFULL, way);
     for (const std::size_t n : {1U, 3U, 4U, 7U, 64U, 1023U}) {
-      std::vector<std::uint64_t> history(n), polar_azimuth(n + 1, 77), chance(n + 1, 78);
+      const std::size_t whole = whole_lanes(n);
+      std::vector<std::uint64_t> history(whole), chance(whole + 1, 78);
+      std::vector<std::uint32_t> polar(whole + 1, 76), azimuth(whole + 1, 77);
       for (std::size_t i = 0; i < n; ++i) history[i] = (std::uint64_t{1} << 32) - 3 + i * 0x100000001ULL;
-      draw_many(stream, n, history.data(), 5, Purpose::flight, polar_azimuth.data(), chance.data());
+      draw_many(stream, n, history.data(), 5, Purpose::flight, polar.data(), azimuth.data(), chance.data());
       for (std::size_t i = 0; i < n; ++i) {
         const Words words = stream.draw(history[i], 5, Purpose::flight);
-        REQUIRE(static_cast<std::uint32_t>(polar_azimuth[i]) == words[0]);
-        REQUIRE(static_cast<std::uint32_t>(polar_azimuth[i] >> 32) == words[1]);
+        REQUIRE(polar[i] == words[0]);
+        REQUIRE(azimuth[i] == words[1]);
         REQUIRE(static_cast<double>(chance[i] >> 11) * 0x1p-53 == unit_fine(words[2], words[3]));
       }
-      REQUIRE(polar_azimuth[n] == 77);
-      REQUIRE(chance[n] == 78);
+      REQUIRE(polar[whole] == 76);
+      REQUIRE(azimuth[whole] == 77);
+      REQUIRE(chance[whole] == 78);
     }
   }
 }

@@ -1,0 +1,148 @@
+// In rooms of many facets each point looks its facet's numbers up in memory. Where the numbers of all facets fit into a
+// vector, looking up is one instruction for all its lanes; that is written with Highway.
+#include "walk/cell_finder.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "walk/cell_finder.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lichtmc::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::ScalableTag<float>;
+using Int = hn::Rebind<std::int32_t, Tag>;
+using Unsigned = hn::Rebind<std::uint32_t, Tag>;
+
+#if HWY_TARGET == HWY_SCALAR
+
+// Machines without vectors look up in memory.
+std::size_t MostFew() {
+  return 0;
+}
+void FindFew(const CellFinder::Few& /*few*/, std::size_t /*n*/, const std::uint32_t* /*facet*/, const float* /*s*/,
+             const float* /*t*/, std::uint32_t* /*cell*/, std::uint32_t* /*map*/) {}
+
+#else
+
+std::size_t MostFew() {
+  return hn::Lanes(Tag());
+}
+
+// Index of the column or row; the same as index() below.
+template <class V>
+HWY_INLINE hn::Vec<Int> Index(V at, hn::Vec<Int> last) {
+  const Tag d;
+  const Int di;
+  const auto low = hn::IfThenElseZero(hn::Gt(at, hn::Zero(d)), at);
+  return hn::Min(hn::ConvertTo(di, hn::Min(low, hn::Set(d, 2147483520.0F))), last);
+}
+
+void FindFew(const CellFinder::Few& few, std::size_t n, const std::uint32_t* HWY_RESTRICT facet,
+             const float* HWY_RESTRICT s, const float* HWY_RESTRICT t, std::uint32_t* HWY_RESTRICT cell,
+             std::uint32_t* HWY_RESTRICT map) {
+  const Tag d;
+  const Int di;
+  const Unsigned du;
+  const auto column_0 = hn::LoadU(d, few.column_0.data());
+  const auto column_s = hn::LoadU(d, few.column_s.data());
+  const auto column_t = hn::LoadU(d, few.column_t.data());
+  const auto row_0 = hn::LoadU(d, few.row_0.data());
+  const auto row_s = hn::LoadU(d, few.row_s.data());
+  const auto row_t = hn::LoadU(d, few.row_t.data());
+  const auto last_column = hn::LoadU(di, few.last_column.data());
+  const auto last_row = hn::LoadU(di, few.last_row.data());
+  const auto columns = hn::LoadU(di, few.columns.data());
+  const auto first_cell = hn::LoadU(di, few.first_cell.data());
+  const auto maps = hn::LoadU(du, few.map.data());
+  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const auto at_s = hn::LoadU(d, s + i);
+    const auto at_t = hn::LoadU(d, t + i);
+    const auto on = hn::LoadU(du, facet + i);
+    const auto of = [&](auto numbers) {
+      return hn::TableLookupLanes(numbers, hn::IndicesFromVec(hn::DFromV<decltype(numbers)>(), on));
+    };
+    const auto along = [&](auto at_0, auto along_s, auto along_t) {
+      return hn::Add(hn::Add(of(at_0), hn::Mul(at_s, of(along_s))), hn::Mul(at_t, of(along_t)));
+    };
+    const auto column = Index(along(column_0, column_s, column_t), of(last_column));
+    const auto row = Index(along(row_0, row_s, row_t), of(last_row));
+    const auto number = hn::Add(hn::Add(of(first_cell), hn::Mul(row, of(columns))), column);
+    hn::StoreU(hn::BitCast(du, number), du, cell + i);
+    hn::StoreU(of(maps), du, map + i);
+  }
+}
+
+#endif
+
+}  // namespace lichtmc::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lichtmc {
+
+HWY_EXPORT(MostFew);
+HWY_EXPORT(FindFew);
+
+namespace {
+
+LICHTMC_LANES void find_many(std::size_t n, const CellFinder::Row* LICHTMC_APART rows,
+                             const std::uint32_t* LICHTMC_APART facet, const float* LICHTMC_APART s,
+                             const float* LICHTMC_APART t, std::uint32_t* LICHTMC_APART cell,
+                             std::uint32_t* LICHTMC_APART map) {
+  // Beside the grid, or nowhere, counts as on its rim.
+  constexpr float most = 2147483520.0F;  // the largest float below 2³¹
+  const auto index = [](float at, std::int32_t last) {
+    const float low = at > 0.0F ? at : 0.0F;
+    const auto whole = static_cast<std::int32_t>(low < most ? low : most);
+    return whole < last ? whole : last;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const CellFinder::Row& at = rows[facet[i]];
+    const std::int32_t column = index(at.column_0 + s[i] * at.column_s + t[i] * at.column_t, at.last_column);
+    const std::int32_t row = index(at.row_0 + s[i] * at.row_s + t[i] * at.row_t, at.last_row);
+    cell[i] = static_cast<std::uint32_t>(at.first_cell + row * at.columns + column);
+    map[i] = at.map;
+  }
+}
+
+}  // namespace
+
+CellFinder::CellFinder(const std::vector<FacetCells>& facets) {
+  for (const FacetCells& facet : facets) {
+    rows_.push_back({static_cast<float>(facet.cell_0.x), static_cast<float>(facet.cell_s.x),
+                     static_cast<float>(facet.cell_t.x), static_cast<float>(facet.cell_0.y),
+                     static_cast<float>(facet.cell_s.y), static_cast<float>(facet.cell_t.y),
+                     static_cast<std::int32_t>(facet.columns - 1), static_cast<std::int32_t>(facet.rows - 1),
+                     static_cast<std::int32_t>(facet.columns), static_cast<std::int32_t>(facet.first_cell),
+                     facet.map});
+  }
+  for (std::size_t k = 0; k < rows_.size() && k < most_lanes; ++k) {
+    const Row& row = rows_[k];
+    few_.column_0[k] = row.column_0;
+    few_.column_s[k] = row.column_s;
+    few_.column_t[k] = row.column_t;
+    few_.row_0[k] = row.row_0;
+    few_.row_s[k] = row.row_s;
+    few_.row_t[k] = row.row_t;
+    few_.last_column[k] = row.last_column;
+    few_.last_row[k] = row.last_row;
+    few_.columns[k] = row.columns;
+    few_.first_cell[k] = row.first_cell;
+    few_.map[k] = row.map;
+  }
+}
+
+void CellFinder::find(std::size_t n, const std::uint32_t* facet, const float* s, const float* t,
+                      std::uint32_t* cell, std::uint32_t* map) const {
+  if (rows_.size() <= HWY_DYNAMIC_DISPATCH(MostFew)()) {
+    HWY_DYNAMIC_DISPATCH(FindFew)(few_, n, facet, s, t, cell, map);
+  } else {
+    find_many(n, rows_.data(), facet, s, t, cell, map);
+  }
+}
+
+}  // namespace lichtmc
+#endif
