@@ -38,11 +38,13 @@ struct Moments {
     squares += n == batch_histories ? square * for_full : (square * square_units + n / 2) / n;
   }
 
-  // Adds so many full batches with score 1.
-  void add_singles(std::uint64_t batches) {
-    sum += batches;
-    squares += static_cast<uint128>(batches) * (square_units / batch_histories);
+  // Adds full batches whose scores and squares of scores have these sums,
+  void add_full_batches(std::uint64_t scores, std::uint64_t squared) {
+    sum += scores;
+    squares += static_cast<uint128>(squared) * (square_units / batch_histories);
   }
+  // or of which each scored 1.
+  void add_singles(std::uint64_t batches) { add_full_batches(batches, batches); }
 
   void add(const Moments& other) {
     sum += other.sum;

@@ -13,7 +13,7 @@ Crew::Crew(const Scene& scene, const Settings& settings, const Control& control,
       reporter_(control, watch, Progress::Stage::tiles, settings.photons) {
   for (unsigned k = 0; k < threads; ++k) {
     workers_.push_back(
-        std::make_unique<Worker>(Worker{Tally(scene.tiles, scene.maps, hits_), make_walk(scene, settings)}));
+        std::make_unique<Worker>(Worker{Tally(scene.first_tile, hits_), make_walk(scene, settings)}));
   }
 }
 
@@ -42,7 +42,7 @@ void Crew::work(Worker& worker, std::uint64_t end) {
 }
 
 Totals Crew::totals() const {
-  Totals sum(scene_->tiles, scene_->maps, hits_);
+  Totals sum(scene_->first_tile.back(), scene_->first_tile.size() - 1, hits_);
   for (const auto& worker : workers_) worker->tally.add_to(sum);
   return sum;
 }

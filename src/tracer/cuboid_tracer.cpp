@@ -83,44 +83,56 @@ LICHTMC_LANES void trace_lanes(std::size_t n, const Three& start, const Three& d
 }
 
 // Points on faces from their own coordinates.
+struct OnFace {
+  float x, y, z;
+
+  OnFace(std::uint32_t face, float along_s, float along_t) {
+    const bool on_x = face < 2;
+    const bool on_z = face >= 4;
+    const float on = (face & 1U) != 0 ? 1.0F : 0.0F;
+    x = on_x ? on : (on_z ? along_s : along_t);
+    y = on_x ? along_s : (on_z ? along_t : on);
+    z = on_x ? along_t : (on_z ? on : along_s);
+  }
+};
+
 LICHTMC_LANES void depart_lanes(std::size_t n, const std::uint32_t* LICHTMC_APART facet, const float* LICHTMC_APART s,
                                 const float* LICHTMC_APART t, float* LICHTMC_APART x, float* LICHTMC_APART y,
                                 float* LICHTMC_APART z) {
   for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t from = facet[i];
-    const float along_s = s[i];
-    const float along_t = t[i];
+    const bool stays = facet[i] == no_facet;
+    const OnFace point(facet[i], s[i], t[i]);
     const float old_x = x[i];
     const float old_y = y[i];
     const float old_z = z[i];
-    const bool stays = from == no_facet;
-    const bool on_x = from < 2;
-    const bool on_z = from >= 4;
-    const float on = (from & 1U) != 0 ? 1.0F : 0.0F;
-    const float new_x = on_x ? on : (on_z ? along_s : along_t);
-    const float new_y = on_x ? along_s : (on_z ? along_t : on);
-    const float new_z = on_x ? along_t : (on_z ? on : along_s);
-    x[i] = stays ? old_x : new_x;
-    y[i] = stays ? old_y : new_y;
-    z[i] = stays ? old_z : new_z;
+    x[i] = stays ? old_x : point.x;
+    y[i] = stays ? old_y : point.y;
+    z[i] = stays ? old_z : point.z;
   }
 }
 
-// Directions off the faces into the cube by Lambert's law.
-LICHTMC_LANES void scatter_lanes(std::size_t n, const std::uint32_t* LICHTMC_APART facet,
-                                 const std::uint32_t* LICHTMC_APART polar, const std::uint32_t* LICHTMC_APART azimuth,
-                                 const std::array<float, 3>& unit,
+// Points on the faces, and directions off them into the cube by Lambert's law.
+LICHTMC_LANES void scatter_lanes(std::size_t n, const std::uint32_t* LICHTMC_APART facet, const float* LICHTMC_APART s,
+                                 const float* LICHTMC_APART t, const std::uint32_t* LICHTMC_APART polar,
+                                 const std::uint32_t* LICHTMC_APART azimuth, const std::array<float, 3>& unit,
+                                 float* LICHTMC_APART x, float* LICHTMC_APART y, float* LICHTMC_APART z,
                                  float* LICHTMC_APART dx, float* LICHTMC_APART dy, float* LICHTMC_APART dz) {
   const float unit_x = unit[0];
   const float unit_y = unit[1];
   const float unit_z = unit[2];
   for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t face = facet[i];
+    const OnFace point(face, s[i], t[i]);
+    x[i] = point.x;
+    y[i] = point.y;
+    z[i] = point.z;
     const glm::vec3 local = sample_lambert(polar[i], azimuth[i]);
-    const std::uint32_t axis = facet[i] >> 1;
-    const float inwards = (facet[i] & 1U) != 0 ? -local.z : local.z;
-    dx[i] = unit_x * (axis == 0 ? inwards : (axis == 1 ? local.y : local.x));
-    dy[i] = unit_y * (axis == 0 ? local.x : (axis == 1 ? inwards : local.y));
-    dz[i] = unit_z * (axis == 0 ? local.y : (axis == 1 ? local.x : inwards));
+    const bool on_x = face < 2;
+    const bool on_z = face >= 4;
+    const float inwards = (face & 1U) != 0 ? -local.z : local.z;
+    dx[i] = unit_x * (on_x ? inwards : (on_z ? local.x : local.y));
+    dy[i] = unit_y * (on_x ? local.x : (on_z ? local.y : inwards));
+    dz[i] = unit_z * (on_x ? local.y : (on_z ? inwards : local.x));
   }
 }
 
@@ -159,7 +171,8 @@ class CuboidTracer final : public Tracer {
   }
 
   void scatter(Rays& rays, const std::uint32_t* polar, const std::uint32_t* azimuth, float* cosines) const override {
-    scatter_lanes(whole_lanes(rays.size), rays.facet.data(), polar, azimuth, unit_, rays.dx.data(), rays.dy.data(), rays.dz.data());
+    scatter_lanes(whole_lanes(rays.size), rays.facet.data(), rays.s.data(), rays.t.data(), polar, azimuth, unit_,
+                  rays.x.data(), rays.y.data(), rays.z.data(), rays.dx.data(), rays.dy.data(), rays.dz.data());
     for (std::size_t i = 0; cosines != nullptr && i < rays.size; ++i)
       cosines[i] = sample_lambert(polar[i], 0).z;
   }

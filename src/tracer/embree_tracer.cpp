@@ -153,6 +153,7 @@ class EmbreeTracer final : public Tracer {
   }
 
   void scatter(Rays& rays, const std::uint32_t* polar, const std::uint32_t* azimuth, float* cosines) const override {
+    depart(rays);
     for (std::size_t i = 0; i < rays.size; ++i) {
       const glm::vec3 local = sample_lambert(polar[i], azimuth[i]);
       rays.set_direction(i, direction_from(facets_[rays.facet[i]], rays.behind[i] != 0, local));

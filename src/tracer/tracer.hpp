@@ -68,8 +68,8 @@ class Tracer {
   // they are.
   virtual void depart(Rays& rays) const = 0;
 
-  // Sends flights off the facets they stand on by Lambert's law, on the side named: sets dx, dy, dz from two random
-  // words each. cosines: of the angles to the normals, unless null.
+  // Sends flights off the facets they have landed on by Lambert's law, on the side named: departs, and sets dx, dy, dz
+  // from two random words each. cosines: of the angles to the normals, unless null.
   virtual void scatter(Rays& rays, const std::uint32_t* polar, const std::uint32_t* azimuth, float* cosines) const = 0;
 
   virtual Start start(const glm::dvec3& world_point_m) const = 0;

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "walk/tally.hpp"
+#include "walk/totals.hpp"
 
 namespace lichtmc {
 

@@ -11,7 +11,7 @@
 //   land(wave)                all photons have landed
 //   watches_absorption        constant: whether absorb() is to be called
 //   absorb(wave, i, ρ)        photon i ends on its surface
-//   reflect(wave, flight)     all photons left stand on their surfaces, about to fly on
+//   reflect(wave, flight)     all photons left have been reflected and are about to fly on
 //   cut_off(wave, i)          the walk ends for photon i
 //   cosines()                 where to put the cosines of the angles to the normals that photons fly off at, or null
 //   move(wave, from, to)      photon `from` takes place `to` of the wave, which itself has moved what flying on needs
@@ -63,11 +63,10 @@ class Kernel {
       draw(flight, goal);
       goal.score(wave_);
       survive_or_be_absorbed(goal);
-      scene_->tracer->depart(wave_.rays);
+      scatter(goal);
       goal.reflect(wave_, flight);
       const bool abandoned = flight % abandon_interval == 0 && abandon() && flight > patience;
       if (abandoned || flight == max_flights_) cut_off(goal);
-      scatter(goal);
     }
   }
 

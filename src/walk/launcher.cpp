@@ -29,40 +29,34 @@ glm::dvec3 sample(const SpotEmitter& law, double u, double turns) {
 }
 
 // 1 − cos θ = −expm1(ln u · share), share = 1/(m + 1): generalized Lambert emitters (see directions.hpp).
-LICHTMC_LANES void lambert_versines(std::size_t n, const std::uint32_t* LICHTMC_APART words, double share,
-                                    double* LICHTMC_APART versine) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const double u = (static_cast<double>(static_cast<std::int32_t>(words[i] ^ 0x80000000U)) + 2147483648.5) * 0x1p-32;
-    versine[i] = -lane_expm1(share * lane_log(u));
-  }
+LICHTMC_LANES void lambert_versines(std::size_t n, const std::uint32_t* LICHTMC_APART words, float share,
+                                    float* LICHTMC_APART versine) {
+  for (std::size_t i = 0; i < n; ++i) versine[i] = -lane_expm1(share * lane_log_unit(words[i]));
 }
 
 LICHTMC_LANES void isotropic_versines(std::size_t n, const std::uint32_t* LICHTMC_APART words,
-                                      double* LICHTMC_APART versine) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const double u = (static_cast<double>(static_cast<std::int32_t>(words[i] ^ 0x80000000U)) + 2147483648.5) * 0x1p-32;
-    versine[i] = 2.0 * u;
-  }
+                                      float* LICHTMC_APART versine) {
+  for (std::size_t i = 0; i < n; ++i) versine[i] = (static_cast<float>(words[i]) + 0.5F) * 0x1p-31F;
 }
 
 // Directions at these angles to the third axis of a frame, with uniform azimuth.
-LICHTMC_LANES void aim(std::size_t n, const double* LICHTMC_APART versine, const std::uint32_t* LICHTMC_APART words,
-                       const glm::dmat3& frame, float* LICHTMC_APART dx, float* LICHTMC_APART dy,
+LICHTMC_LANES void aim(std::size_t n, const float* LICHTMC_APART versine, const std::uint32_t* LICHTMC_APART words,
+                       const glm::mat3& frame, float* LICHTMC_APART dx, float* LICHTMC_APART dy,
                        float* LICHTMC_APART dz) {
-  const glm::dvec3 a = frame[0];
-  const glm::dvec3 b = frame[1];
-  const glm::dvec3 c = frame[2];
+  const glm::vec3 a = frame[0];
+  const glm::vec3 b = frame[1];
+  const glm::vec3 c = frame[2];
   for (std::size_t i = 0; i < n; ++i) {
     float sine = 0.0F;
     float cosine = 0.0F;
     sine_cosine(static_cast<float>(words[i]) * 0x1p-32F, sine, cosine);
-    const double across = std::sqrt(versine[i] * (2.0 - versine[i]));
-    const double x = across * double{cosine};
-    const double y = across * double{sine};
-    const double z = 1.0 - versine[i];
-    dx[i] = static_cast<float>(x * a.x + y * b.x + z * c.x);
-    dy[i] = static_cast<float>(x * a.y + y * b.y + z * c.y);
-    dz[i] = static_cast<float>(x * a.z + y * b.z + z * c.z);
+    const float across = std::sqrt(versine[i] * (2.0F - versine[i]));
+    const float x = across * cosine;
+    const float y = across * sine;
+    const float z = 1.0F - versine[i];
+    dx[i] = x * a.x + y * b.x + z * c.x;
+    dy[i] = x * a.y + y * b.y + z * c.y;
+    dz[i] = x * a.z + y * b.z + z * c.z;
   }
 }
 
@@ -144,16 +138,16 @@ void Launcher::launch_from(const PointSource& source, const Stream& stream, std:
   std::array<std::uint32_t, batch_histories> polar;
   std::array<std::uint32_t, batch_histories> azimuth;
   std::array<std::uint64_t, batch_histories> history;
-  std::array<double, batch_histories> versine;
+  std::array<float, batch_histories> versine;
   for (std::uint32_t i = 0; i < batch_histories; ++i) history[i] = first + i;
   std::array<std::uint64_t, batch_histories> rest;
   draw_many(stream, n, history.data(), 0, Purpose::emission, polar.data(), azimuth.data(), rest.data());
   if (const auto* lambert = std::get_if<LambertEmitter>(&source.law)) {
-    lambert_versines(whole_lanes(n), polar.data(), 1.0 / (lambert->exponent + 1.0), versine.data());
+    lambert_versines(whole_lanes(n), polar.data(), static_cast<float>(1.0 / (lambert->exponent + 1.0)), versine.data());
   } else {
     isotropic_versines(whole_lanes(n), polar.data(), versine.data());
   }
-  aim(whole_lanes(n), versine.data(), azimuth.data(), source.to_tracer, rays.dx.data(), rays.dy.data(), rays.dz.data());
+  aim(whole_lanes(n), versine.data(), azimuth.data(), glm::mat3(source.to_tracer), rays.dx.data(), rays.dy.data(), rays.dz.data());
   std::fill_n(rays.facet.begin(), n, no_facet);
   std::fill_n(rays.x.begin(), n, source.start.point.x);
   std::fill_n(rays.y.begin(), n, source.start.point.y);

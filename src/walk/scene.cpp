@@ -93,8 +93,10 @@ std::vector<MapPlace> places_on_maps(const Room& room, const Tracer& tracer) {
 
 Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make_tracer(room, tiling, asked, engine)) {
   surfaces.resize(room.surfaces.size());
-  tiles = tiling.tiles.size();
-  maps = tiling.maps.size();
+  for (std::size_t m = 0, n = 0; m <= tiling.maps.size(); ++m) {
+    while (n < tiling.tiles.size() && tiling.tiles[n].map < m) ++n;
+    first_tile.push_back(static_cast<std::uint32_t>(n));
+  }
   for (std::size_t k = 0; k < surfaces.size(); ++k) surfaces[k].reflectance = room.surfaces[k].reflectance;
   for (std::size_t m = 0; m < tiling.maps.size(); ++m) {
     const TileMap& map = tiling.maps[m];

@@ -51,8 +51,7 @@ struct Scene {
   std::unique_ptr<CellFinder> cells;
   bool cells_are_tiles = false;    // tile_of_cell[k] = k: rooms of rectangles
   bool any_tiles_to_back = false;  // some surface has tiles of its own on its back
-  std::size_t tiles = 0;
-  std::size_t maps = 0;
+  std::vector<std::uint32_t> first_tile;  // of each tile map; one number more, that of all tiles
   bool reflects_all_somewhere = false;  // a surface, or a place of one, has ρ = 1
   std::unique_ptr<Launcher> launcher;
 

@@ -1,0 +1,60 @@
+// What batches add up to: scores per tile and per tile map, and where the photons ended.
+//
+// Scores are integers: 1 for an impact of an analog photon, the weight in units of 2⁻²⁴ for a weighted one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/wide.hpp"
+#include "chance/moments.hpp"
+#include "tracer/tracer.hpp"
+
+namespace lichtmc {
+
+// Units of a weight of 1. A score is rounded by at most half a unit, 3·10⁻⁸. A batch's sum stays below 2⁶⁴ for up to
+// 10⁹ impacts per history.
+inline constexpr double weight_units = 0x1p24;
+
+// Whether a tile's hits are counted apart from its score.
+enum class Hits {
+  are_the_score,  // every hit scores 1
+  apart,
+};
+
+// Where photons ended, in the units of the score. Emitted = absorbed + escaped + residual + lost, exactly.
+struct Ends {
+  int128 absorbed = 0;
+  int128 escaped = 0;
+  int128 residual = 0;  // cut off; roulette: removed less added, may be negative
+  int128 lost = 0;
+  std::uint64_t lost_histories = 0;
+
+  void add(const Ends& other);
+};
+
+// What concerns all tiles together.
+struct Counts {
+  std::uint64_t histories = 0;
+  std::uint64_t impacts = 0;
+  TraceCount traced;
+  Ends ends;
+  Moments incident;
+
+  void add(const Counts& other);
+};
+
+// Everything that batches add up to. Adding two is exact: the order does not matter.
+struct Totals : Counts {
+  Totals(std::size_t tiles, std::size_t maps, Hits hits);
+
+  std::vector<Moments> tiles;       // per tile
+  std::vector<std::uint64_t> hits;  // per tile; empty where hits are the score
+  std::vector<Moments> maps;        // per tile map
+  std::vector<uint128> behind;      // per tile map: score that came from behind
+
+  void add(const Totals& other);
+};
+
+}  // namespace lichtmc
