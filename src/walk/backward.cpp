@@ -112,6 +112,7 @@ class ReceiverGoal {
   void score(const Wave& /*wave*/) {}
 
   static constexpr bool watches_absorption = true;
+  static constexpr bool in_lanes = false;
   // Variant 3: only the direct light of the last surface survived scores.
   void absorb(const Wave& wave, std::size_t i, double reflectance) {
     if constexpr (!Policy::scores_every_impact) found_[i] += direct_[i] / (1.0 - reflectance);

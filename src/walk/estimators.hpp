@@ -5,20 +5,24 @@
 //
 // All of them walk the same chain from surface to surface; ρ is the reflectance of the surface that was hit, `chance`
 // uniform in [0, 1). survive() says whether the photon flies on and books in `ends` where its power went, in the units
-// of the score.
+// of the score. choose() does the same for a whole wave in a scene without maps, with the same result.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "walk/scene.hpp"
+#include "walk/survivors.hpp"
 #include "walk/totals.hpp"
+#include "walk/weights.hpp"
 
 namespace lichtmc {
 
 // Variant 2: the photon survives with probability ρ; every impact scores 1.
 struct CollisionPolicy {
-  static constexpr bool analog = true;  // whether a photon survives depends on ρ alone
+  static constexpr bool chooses_in_lanes = true;  // has choose()
   static constexpr Hits hits = Hits::are_the_score;
   static constexpr bool scores_every_impact = true;
   static constexpr bool carries_weight = false;
@@ -29,7 +33,10 @@ struct CollisionPolicy {
     ends.absorbed += 1;
     return false;
   }
-  static void absorbed(std::size_t photons, Ends& ends) { ends.absorbed += static_cast<int128>(photons); }
+  static void choose(const Scene& scene, Wave& wave, Ends& ends, Survivors& survivors) {
+    choose_by_chance(wave, scene.survival_of_facet.data(), survivors);
+    ends.absorbed += static_cast<int128>(wave.rays.size - survivors.count);
+  }
 };
 
 // Variant 3: as variant 2, but only the last impact counts. It stands for 1/(1 − ρ) impacts, a factor that belongs to
@@ -41,7 +48,7 @@ struct AbsorptionPolicy : CollisionPolicy {
 // Variant 3 where ρ changes from point to point: the factor belongs to the place, so it is scored there. The power that
 // ends stays that of a photon.
 struct MappedAbsorptionPolicy {
-  static constexpr bool analog = false;
+  static constexpr bool chooses_in_lanes = false;
   static constexpr Hits hits = Hits::apart;
   static constexpr bool scores_every_impact = false;
   static constexpr bool carries_weight = true;
@@ -58,7 +65,7 @@ struct MappedAbsorptionPolicy {
 // Variant 1: the photon is never absorbed, its weight falls by ρ at every impact. The units of its weight that are gone
 // have been absorbed; rounding the weight itself, not what is gone, keeps the balance exact.
 struct WeightPolicy {
-  static constexpr bool analog = false;
+  static constexpr bool chooses_in_lanes = true;
   static constexpr Hits hits = Hits::apart;
   static constexpr bool scores_every_impact = true;
   static constexpr bool carries_weight = true;
@@ -70,6 +77,14 @@ struct WeightPolicy {
     const double reflected = weight * reflectance;
     ends.absorbed += signed_units(weight) - signed_units(reflected);
     weight = reflected;
+  }
+  // The same for a wave, all of which survives so far.
+  static WeightLoss reflect_all(const Scene& scene, Wave& wave, Ends& ends, Survivors& survivors) {
+    const WeightLoss loss = reflect_weights(wave.rays.size, wave.rays.facet.data(), scene.reflectance_of_facet.data(),
+                                            wave.weight.data());
+    ends.absorbed += loss.absorbed;
+    survivors.count = wave.rays.size;
+    return loss;
   }
 };
 
@@ -89,6 +104,12 @@ struct RouletteWeightPolicy : WeightPolicy {
     weight = restored;
     return true;
   }
+  static void choose(const Scene& scene, Wave& wave, Ends& ends, Survivors& survivors) {
+    if (reflect_all(scene, wave, ends, survivors).lightest >= threshold) return;
+    std::array<std::uint8_t, batch_histories> marks;
+    ends.residual += play_roulette(wave.rays.size, wave.chance.data(), threshold, restored, wave.weight.data(), marks.data());
+    choose_marked(marks.data(), wave.rays.size, survivors);
+  }
 };
 
 // Variant 1 cut off after a fixed number of flights by the kernel: what weight is left then is the residual.
@@ -97,6 +118,12 @@ struct TruncatedWeightPolicy : WeightPolicy {
     absorb(reflectance, weight, ends);
     if (units(weight) > 0) return true;
     return false;
+  }
+  static void choose(const Scene& scene, Wave& wave, Ends& ends, Survivors& survivors) {
+    if (units(reflect_all(scene, wave, ends, survivors).lightest) > 0) return;
+    std::array<std::uint8_t, batch_histories> marks;
+    for (std::size_t i = 0; i < wave.rays.size; ++i) marks[i] = units(wave.weight[i]) > 0 ? 1 : 0;
+    choose_marked(marks.data(), wave.rays.size, survivors);
   }
 };
 

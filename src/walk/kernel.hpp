@@ -9,8 +9,11 @@
 //   misses(), traced(), ends()
 //   escape(wave, i)           photon i met no surface
 //   land(wave)                all photons have landed
+//   score(wave)               all photons score; what land() asked of memory has had time to come
 //   watches_absorption        constant: whether absorb() is to be called
 //   absorb(wave, i, ρ)        photon i ends on its surface
+//   in_lanes                  constant: photons have nothing that move() must move, and absorb_all() may replace absorb()
+//   absorb_all(wave, at, n)   n photons, at the places `at`, end on their surfaces
 //   reflect(wave, flight)     all photons left have been reflected and are about to fly on
 //   cut_off(wave, i)          the walk ends for photon i
 //   cosines()                 where to put the cosines of the angles to the normals that photons fly off at, or null
@@ -25,6 +28,7 @@
 #include "chance/draw_many.hpp"
 #include "chance/stream.hpp"
 #include "walk/scene.hpp"
+#include "walk/survivors.hpp"
 #include "walk/wave.hpp"
 
 namespace lichtmc {
@@ -120,18 +124,31 @@ class Kernel {
 
   // The surface that was hit decides what becomes of the photon; survivors close ranks.
   void survive_or_be_absorbed(Goal& goal) {
-    if constexpr (Policy::analog && Reflectance::of_facet && !Goal::watches_absorption) {
-      survive_by_facet(goal);
+    if constexpr (Goal::in_lanes && Reflectance::of_facet) {
+      survive_together(goal);
     } else {
       survive_one_by_one(goal);
     }
   }
 
-  // As below, without a branch.
-  void survive_by_facet(Goal& goal) {
-    const std::size_t kept = close_ranks(wave_, scene_->survival_of_facet.data());
-    Policy::absorbed(wave_.rays.size - kept, goal.ends());
-    wave_.rays.size = kept;
+  // As below, several photons at a time.
+  void survive_together(Goal& goal) {
+    const std::size_t n = wave_.rays.size;
+    Policy::choose(*scene_, wave_, goal.ends(), survivors_);
+    if (survivors_.count == n) return;
+    if constexpr (Goal::watches_absorption) {
+      list_ended(n, survivors_);
+      goal.absorb_all(wave_, survivors_.ended_at.data(), n - survivors_.count);
+    }
+    close_ranks(wave_, survivors_);
+    if constexpr (Policy::carries_weight) {
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < n; ++i) {
+        wave_.weight[kept] = wave_.weight[i];
+        kept += survivors_.sets[i / 8] >> (i % 8) & 1U;
+      }
+    }
+    wave_.rays.size = survivors_.count;
   }
 
   void survive_one_by_one(Goal& goal) {
@@ -171,6 +188,7 @@ class Kernel {
   Stream stream_;
   std::uint32_t max_flights_;
   Wave wave_;
+  Survivors survivors_;
 };
 
 }  // namespace lichtmc

@@ -120,6 +120,7 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
   std::vector<FacetCells> cells_of_facet;
   for (const Facet& facet : tracer->facets()) {
     const SurfaceOptics& surface = surfaces[facet.surface];
+    reflectance_of_facet.push_back(surface.reflectance);
     // unit_fine() counts in 2⁻⁵³: below this count are as many of its values as below ρ.
     survival_of_facet.push_back(static_cast<std::int64_t>(std::ceil(surface.reflectance * 0x1p53)));
     cells_of_facet.push_back({facet.cell_0, facet.cell_s, facet.cell_t, surface.columns, surface.rows,

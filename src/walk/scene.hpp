@@ -47,6 +47,7 @@ struct Scene {
   std::vector<SurfaceOptics> surfaces;
   std::vector<MapPlace> map_places;         // per facet; empty where no surface has a map
   std::vector<std::uint32_t> tile_of_cell;  // every cell has a tile, empty ones the nearest
+  std::vector<double> reflectance_of_facet;      // of the facet's surface
   std::vector<std::int64_t> survival_of_facet;  // ρ of the facet's surface in units of 2⁻⁵³, rounded up
   std::unique_ptr<CellFinder> cells;
   bool cells_are_tiles = false;    // tile_of_cell[k] = k: rooms of rectangles

@@ -40,6 +40,15 @@ class Tally {
       std::get<ManyTiles>(batch_).score_each(tiles, maps, n, totals_);
     }
   }
+  // units[i] (> 0) for impact i, where hits are counted apart.
+  void score_each(const std::uint32_t* tiles, const std::uint32_t* maps, const std::uint32_t* units, std::size_t n) {
+    if (auto* few = std::get_if<FewTiles>(&batch_)) {
+      for (std::size_t i = 0; i < n; ++i) few->score(tiles[i], units[i]);
+    } else {
+      auto& many = std::get<ManyTiles>(batch_);
+      for (std::size_t i = 0; i < n; ++i) many.score(tiles[i], maps[i], units[i], totals_);
+    }
+  }
   void score_behind(std::uint32_t map, std::uint64_t units) { totals_.behind[map] += units; }
 
   // Ends a batch of n histories (1 … batch_histories).

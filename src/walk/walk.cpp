@@ -14,7 +14,11 @@ template <class Policy>
 class TileGoal {
  public:
   TileGoal(const Scene& scene, const Stream& stream, Direct direct)
-      : scene_(&scene), stream_(stream), first_scored_(direct == Direct::analytic ? 2 : 1), tile_(batch_histories), map_(batch_histories) {}
+      : scene_(&scene), stream_(stream), first_scored_(direct == Direct::analytic ? 2 : 1), tile_(batch_histories),
+        map_(batch_histories),
+        units_(batch_histories),
+        ended_tile_(batch_histories),
+        ended_map_(batch_histories) {}
 
   void begin(std::uint64_t first, Tally& tally) {
     first_ = first;
@@ -55,21 +59,35 @@ class TileGoal {
   void score(const Wave& wave) {
     if constexpr (Policy::scores_every_impact) {
       if (flight_ < first_scored_) return;
-      const Rays& rays = wave.rays;
-      if constexpr (Policy::analog) {
-        tally_->score_each(tile_.data(), map_.data(), rays.size);
-        score_from_behind(rays);
+      const std::size_t n = wave.rays.size;
+      if constexpr (Policy::hits == Hits::are_the_score) {
+        tally_->score_each(tile_.data(), map_.data(), n);
       } else {
-        for (std::size_t i = 0; i < rays.size; ++i) score(wave, i);
+        units_of_each(n, wave.weight.data(), units_.data());
+        tally_->score_each(tile_.data(), map_.data(), units_.data(), n);
       }
+      score_from_behind(wave);
     }
   }
 
   static constexpr bool watches_absorption = !Policy::scores_every_impact;
+  static constexpr bool in_lanes = Policy::chooses_in_lanes;
   void absorb(const Wave& wave, std::size_t i, double /*reflectance*/) {
     if constexpr (!Policy::scores_every_impact) {
-      if (flight_ >= first_scored_) score(wave, i);
+      if (flight_ < first_scored_) return;
+      const std::uint64_t units = Policy::units(wave.weight[i]);
+      tally_->score(tile_[i], map_[i], units);
+      if (wave.rays.behind[i] != 0) tally_->score_behind(map_[i], units);
     }
+  }
+  void absorb_all(const Wave& wave, const std::uint32_t* at, std::size_t n) {
+    if (flight_ < first_scored_) return;
+    for (std::size_t k = 0; k < n; ++k) {
+      ended_tile_[k] = tile_[at[k]];
+      ended_map_[k] = map_[at[k]];
+      if (wave.rays.behind[at[k]] != 0) tally_->score_behind(map_[at[k]], 1);
+    }
+    tally_->score_each(ended_tile_.data(), ended_map_.data(), n);
   }
   void reflect(const Wave& /*wave*/, std::uint32_t /*flight*/) {}
 
@@ -82,18 +100,14 @@ class TileGoal {
 
  private:
   // Most rooms are hit on their fronts alone.
-  void score_from_behind(const Rays& rays) {
+  void score_from_behind(const Wave& wave) {
+    const Rays& rays = wave.rays;
     std::uint32_t any = 0;
     for (std::size_t i = 0; i < rays.size; ++i) any |= rays.behind[i];
     if (any == 0) return;
     for (std::size_t i = 0; i < rays.size; ++i) {
-      if (rays.behind[i] != 0) tally_->score_behind(map_[i], 1);
+      if (rays.behind[i] != 0) tally_->score_behind(map_[i], Policy::units(wave.weight[i]));
     }
-  }
-  void score(const Wave& wave, std::size_t i) {
-    const std::uint64_t units = Policy::units(wave.weight[i]);
-    tally_->score(tile_[i], map_[i], units);
-    if (wave.rays.behind[i] != 0) tally_->score_behind(map_[i], units);
   }
 
   const Scene* scene_;
@@ -102,6 +116,9 @@ class TileGoal {
   std::uint32_t flight_ = 0;
   std::vector<std::uint32_t> tile_;  // where the flight ended
   std::vector<std::uint32_t> map_;   // the tile's map
+  std::vector<std::uint32_t> units_;
+  std::vector<std::uint32_t> ended_tile_;
+  std::vector<std::uint32_t> ended_map_;
   std::uint64_t first_ = 0;
   Tally* tally_ = nullptr;
 };

@@ -42,8 +42,4 @@ struct Wave {
   }
 };
 
-// Of the photons in flight those survive whose chance (see draw_many()), counted in 2⁻⁵³, is below the survival of the
-// facet that they are on. They close ranks, in their order, with what the next flight needs of them; returns how many.
-std::size_t close_ranks(Wave& wave, const std::int64_t* survival_of_facet);
-
 }  // namespace lichtmc
