@@ -4,7 +4,7 @@
 // compile time: what becomes of a photon at a surface (Policy, see estimators.hpp), where ρ comes from (Reflectance),
 // and what it is all for (Goal): where photons start and what is scored. A Goal has
 //
-//   start(wave, n)            sets the first n photons and how they start
+//   start(wave, n)            sets how the first n photons start; may put them into another order
 //   histories(wave)           sets the numbers of the photons' histories, which select their random words
 //   misses(), traced(), ends()
 //   escape(wave, i)           photon i met no surface

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -76,6 +77,9 @@ Launcher::Launcher(const Room& room, const Tracer& tracer) : facets_(&tracer.fac
   const double largest = *std::max_element(powers.begin(), powers.end());
   for (double& power : powers) power /= largest;
   powers_up_to_ = cumulative(powers);
+  const auto shines = [](double power) { return power > 0.0; };
+  if (std::count_if(powers.begin(), powers.end(), shines) == 1)
+    only_source_ = static_cast<std::size_t>(std::find_if(powers.begin(), powers.end(), shines) - powers.begin());
 }
 
 Launcher::PointSource Launcher::point_source(const Emitter& emitter, const Tracer& tracer) {
@@ -120,43 +124,105 @@ void Launcher::launch(const Stream& stream, std::uint64_t history, Rays& rays, s
   const Words words = stream.draw(history, 0, Purpose::emission);
   const auto& source = sources_[choose(powers_up_to_, unit_fine(words[2], words[3]))];
   if (const auto* point = std::get_if<PointSource>(&source)) {
-    start_at(*point, words, rays, i);
+    start_at(*point, words[0], words[1], rays, i);
   } else {
-    start_on(std::get<SurfaceSource>(source), words, stream.draw(history, 0, Purpose::place), rays, i);
+    const auto& surface = std::get<SurfaceSource>(source);
+    const glm::dvec3 local = sample_generalized_lambert(surface.exponent, unit_open(words[0]), unit_open(words[1]));
+    start_on(surface, glm::vec3(local), stream.draw(history, 0, Purpose::place), rays, i);
   }
 }
 
-void Launcher::launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays) const {
-  const PointSource* only = sources_.size() == 1 ? std::get_if<PointSource>(&sources_.front()) : nullptr;
-  if (only != nullptr && only->start.steps.empty() && !std::holds_alternative<SpotEmitter>(only->law))
-    return launch_from(*only, stream, first, n, rays);
-  for (std::uint32_t i = 0; i < n; ++i) launch(stream, first + i, rays, i);
-}
-
-void Launcher::launch_from(const PointSource& source, const Stream& stream, std::uint64_t first, std::uint32_t n,
-                           Rays& rays) const {
+// Random words of a batch's launches, in the order of the photons in the wave.
+struct Launcher::Launches {
   std::array<std::uint32_t, batch_histories> polar;
   std::array<std::uint32_t, batch_histories> azimuth;
-  std::array<std::uint64_t, batch_histories> history;
+  std::array<std::uint64_t, batch_histories> chance;
   std::array<float, batch_histories> versine;
-  for (std::uint32_t i = 0; i < batch_histories; ++i) history[i] = first + i;
-  std::array<std::uint64_t, batch_histories> rest;
-  draw_many(stream, n, history.data(), 0, Purpose::emission, polar.data(), azimuth.data(), rest.data());
-  if (const auto* lambert = std::get_if<LambertEmitter>(&source.law)) {
-    lambert_versines(whole_lanes(n), polar.data(), static_cast<float>(1.0 / (lambert->exponent + 1.0)), versine.data());
-  } else {
-    isotropic_versines(whole_lanes(n), polar.data(), versine.data());
+};
+
+void Launcher::launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays,
+                          std::uint32_t* photon) const {
+  std::array<std::uint64_t, batch_histories> history;
+  for (std::uint32_t i = 0; i < batch_histories; ++i) {
+    history[i] = first + i;
+    photon[i] = i;
   }
-  aim(whole_lanes(n), versine.data(), azimuth.data(), glm::mat3(source.to_tracer), rays.dx.data(), rays.dy.data(), rays.dz.data());
-  std::fill_n(rays.facet.begin(), n, no_facet);
-  std::fill_n(rays.x.begin(), n, source.start.point.x);
-  std::fill_n(rays.y.begin(), n, source.start.point.y);
-  std::fill_n(rays.z.begin(), n, source.start.point.z);
+  Launches launches;
+  draw_many(stream, n, history.data(), 0, Purpose::emission, launches.polar.data(), launches.azimuth.data(),
+            launches.chance.data());
+  if (only_source_) return launch_from(*only_source_, launches, 0, n, stream, first, rays, photon);
+
+  // Photons of one emitter stand together in the wave.
+  const std::vector<std::uint32_t> ends = sort_by_source(n, launches, photon);
+  std::uint32_t begin = 0;
+  for (std::size_t k = 0; k < sources_.size(); ++k) {
+    if (ends[k] > begin) launch_from(k, launches, begin, ends[k], stream, first, rays, photon);
+    begin = ends[k];
+  }
 }
 
-void Launcher::start_at(const PointSource& source, const Words& words, Rays& rays, std::size_t i) const {
-  const double u = unit_open(words[0]);
-  const double turns = unit_open(words[1]);
+// Chooses each photon's source and puts photons in the order of their sources; returns where each source's end.
+std::vector<std::uint32_t> Launcher::sort_by_source(std::uint32_t n, Launches& launches, std::uint32_t* photon) const {
+  std::vector<std::uint32_t> place(sources_.size());
+  std::array<std::uint32_t, batch_histories> source;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    source[i] = static_cast<std::uint32_t>(
+        choose(powers_up_to_, static_cast<double>(launches.chance[i] >> 11) * 0x1p-53));
+    ++place[source[i]];
+  }
+  std::uint32_t sum = 0;
+  for (std::uint32_t& of_source : place) sum += std::exchange(of_source, sum);
+  const auto polar = launches.polar;
+  const auto azimuth = launches.azimuth;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t to = place[source[i]]++;
+    photon[to] = i;
+    launches.polar[to] = polar[i];
+    launches.azimuth[to] = azimuth[i];
+  }
+  return place;
+}
+
+void Launcher::launch_from(std::size_t k, Launches& launches, std::uint32_t begin, std::uint32_t end,
+                           const Stream& stream, std::uint64_t first, Rays& rays, const std::uint32_t* photon) const {
+  const std::size_t n = end - begin;
+  const std::uint32_t* polar = &launches.polar[begin];
+  const std::uint32_t* azimuth = &launches.azimuth[begin];
+  float* versine = &launches.versine[begin];
+  const auto share = [](double exponent) { return static_cast<float>(1.0 / (exponent + 1.0)); };
+  if (const auto* surface = std::get_if<SurfaceSource>(&sources_[k])) {
+    lambert_versines(n, polar, share(surface->exponent), versine);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      float sine = 0.0F;
+      float cosine = 0.0F;
+      sine_cosine(static_cast<float>(launches.azimuth[i]) * 0x1p-32F, sine, cosine);
+      const float across = std::sqrt(launches.versine[i] * (2.0F - launches.versine[i]));
+      start_on(*surface, {across * cosine, across * sine, 1.0F - launches.versine[i]},
+               stream.draw(first + photon[i], 0, Purpose::place), rays, i);
+    }
+    return;
+  }
+  const auto& point = std::get<PointSource>(sources_[k]);
+  if (!point.start.steps.empty() || std::holds_alternative<SpotEmitter>(point.law)) {
+    for (std::uint32_t i = begin; i < end; ++i) start_at(point, launches.polar[i], launches.azimuth[i], rays, i);
+    return;
+  }
+  if (const auto* lambert = std::get_if<LambertEmitter>(&point.law)) {
+    lambert_versines(n, polar, share(lambert->exponent), versine);
+  } else {
+    isotropic_versines(n, polar, versine);
+  }
+  aim(n, versine, azimuth, glm::mat3(point.to_tracer), &rays.dx[begin], &rays.dy[begin], &rays.dz[begin]);
+  std::fill_n(&rays.facet[begin], n, no_facet);
+  std::fill_n(&rays.x[begin], n, point.start.point.x);
+  std::fill_n(&rays.y[begin], n, point.start.point.y);
+  std::fill_n(&rays.z[begin], n, point.start.point.z);
+}
+
+void Launcher::start_at(const PointSource& source, std::uint32_t polar, std::uint32_t azimuth, Rays& rays,
+                        std::size_t i) const {
+  const double u = unit_open(polar);
+  const double turns = unit_open(azimuth);
   const glm::dvec3 local = std::visit([&](const auto& law) { return sample(law, u, turns); }, source.law);
   const glm::vec3 direction(source.to_tracer * local);
   glm::vec3 point = source.start.point;
@@ -167,7 +233,7 @@ void Launcher::start_at(const PointSource& source, const Words& words, Rays& ray
   rays.set_direction(i, direction);
 }
 
-void Launcher::start_on(const SurfaceSource& source, const Words& words, const Words& place, Rays& rays,
+void Launcher::start_on(const SurfaceSource& source, const glm::vec3& local, const Words& place, Rays& rays,
                         std::size_t i) const {
   const std::size_t n = choose(source.areas_up_to, unit_fine(place[0], place[1]));
   // Uniform on the triangle: 1 − √u is the share of the way from the side opposite a corner, the rest is uniform along
@@ -181,8 +247,7 @@ void Launcher::start_on(const SurfaceSource& source, const Words& words, const W
   rays.s[i] = st.x;
   rays.t[i] = st.y;
   rays.behind[i] = 0;
-  const glm::dvec3 local = sample_generalized_lambert(source.exponent, unit_open(words[0]), unit_open(words[1]));
-  rays.set_direction(i, direction_from((*facets_)[triangle.facet], false, glm::vec3(local)));
+  rays.set_direction(i, direction_from((*facets_)[triangle.facet], false, local));
 }
 
 }  // namespace lichtmc

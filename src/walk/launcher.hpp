@@ -26,9 +26,9 @@ class Launcher {
   // facet it leaves.
   void launch(const Stream& stream, std::uint64_t history, Rays& rays, std::size_t i) const;
 
-  // The same for photons 0 … n − 1 (n ≤ batch_histories) with histories from `first` on; in rooms with one point
-  // emitter several at once.
-  void launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays) const;
+  // The same for n photons (n ≤ batch_histories) with histories from `first` on, several at once. photon: which of the
+  // histories, counted from `first`, photon i of the wave is; an array of batch_histories.
+  void launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays, std::uint32_t* photon) const;
 
   // Whether every point emitter hangs free of all surfaces.
   bool hangs_free() const { return hangs_free_; }
@@ -47,14 +47,21 @@ class Launcher {
 
   PointSource point_source(const Emitter& emitter, const Tracer& tracer);
   static SurfaceSource surface_source(const Room& room, const SurfaceEmitter& emitter, const Tracer& tracer);
-  void launch_from(const PointSource& source, const Stream& stream, std::uint64_t first, std::uint32_t n,
-                   Rays& rays) const;
-  void start_at(const PointSource& source, const Words& words, Rays& rays, std::size_t i) const;
-  void start_on(const SurfaceSource& source, const Words& words, const Words& place, Rays& rays, std::size_t i) const;
+  struct Launches;
+
+  std::vector<std::uint32_t> sort_by_source(std::uint32_t n, Launches& launches, std::uint32_t* photon) const;
+  // Photons begin … end − 1 of the wave start from source k.
+  void launch_from(std::size_t k, Launches& launches, std::uint32_t begin, std::uint32_t end, const Stream& stream,
+                   std::uint64_t first, Rays& rays, const std::uint32_t* photon) const;
+  void start_at(const PointSource& source, std::uint32_t polar, std::uint32_t azimuth, Rays& rays,
+                std::size_t i) const;
+  void start_on(const SurfaceSource& source, const glm::vec3& local, const Words& place, Rays& rays,
+                std::size_t i) const;
 
   const std::vector<Facet>* facets_;
   std::vector<double> powers_up_to_;  // cumulative shares of the power, the last is 1
   std::vector<std::variant<PointSource, SurfaceSource>> sources_;
+  std::optional<std::size_t> only_source_;  // with power
   bool hangs_free_ = true;
 };
 

@@ -28,7 +28,7 @@ class TileGoal {
   // Photons start at the emitters.
   void start(Wave& wave, std::uint32_t n) {
     flight_ = 0;
-    scene_->launcher->launch_all(stream_, first_, n, wave.rays);
+    scene_->launcher->launch_all(stream_, first_, n, wave.rays, wave.photon.data());
   }
   void histories(Wave& wave) const {
     for (std::size_t i = 0; i < wave.rays.size; ++i) wave.history[i] = first_ + wave.photon[i];
