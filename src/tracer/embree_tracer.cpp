@@ -21,6 +21,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/frame.hpp"
+#include "base/lanes.hpp"
 #include "chance/directions.hpp"
 #include "lichtmc/error.hpp"
 #include "room/bounds.hpp"
@@ -35,13 +36,15 @@ namespace {
 using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, decltype(&rtcReleaseDevice)>;
 using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, decltype(&rtcReleaseScene)>;
 
-// What leaving a facet needs: its corners as Embree has them, and the two lengths of the rule at depart().
-struct Departure {
+// What leaving a facet needs: its corners as Embree has them, and the two lengths of the rule at depart(). Together it
+// fills a line of the cache: in large rooms every one is a walk to memory.
+struct alignas(64) Departure {
   glm::vec3 corner{0.0F};
   glm::vec3 edge_s{0.0F};
   glm::vec3 edge_t{0.0F};
-  glm::vec3 step{0.0F};    // normal times the step off the plane
+  glm::vec3 normal{0.0F};
   glm::vec3 margin{0.0F};  // least distance from the three sides, as barycentric coordinates: of 1 − s − t, s and t
+  float step = 0.0F;       // off the plane
 };
 
 // Embree decides on which side of a plane a ray starts from (corner − start)·normal. With the start rounded to float
@@ -72,7 +75,8 @@ Departure make_departure(const std::array<glm::vec3, 3>& corners, const glm::dve
   departure.corner = corners[0];
   departure.edge_s = corners[1] - corners[0];
   departure.edge_t = corners[2] - corners[0];
-  departure.step = glm::vec3(step * normal);
+  departure.normal = glm::vec3(normal);
+  departure.step = static_cast<float>(step);
   for (int k = 0; k < 3; ++k) {
     // Height of the triangle over side k; a share of it is a barycentric coordinate.
     const double share = margin_steps * step * side[static_cast<std::size_t>(k)] / twice_area;
@@ -89,6 +93,59 @@ void throw_embree_error(RTCDevice device, const std::string& what) {
                                                                  : "error " + std::to_string(static_cast<int>(code));
   throw RuntimeError("Embree failed while " + what + " (" + reason +
                      "). Use a machine with more memory, or a smaller room.");
+}
+
+// Where a photon on a facet starts: the rule is written at depart().
+struct StartPoint {
+  double x, y, z;
+
+  StartPoint(const Departure& from, float on_s, float on_t, bool behind) {
+    const double margin_s = from.margin.y;
+    const double margin_t = from.margin.z;
+    double s = on_s < from.margin.y ? margin_s : on_s;
+    double t = on_t < from.margin.z ? margin_t : on_t;
+    const double too_far = s + t - (1.0 - double{from.margin.x});
+    const double excess = too_far > 0.0 ? 0.5 * too_far : 0.0;
+    s -= excess;
+    t -= excess;
+    // In the acute corner that took one of them below its margin; the other has more than enough.
+    const double s_lacks = s < margin_s ? margin_s - s : 0.0;
+    const double t_lacks = t < margin_t ? margin_t - t : 0.0;
+    s += s_lacks - t_lacks;
+    t += t_lacks - s_lacks;
+    const double step = behind ? -double{from.step} : double{from.step};
+    x = from.corner.x + s * from.edge_s.x + t * from.edge_t.x + step * from.normal.x;
+    y = from.corner.y + s * from.edge_s.y + t * from.edge_t.y + step * from.normal.y;
+    z = from.corner.z + s * from.edge_s.z + t * from.edge_t.z + step * from.normal.z;
+  }
+};
+
+// Photons on facets: where they start, and directions off them by Lambert's law, on the side named.
+LICHTMC_LANES void scatter_lanes(std::size_t n, const Departure* LICHTMC_APART departures,
+                                 const std::uint32_t* LICHTMC_APART facet, const float* LICHTMC_APART s,
+                                 const float* LICHTMC_APART t, const std::uint32_t* LICHTMC_APART behind,
+                                 const std::uint32_t* LICHTMC_APART polar, const std::uint32_t* LICHTMC_APART azimuth,
+                                 float* LICHTMC_APART x, float* LICHTMC_APART y, float* LICHTMC_APART z,
+                                 float* LICHTMC_APART dx, float* LICHTMC_APART dy, float* LICHTMC_APART dz) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const Departure& from = departures[facet[i]];
+    const StartPoint start(from, s[i], t[i], behind[i] != 0);
+    x[i] = static_cast<float>(start.x);
+    y[i] = static_cast<float>(start.y);
+    z[i] = static_cast<float>(start.z);
+    // About the normal as frame_about() does.
+    const glm::vec3 local = sample_lambert(polar[i], azimuth[i]);
+    const float normal_x = from.normal.x;
+    const float normal_y = from.normal.y;
+    const float normal_z = from.normal.z;
+    const float sign = normal_z < 0.0F ? -1.0F : 1.0F;
+    const float a = -1.0F / (sign + normal_z);
+    const float b = normal_x * normal_y * a;
+    const float up = behind[i] != 0 ? -local.z : local.z;
+    dx[i] = local.x * (1.0F + sign * normal_x * normal_x * a) + local.y * b + up * normal_x;
+    dy[i] = local.x * sign * b + local.y * (sign + normal_y * normal_y * a) + up * normal_y;
+    dz[i] = local.x * -sign * normal_x - local.y * normal_y + up * normal_z;
+  }
 }
 
 class EmbreeTracer final : public Tracer {
@@ -110,15 +167,20 @@ class EmbreeTracer final : public Tracer {
 
   void trace(Rays& rays, Misses misses, TraceCount& count) const override {
     EmbreeQuery query;
-    for (std::size_t i = 0; i < rays.size; ++i) {
-      const glm::vec3 direction = rays.direction(i);
-      RTCRayHit hit = intersect(query, rays.start(i), direction);
-      if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID && misses == Misses::retrace) {
-        hit = retrace(query, rays.start(i), direction);
+    RTCRayHit8 packet{};
+    std::fill_n(packet.ray.mask, packet_size, 0xFFFFFFFF);
+    alignas(32) std::array<int, packet_size> valid{};
+    for (std::size_t first = 0; first < rays.size; first += packet_size) {
+      for (std::size_t k = 0; k < packet_size; ++k) valid[k] = first + k < rays.size ? -1 : 0;
+      fill(packet, rays, first);
+      query.intersect8(valid.data(), scene_.get(), packet);
+      if (!land(packet, rays, first) || misses != Misses::retrace) continue;
+      for (std::size_t i = first; i < std::min(first + packet_size, rays.size); ++i) {
+        if (rays.facet[i] != no_facet) continue;
+        retrace(query, rays, i);
         count.rays += 4;
         ++count.retraced;
       }
-      land(rays, i, hit);
     }
     count.rays += rays.size;
   }
@@ -133,32 +195,16 @@ class EmbreeTracer final : public Tracer {
   void depart(Rays& rays) const override {
     for (std::size_t i = 0; i < rays.size; ++i) {
       if (rays.facet[i] == no_facet) continue;
-      const Departure& from = departures_[rays.facet[i]];
-      double s = std::max(rays.s[i], from.margin.y);
-      double t = std::max(rays.t[i], from.margin.z);
-      const double excess = s + t - (1.0 - static_cast<double>(from.margin.x));
-      if (excess > 0.0) {
-        s -= 0.5 * excess;
-        t -= 0.5 * excess;
-        // In the acute corner that took one of them below its margin; the other has more than enough.
-        const double s_lacks = std::max(from.margin.y - s, 0.0);
-        const double t_lacks = std::max(from.margin.z - t, 0.0);
-        s += s_lacks - t_lacks;
-        t += t_lacks - s_lacks;
-      }
-      const double side = rays.behind[i] != 0 ? -1.0 : 1.0;
-      const glm::dvec3 point = glm::dvec3(from.corner) + s * glm::dvec3(from.edge_s) + t * glm::dvec3(from.edge_t);
-      rays.set_start(i, glm::vec3(point + side * glm::dvec3(from.step)));
+      const StartPoint start(departures_[rays.facet[i]], rays.s[i], rays.t[i], rays.behind[i] != 0);
+      rays.set_start(i, {start.x, start.y, start.z});
     }
   }
 
   void scatter(Rays& rays, const std::uint32_t* polar, const std::uint32_t* azimuth, float* cosines) const override {
-    depart(rays);
-    for (std::size_t i = 0; i < rays.size; ++i) {
-      const glm::vec3 local = sample_lambert(polar[i], azimuth[i]);
-      rays.set_direction(i, direction_from(facets_[rays.facet[i]], rays.behind[i] != 0, local));
-      if (cosines != nullptr) cosines[i] = local.z;
-    }
+    scatter_lanes(rays.size, departures_.data(), rays.facet.data(), rays.s.data(), rays.t.data(), rays.behind.data(),
+                  polar, azimuth, rays.x.data(), rays.y.data(), rays.z.data(), rays.dx.data(), rays.dy.data(),
+                  rays.dz.data());
+    for (std::size_t i = 0; cosines != nullptr && i < rays.size; ++i) cosines[i] = sample_lambert(polar[i], 0).z;
   }
 
   Start start(const glm::dvec3& world_point_m) const override;
@@ -225,7 +271,9 @@ class EmbreeTracer final : public Tracer {
   // A ray that found no surface in a closed room went exactly through an edge or a corner. Four rays beside it, about a
   // step away, cannot all do so; the nearest surface they meet is the one. One of them may start behind a wall close by
   // and meet its outside at once: what is met within some steps counts only where nothing else is.
-  RTCRayHit retrace(EmbreeQuery& query, const glm::vec3& start, const glm::vec3& direction) const {
+  void retrace(EmbreeQuery& query, Rays& rays, std::size_t i) const {
+    const glm::vec3 start = rays.start(i);
+    const glm::vec3 direction = rays.direction(i);
     const Frame beside = frame_about(glm::normalize(glm::dvec3(direction)));
     constexpr double distance = 4.0 * step_roundings;
     RTCRayHit nearest{};
@@ -238,19 +286,51 @@ class EmbreeTracer final : public Tracer {
       RTCRayHit& best = hit.ray.tfar < 8.0 * distance ? touching : nearest;
       if (hit.ray.tfar < best.ray.tfar) best = hit;
     }
-    return nearest.hit.geomID != RTC_INVALID_GEOMETRY_ID ? nearest : touching;
+    const RTCRayHit& found = nearest.hit.geomID != RTC_INVALID_GEOMETRY_ID ? nearest : touching;
+    if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
+    rays.facet[i] = found.hit.primID;
+    rays.s[i] = found.hit.u;
+    rays.t[i] = found.hit.v;
+    rays.behind[i] = glm::dot(direction, facets_[found.hit.primID].normal) > 0.0F ? 1 : 0;
+    rays.length[i] = found.ray.tfar;
   }
 
-  void land(Rays& rays, std::size_t i, const RTCRayHit& hit) const {
-    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-      rays.facet[i] = no_facet;
-      return;
+  static constexpr std::size_t packet_size = 8;
+
+  // Flights first … first + 7 as Embree takes them. Arrays of rays reach to whole_lanes().
+  static void fill(RTCRayHit8& packet, const Rays& rays, std::size_t first) {
+    RTCRay8& ray = packet.ray;
+    std::copy_n(&rays.x[first], packet_size, ray.org_x);
+    std::copy_n(&rays.y[first], packet_size, ray.org_y);
+    std::copy_n(&rays.z[first], packet_size, ray.org_z);
+    std::copy_n(&rays.dx[first], packet_size, ray.dir_x);
+    std::copy_n(&rays.dy[first], packet_size, ray.dir_y);
+    std::copy_n(&rays.dz[first], packet_size, ray.dir_z);
+    std::fill_n(ray.tnear, packet_size, 0.0F);
+    std::fill_n(ray.tfar, packet_size, std::numeric_limits<float>::infinity());
+    std::fill_n(packet.hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
+  }
+
+  // Where they ended; whether some met nothing. The normals that Embree tells point to the fronts.
+  bool land(const RTCRayHit8& packet, Rays& rays, std::size_t first) const {
+    const RTCHit8& hit = packet.hit;
+    const RTCRay8& ray = packet.ray;
+    std::uint32_t* LICHTMC_APART facet = &rays.facet[first];
+    std::uint32_t* LICHTMC_APART behind = &rays.behind[first];
+    std::uint32_t misses = 0;
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      const bool missed = hit.geomID[k] == RTC_INVALID_GEOMETRY_ID;
+      const float along = ray.dir_x[k] * hit.Ng_x[k] + ray.dir_y[k] * hit.Ng_y[k] + ray.dir_z[k] * hit.Ng_z[k];
+      facet[k] = missed ? no_facet : hit.primID[k];
+      behind[k] = along > 0.0F ? 1U : 0U;
+      misses |= missed ? 1U : 0U;
     }
-    rays.facet[i] = hit.hit.primID;
-    rays.s[i] = hit.hit.u;
-    rays.t[i] = hit.hit.v;
-    rays.behind[i] = glm::dot(rays.direction(i), facets_[hit.hit.primID].normal) > 0.0F ? 1 : 0;
-    rays.length[i] = hit.ray.tfar;
+    std::copy_n(hit.u, packet_size, &rays.s[first]);
+    std::copy_n(hit.v, packet_size, &rays.t[first]);
+    std::copy_n(ray.tfar, packet_size, &rays.length[first]);
+    // Those that fly on will ask for it.
+    for (std::size_t k = 0; k < packet_size && misses == 0; ++k) __builtin_prefetch(&departures_[facet[k]]);
+    return misses != 0;
   }
 
   Device device_{rtcNewDevice(nullptr), &rtcReleaseDevice};
@@ -317,10 +397,9 @@ Start EmbreeTracer::start(const glm::dvec3& world_point_m) const {
   result.point = glm::vec3(point);
   for (std::size_t k = 0; k < departures_.size(); ++k) {
     const Departure& facet = departures_[k];
-    const glm::dvec3 step(facet.step);
-    const glm::dvec3 normal(facets_[k].normal);
+    const glm::dvec3 normal(facet.normal);
     const glm::dvec3 from_corner = point - glm::dvec3(facet.corner);
-    if (std::abs(glm::dot(from_corner, normal)) > glm::length(step)) continue;
+    if (std::abs(glm::dot(from_corner, normal)) > double{facet.step}) continue;
     const glm::dvec3 cross = glm::cross(glm::dvec3(facet.edge_s), glm::dvec3(facet.edge_t));
     const double area = glm::dot(cross, cross);
     if (!(area > 0.0)) continue;
@@ -333,7 +412,7 @@ Start EmbreeTracer::start(const glm::dvec3& world_point_m) const {
     const bool known = std::any_of(result.steps.begin(), result.steps.end(), [&](const glm::vec3& other) {
       return std::abs(glm::dot(glm::normalize(glm::dvec3(other)), normal)) > 1.0 - 1e-6;
     });
-    if (!known) result.steps.push_back(2.0F * facet.step);
+    if (!known) result.steps.push_back(2.0F * facet.step * facet.normal);
   }
   return result;
 }

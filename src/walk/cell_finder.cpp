@@ -23,7 +23,7 @@ std::size_t MostFew() {
   return 0;
 }
 void FindFew(const CellFinder::Few& /*few*/, std::size_t /*n*/, const std::uint32_t* /*facet*/, const float* /*s*/,
-             const float* /*t*/, std::uint32_t* /*cell*/, std::uint32_t* /*map*/) {}
+             const float* /*t*/, std::uint32_t* /*cell*/, std::uint32_t* /*surface*/) {}
 
 #else
 
@@ -42,7 +42,7 @@ HWY_INLINE hn::Vec<Int> Index(V at, hn::Vec<Int> last) {
 
 void FindFew(const CellFinder::Few& few, std::size_t n, const std::uint32_t* HWY_RESTRICT facet,
              const float* HWY_RESTRICT s, const float* HWY_RESTRICT t, std::uint32_t* HWY_RESTRICT cell,
-             std::uint32_t* HWY_RESTRICT map) {
+             std::uint32_t* HWY_RESTRICT surface) {
   const Tag d;
   const Int di;
   const Unsigned du;
@@ -56,7 +56,7 @@ void FindFew(const CellFinder::Few& few, std::size_t n, const std::uint32_t* HWY
   const auto last_row = hn::LoadU(di, few.last_row.data());
   const auto columns = hn::LoadU(di, few.columns.data());
   const auto first_cell = hn::LoadU(di, few.first_cell.data());
-  const auto maps = hn::LoadU(du, few.map.data());
+  const auto surfaces = hn::LoadU(du, few.surface.data());
   for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
     const auto at_s = hn::LoadU(d, s + i);
     const auto at_t = hn::LoadU(d, t + i);
@@ -71,7 +71,7 @@ void FindFew(const CellFinder::Few& few, std::size_t n, const std::uint32_t* HWY
     const auto row = Index(along(row_0, row_s, row_t), of(last_row));
     const auto number = hn::Add(hn::Add(of(first_cell), hn::Mul(row, of(columns))), column);
     hn::StoreU(hn::BitCast(du, number), du, cell + i);
-    hn::StoreU(of(maps), du, map + i);
+    hn::StoreU(of(surfaces), du, surface + i);
   }
 }
 
@@ -89,9 +89,9 @@ HWY_EXPORT(FindFew);
 namespace {
 
 LICHTMC_LANES void find_many(std::size_t n, const CellFinder::Row* LICHTMC_APART rows,
-                             const std::uint32_t* LICHTMC_APART facet, const float* LICHTMC_APART s,
-                             const float* LICHTMC_APART t, std::uint32_t* LICHTMC_APART cell,
-                             std::uint32_t* LICHTMC_APART map) {
+                             const CellFinder::Grid* LICHTMC_APART grids, const std::uint32_t* LICHTMC_APART facet,
+                             const float* LICHTMC_APART s, const float* LICHTMC_APART t,
+                             std::uint32_t* LICHTMC_APART cell, std::uint32_t* LICHTMC_APART surface) {
   // Beside the grid, or nowhere, counts as on its rim.
   constexpr float most = 2147483520.0F;  // the largest float below 2³¹
   const auto index = [](float at, std::int32_t last) {
@@ -99,48 +99,52 @@ LICHTMC_LANES void find_many(std::size_t n, const CellFinder::Row* LICHTMC_APART
     const auto whole = static_cast<std::int32_t>(low < most ? low : most);
     return whole < last ? whole : last;
   };
+  for (std::size_t i = 0; i < n; ++i) __builtin_prefetch(&rows[facet[i]]);
   for (std::size_t i = 0; i < n; ++i) {
     const CellFinder::Row& at = rows[facet[i]];
-    const std::int32_t column = index(at.column_0 + s[i] * at.column_s + t[i] * at.column_t, at.last_column);
-    const std::int32_t row = index(at.row_0 + s[i] * at.row_s + t[i] * at.row_t, at.last_row);
-    cell[i] = static_cast<std::uint32_t>(at.first_cell + row * at.columns + column);
-    map[i] = at.map;
+    const CellFinder::Grid& grid = grids[at.surface];
+    const std::int32_t column = index(at.column_0 + s[i] * at.column_s + t[i] * at.column_t, grid.last_column);
+    const std::int32_t row = index(at.row_0 + s[i] * at.row_s + t[i] * at.row_t, grid.last_row);
+    cell[i] = static_cast<std::uint32_t>(grid.first_cell + row * grid.columns + column);
+    surface[i] = at.surface;
   }
 }
 
 }  // namespace
 
-CellFinder::CellFinder(const std::vector<FacetCells>& facets) {
-  for (const FacetCells& facet : facets) {
+CellFinder::CellFinder(const std::vector<Facet>& facets, const std::vector<SurfaceGrid>& grids) {
+  for (const SurfaceGrid& grid : grids) {
+    grids_.push_back({static_cast<std::int32_t>(grid.columns - 1), static_cast<std::int32_t>(grid.rows - 1),
+                      static_cast<std::int32_t>(grid.columns), static_cast<std::int32_t>(grid.first_cell)});
+  }
+  for (const Facet& facet : facets) {
     rows_.push_back({static_cast<float>(facet.cell_0.x), static_cast<float>(facet.cell_s.x),
                      static_cast<float>(facet.cell_t.x), static_cast<float>(facet.cell_0.y),
-                     static_cast<float>(facet.cell_s.y), static_cast<float>(facet.cell_t.y),
-                     static_cast<std::int32_t>(facet.columns - 1), static_cast<std::int32_t>(facet.rows - 1),
-                     static_cast<std::int32_t>(facet.columns), static_cast<std::int32_t>(facet.first_cell),
-                     facet.map});
+                     static_cast<float>(facet.cell_s.y), static_cast<float>(facet.cell_t.y), facet.surface});
   }
   for (std::size_t k = 0; k < rows_.size() && k < most_lanes; ++k) {
     const Row& row = rows_[k];
+    const Grid& grid = grids_[row.surface];
     few_.column_0[k] = row.column_0;
     few_.column_s[k] = row.column_s;
     few_.column_t[k] = row.column_t;
     few_.row_0[k] = row.row_0;
     few_.row_s[k] = row.row_s;
     few_.row_t[k] = row.row_t;
-    few_.last_column[k] = row.last_column;
-    few_.last_row[k] = row.last_row;
-    few_.columns[k] = row.columns;
-    few_.first_cell[k] = row.first_cell;
-    few_.map[k] = row.map;
+    few_.last_column[k] = grid.last_column;
+    few_.last_row[k] = grid.last_row;
+    few_.columns[k] = grid.columns;
+    few_.first_cell[k] = grid.first_cell;
+    few_.surface[k] = row.surface;
   }
 }
 
-void CellFinder::find(std::size_t n, const std::uint32_t* facet, const float* s, const float* t,
-                      std::uint32_t* cell, std::uint32_t* map) const {
+void CellFinder::find(std::size_t n, const std::uint32_t* facet, const float* s, const float* t, std::uint32_t* cell,
+                      std::uint32_t* surface) const {
   if (rows_.size() <= HWY_DYNAMIC_DISPATCH(MostFew)()) {
-    HWY_DYNAMIC_DISPATCH(FindFew)(few_, n, facet, s, t, cell, map);
+    HWY_DYNAMIC_DISPATCH(FindFew)(few_, n, facet, s, t, cell, surface);
   } else {
-    find_many(n, rows_.data(), facet, s, t, cell, map);
+    find_many(n, rows_.data(), grids_.data(), facet, s, t, cell, surface);
   }
 }
 

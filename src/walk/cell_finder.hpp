@@ -6,55 +6,53 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/vec2.hpp>
-
 #include "base/lanes.hpp"
+#include "tracer/facet.hpp"
 
 namespace lichtmc {
 
-// A facet's place in the grid of its surface: cell = cell_0 + s·cell_s + t·cell_t.
-struct FacetCells {
-  glm::dvec2 cell_0{0.0};
-  glm::dvec2 cell_s{0.0};
-  glm::dvec2 cell_t{0.0};
+// A surface's grid.
+struct SurfaceGrid {
   std::uint32_t columns = 1;
   std::uint32_t rows = 1;
   std::uint32_t first_cell = 0;  // number of the grid's first cell; cells are numbered row by row, below 2³¹
-  std::uint32_t map = 0;         // the surface's tile map
 };
 
 class CellFinder {
  public:
-  explicit CellFinder(const std::vector<FacetCells>& facets);
+  CellFinder(const std::vector<Facet>& facets, const std::vector<SurfaceGrid>& grids);
 
-  // The cells that n points lie in, and the tile maps of their surfaces. A point that rounding puts beside the grid belongs to its outermost cells. All
-  // arrays reach to whole_lanes(n) and name facets that there are.
+  // The cells that n points lie in, and their surfaces. A point that rounding puts beside the grid belongs to its
+  // outermost cells. All arrays reach to whole_lanes(n) and name facets that there are.
   void find(std::size_t n, const std::uint32_t* facet, const float* s, const float* t, std::uint32_t* cell,
-            std::uint32_t* map) const;
+            std::uint32_t* surface) const;
 
-  // A facet's numbers as find() reads them.
-  struct Row {
+  // A facet's place in the grid of its surface: cell = cell_0 + s·cell_s + t·cell_t. Half a line of the cache.
+  struct alignas(32) Row {
     float column_0 = 0.0F;
     float column_s = 0.0F;
     float column_t = 0.0F;
     float row_0 = 0.0F;
     float row_s = 0.0F;
     float row_t = 0.0F;
+    std::uint32_t surface = 0;
+  };
+  struct Grid {
     std::int32_t last_column = 0;
     std::int32_t last_row = 0;
     std::int32_t columns = 1;
     std::int32_t first_cell = 0;
-    std::uint32_t map = 0;
   };
   // The same of all facets of a room of few, such as a cuboid: as many as fit into a vector.
   struct Few {
     std::array<float, most_lanes> column_0{}, column_s{}, column_t{}, row_0{}, row_s{}, row_t{};
     std::array<std::int32_t, most_lanes> last_column{}, last_row{}, columns{}, first_cell{};
-    std::array<std::uint32_t, most_lanes> map{};
+    std::array<std::uint32_t, most_lanes> surface{};
   };
 
  private:
   std::vector<Row> rows_;
+  std::vector<Grid> grids_;
   Few few_;
 };
 

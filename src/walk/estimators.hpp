@@ -34,7 +34,7 @@ struct CollisionPolicy {
     return false;
   }
   static void choose(const Scene& scene, Wave& wave, Ends& ends, Survivors& survivors) {
-    choose_by_chance(wave, scene.survival_of_facet.data(), survivors);
+    choose_by_chance(wave, scene.survival_of.data(), survivors);
     ends.absorbed += static_cast<int128>(wave.rays.size - survivors.count);
   }
 };
@@ -80,7 +80,7 @@ struct WeightPolicy {
   }
   // The same for a wave, all of which survives so far.
   static WeightLoss reflect_all(const Scene& scene, Wave& wave, Ends& ends, Survivors& survivors) {
-    const WeightLoss loss = reflect_weights(wave.rays.size, wave.rays.facet.data(), scene.reflectance_of_facet.data(),
+    const WeightLoss loss = reflect_weights(wave.rays.size, wave.surface.data(), scene.reflectance_of.data(),
                                             wave.weight.data());
     ends.absorbed += loss.absorbed;
     survivors.count = wave.rays.size;

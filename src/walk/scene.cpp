@@ -98,18 +98,16 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
     first_tile.push_back(static_cast<std::uint32_t>(n));
   }
   for (std::size_t k = 0; k < surfaces.size(); ++k) surfaces[k].reflectance = room.surfaces[k].reflectance;
+  std::vector<SurfaceGrid> grids(surfaces.size());
   for (std::size_t m = 0; m < tiling.maps.size(); ++m) {
     const TileMap& map = tiling.maps[m];
     SurfaceOptics& surface = surfaces[map.surface];
     if (map.side == Side::back) {
       surface.tiles_to_back = tiles_between(tiling.maps[m - 1], map);
-      any_tiles_to_back = any_tiles_to_back || surface.tiles_to_back != 0;
       continue;
     }
-    surface.columns = map.columns;
-    surface.rows = map.rows;
     surface.map = static_cast<std::uint32_t>(m);
-    surface.first_cell = tile_of_cell.size();
+    grids[map.surface] = {map.columns, map.rows, static_cast<std::uint32_t>(tile_of_cell.size())};
     const std::vector<std::uint32_t> filled = nearest_tiles(map);
     tile_of_cell.insert(tile_of_cell.end(), filled.begin(), filled.end());
   }
@@ -117,16 +115,13 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
   const HighestReflectance highest(room);
   reflects_all_somewhere = std::any_of(room.surfaces.begin(), room.surfaces.end(),
                                        [&](const Surface& surface) { return highest.of(surface) == 1.0; });
-  std::vector<FacetCells> cells_of_facet;
-  for (const Facet& facet : tracer->facets()) {
-    const SurfaceOptics& surface = surfaces[facet.surface];
-    reflectance_of_facet.push_back(surface.reflectance);
+  for (const SurfaceOptics& surface : surfaces) {
+    reflectance_of.push_back(surface.reflectance);
     // unit_fine() counts in 2⁻⁵³: below this count are as many of its values as below ρ.
-    survival_of_facet.push_back(static_cast<std::int64_t>(std::ceil(surface.reflectance * 0x1p53)));
-    cells_of_facet.push_back({facet.cell_0, facet.cell_s, facet.cell_t, surface.columns, surface.rows,
-                              static_cast<std::uint32_t>(surface.first_cell), surface.map});
+    survival_of.push_back(static_cast<std::int64_t>(std::ceil(surface.reflectance * 0x1p53)));
   }
-  cells = std::make_unique<CellFinder>(cells_of_facet);
+  for (const Facet& facet : tracer->facets()) surface_of.push_back(facet.surface);
+  cells = std::make_unique<CellFinder>(tracer->facets(), grids);
   cells_are_tiles = true;
   for (std::size_t cell = 0; cell < tile_of_cell.size(); ++cell)
     cells_are_tiles = cells_are_tiles && tile_of_cell[cell] == cell;
@@ -138,20 +133,19 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
   }
 }
 
-void Scene::tile_of_each(const Rays& rays, std::uint32_t* tile, std::uint32_t* map) const {
-  cells->find(rays.size, rays.facet.data(), rays.s.data(), rays.t.data(), tile, map);
+void Scene::tile_of_each(const Rays& rays, std::uint32_t* tile, std::uint32_t* map, std::uint32_t* surface) const {
+  cells->find(rays.size, rays.facet.data(), rays.s.data(), rays.t.data(), tile, surface);
   if (!cells_are_tiles) {
     for (std::size_t i = 0; i < rays.size; ++i) {
       assert(tile_of_cell[tile[i]] != no_tile);  // a surface that was hit has an area, and so a tile
       tile[i] = tile_of_cell[tile[i]];
     }
   }
-  if (!any_tiles_to_back) return;
   for (std::size_t i = 0; i < rays.size; ++i) {
-    const std::uint32_t to_back = surfaces[tracer->facets()[rays.facet[i]].surface].tiles_to_back;
-    if (rays.behind[i] == 0 || to_back == 0) continue;
-    tile[i] += to_back;
-    ++map[i];
+    const SurfaceOptics& at = surfaces[surface[i]];
+    const std::uint32_t back = at.tiles_to_back != 0 ? rays.behind[i] : 0;
+    tile[i] += back * at.tiles_to_back;
+    map[i] = at.map + back;
   }
 }
 

@@ -19,13 +19,10 @@
 
 namespace lichtmc {
 
-// A surface's reflectance and its grid.
+// What a walk needs of a surface.
 struct SurfaceOptics {
   double reflectance = 0.0;
-  std::uint32_t columns = 1;
-  std::uint32_t rows = 1;
   std::uint32_t map = 0;            // its tile map; that of its back, if it has its own, follows it
-  std::size_t first_cell = 0;       // into Scene::tile_of_cell; cells number fewer than 2³¹
   std::uint32_t tiles_to_back = 0;  // a back side's tile number less the front's; 0 where both sides share one map
 };
 
@@ -47,11 +44,11 @@ struct Scene {
   std::vector<SurfaceOptics> surfaces;
   std::vector<MapPlace> map_places;         // per facet; empty where no surface has a map
   std::vector<std::uint32_t> tile_of_cell;  // every cell has a tile, empty ones the nearest
-  std::vector<double> reflectance_of_facet;      // of the facet's surface
-  std::vector<std::int64_t> survival_of_facet;  // ρ of the facet's surface in units of 2⁻⁵³, rounded up
+  std::vector<double> reflectance_of;        // of each surface
+  std::vector<std::int64_t> survival_of;     // the same in units of 2⁻⁵³, rounded up
+  std::vector<std::uint32_t> surface_of;     // of each facet
   std::unique_ptr<CellFinder> cells;
   bool cells_are_tiles = false;    // tile_of_cell[k] = k: rooms of rectangles
-  bool any_tiles_to_back = false;  // some surface has tiles of its own on its back
   std::vector<std::uint32_t> first_tile;  // of each tile map; one number more, that of all tiles
   bool reflects_all_somewhere = false;  // a surface, or a place of one, has ρ = 1
   std::unique_ptr<Launcher> launcher;
@@ -61,7 +58,7 @@ struct Scene {
 
   // ρ where flight i ended. surface_reflectance() serves scenes without maps only, at no cost for what they lack.
   double surface_reflectance(const Rays& rays, std::size_t i) const {
-    return surfaces[tracer->facets()[rays.facet[i]].surface].reflectance;
+    return reflectance_of[surface_of[rays.facet[i]]];
   }
   double reflectance(const Rays& rays, std::size_t i) const {
     if (!has_maps() || map_places[rays.facet[i]].map == nullptr) return surface_reflectance(rays, i);
@@ -70,9 +67,9 @@ struct Scene {
     return reflectance_at(*place.map, uv.x, uv.y);
   }
 
-  // The tile that each flight of a wave ended on, and its tile map. A place that rounding puts beside the grid belongs to its outermost
+  // The tile that each flight of a wave ended on, its tile map and surface. A place that rounding puts beside the grid belongs to its outermost
   // cells.
-  void tile_of_each(const Rays& rays, std::uint32_t* tile, std::uint32_t* map) const;
+  void tile_of_each(const Rays& rays, std::uint32_t* tile, std::uint32_t* map, std::uint32_t* surface) const;
 };
 
 }  // namespace lichtmc

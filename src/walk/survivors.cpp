@@ -46,10 +46,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET == HWY_SCALAR
 
 // Machines without vectors: one by one.
-void ChooseByChance(const Wave& wave, const std::int64_t* survival_of_facet, Survivors& survivors) {
+void ChooseByChance(const Wave& wave, const std::int64_t* survival_of, Survivors& survivors) {
   survivors.count = 0;
   for (std::size_t i = 0; i < wave.rays.size; ++i) {
-    const bool survives = static_cast<std::int64_t>(wave.chance[i] >> 11) < survival_of_facet[wave.rays.facet[i]];
+    const bool survives = static_cast<std::int64_t>(wave.chance[i] >> 11) < survival_of[wave.surface[i]];
     if (i % 8 == 0) survivors.sets[i / 8] = 0;
     survivors.sets[i / 8] = static_cast<std::uint8_t>(survivors.sets[i / 8] | (survives ? 1U : 0U) << (i % 8));
     survivors.count += survives ? 1 : 0;
@@ -79,25 +79,25 @@ constexpr std::size_t lanes = hn::MaxLanes(Tag());
 constexpr std::size_t lanes_64 = hn::MaxLanes(Signed64());
 
 // Which of a vector of photons survive. All numbers are below 2⁵³.
-HWY_INLINE std::size_t ByChance(const std::uint64_t* chance, const std::uint32_t* facet,
-                                const std::int64_t* survival_of_facet) {
+HWY_INLINE std::size_t ByChance(const std::uint64_t* chance, const std::uint32_t* surface,
+                                const std::int64_t* survival_of) {
   const Signed64 d;
   const hn::RebindToUnsigned<Signed64> du;
   const hn::Rebind<std::uint32_t, Signed64> d32;
   const auto counts = hn::BitCast(d, hn::ShiftRight<11>(hn::LoadU(du, chance)));
-  const auto on = hn::BitCast(d, hn::PromoteTo(du, hn::LoadU(d32, facet)));
+  const auto on = hn::BitCast(d, hn::PromoteTo(du, hn::LoadU(d32, surface)));
   std::array<std::uint8_t, 8> bits{};
-  hn::StoreMaskBits(d, hn::Lt(counts, hn::GatherIndex(d, survival_of_facet, on)), bits.data());
+  hn::StoreMaskBits(d, hn::Lt(counts, hn::GatherIndex(d, survival_of, on)), bits.data());
   return bits[0];
 }
 
-void ChooseByChance(const Wave& wave, const std::int64_t* survival_of_facet, Survivors& survivors) {
+void ChooseByChance(const Wave& wave, const std::int64_t* survival_of, Survivors& survivors) {
   const std::size_t n = wave.rays.size;
   survivors.count = 0;
   for (std::size_t i = 0; i < n; i += 8) {
     std::size_t set = 0;
     for (std::size_t k = 0; k < 8; k += lanes_64)
-      set |= ByChance(&wave.chance[i + k], &wave.rays.facet[i + k], survival_of_facet) << k;
+      set |= ByChance(&wave.chance[i + k], &wave.surface[i + k], survival_of) << k;
     survivors.sets[i / 8] = within(set, i, n);
     survivors.count += hwy::PopCount(survivors.sets[i / 8]);
   }
@@ -154,8 +154,8 @@ HWY_EXPORT(ChooseByChance);
 HWY_EXPORT(ListEnded);
 HWY_EXPORT(CloseRanks);
 
-void choose_by_chance(const Wave& wave, const std::int64_t* survival_of_facet, Survivors& survivors) {
-  HWY_DYNAMIC_DISPATCH(ChooseByChance)(wave, survival_of_facet, survivors);
+void choose_by_chance(const Wave& wave, const std::int64_t* survival_of, Survivors& survivors) {
+  HWY_DYNAMIC_DISPATCH(ChooseByChance)(wave, survival_of, survivors);
 }
 
 void choose_marked(const std::uint8_t* marks, std::size_t n, Survivors& survivors) {

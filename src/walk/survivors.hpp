@@ -16,8 +16,8 @@ struct Survivors {
   std::array<std::uint32_t, batch_histories + 8> ended_at;  // list_ended(): places of the others, in order
 };
 
-// Those whose chance (see draw_many()), counted in 2⁻⁵³, is below the survival of the facet that they are on.
-void choose_by_chance(const Wave& wave, const std::int64_t* survival_of_facet, Survivors& survivors);
+// Those whose chance (see draw_many()), counted in 2⁻⁵³, is below the survival of the surface that they are on.
+void choose_by_chance(const Wave& wave, const std::int64_t* survival_of, Survivors& survivors);
 
 // Those marked with 1 in an array that reaches to whole_lanes() of the wave; the others with 0.
 void choose_marked(const std::uint8_t* marks, std::size_t n, Survivors& survivors);

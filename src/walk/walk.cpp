@@ -48,10 +48,10 @@ class TileGoal {
   }
 
   // Every impact falls on a tile.
-  void land(const Wave& wave) {
+  void land(Wave& wave) {
     ++flight_;
     tally_->counts().impacts += wave.rays.size;
-    scene_->tile_of_each(wave.rays, tile_.data(), map_.data());
+    scene_->tile_of_each(wave.rays, tile_.data(), map_.data(), wave.surface.data());
     tally_->expect(tile_.data(), wave.rays.size);
   }
 

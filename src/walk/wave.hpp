@@ -20,7 +20,8 @@ struct Wave {
         history(batch_histories),
         polar(batch_histories),
         azimuth(batch_histories),
-        chance(batch_histories) {}
+        chance(batch_histories),
+        surface(batch_histories) {}
 
   Rays rays;
   std::vector<std::uint32_t> photon;         // number of the history within the batch
@@ -29,6 +30,7 @@ struct Wave {
   std::vector<std::uint32_t> polar;          // random word 0 of the flight, see draw_many()
   std::vector<std::uint32_t> azimuth;        // word 1
   std::vector<std::uint64_t> chance;         // words 2 and 3
+  std::vector<std::uint32_t> surface;        // where the flight ended, where the goal has set it
 
   // Moves photon `from` to place `to` ≤ from; what the next flight needs of it.
   void move(std::size_t from, std::size_t to) {

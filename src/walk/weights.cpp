@@ -17,13 +17,13 @@ inline double to_double(std::uint32_t x) {
   return static_cast<double>(static_cast<std::int32_t>(x ^ 0x80000000U)) + 0x1p31;
 }
 
-LICHTMC_LANES std::int64_t reflect_lanes(std::size_t n, const std::uint32_t* LICHTMC_APART facet,
-                                         const double* LICHTMC_APART reflectance_of_facet,
+LICHTMC_LANES std::int64_t reflect_lanes(std::size_t n, const std::uint32_t* LICHTMC_APART surface,
+                                         const double* LICHTMC_APART reflectance_of,
                                          double* LICHTMC_APART weight) {
   std::int64_t absorbed = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const double before = weight[i];
-    const double after = before * reflectance_of_facet[facet[i]];
+    const double after = before * reflectance_of[surface[i]];
     absorbed += units_of(before) - units_of(after);
     weight[i] = after;
   }
@@ -68,9 +68,9 @@ LICHTMC_LANES void units_lanes(std::size_t n, const double* LICHTMC_APART weight
 
 }  // namespace
 
-WeightLoss reflect_weights(std::size_t n, const std::uint32_t* facet, const double* reflectance_of_facet,
+WeightLoss reflect_weights(std::size_t n, const std::uint32_t* surface, const double* reflectance_of,
                            double* weight) {
-  const std::int64_t absorbed = reflect_lanes(n, facet, reflectance_of_facet, weight);
+  const std::int64_t absorbed = reflect_lanes(n, surface, reflectance_of, weight);
   return {absorbed, lightest_of(n, weight)};
 }
 

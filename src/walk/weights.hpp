@@ -12,8 +12,8 @@ struct WeightLoss {
   double lightest = 1.0;  // weight left
 };
 
-// Every photon's weight falls by the reflectance of the facet it is on.
-WeightLoss reflect_weights(std::size_t n, const std::uint32_t* facet, const double* reflectance_of_facet,
+// Every photon's weight falls by the reflectance of the surface it is on.
+WeightLoss reflect_weights(std::size_t n, const std::uint32_t* surface, const double* reflectance_of,
                            double* weight);
 
 // Russian roulette for weights below `threshold`: they become `restored` with probability weight/restored, or end.
