@@ -39,12 +39,15 @@ struct Moments {
   }
 
   // Adds full batches whose scores and squares of scores have these sums,
-  void add_full_batches(std::uint64_t scores, std::uint64_t squared) {
+  void add_sums(std::uint64_t scores, std::uint64_t squared) {
     sum += scores;
     squares += static_cast<uint128>(squared) * (square_units / batch_histories);
   }
-  // or of which each scored 1.
-  void add_singles(std::uint64_t batches) { add_full_batches(batches, batches); }
+  // or of which each scored x (≤ 2³¹).
+  void add_full_batches(std::uint64_t batches, std::uint32_t x) {
+    sum += batches * x;
+    squares += static_cast<uint128>(batches) * x * x * (square_units / batch_histories);
+  }
 
   void add(const Moments& other) {
     sum += other.sum;

@@ -141,6 +141,10 @@ void Scene::tile_of_each(const Rays& rays, std::uint32_t* tile, std::uint32_t* m
       tile[i] = tile_of_cell[tile[i]];
     }
   }
+  if (first_tile.size() == surfaces.size() + 1) {  // no back has tiles of its own: maps are as surfaces
+    std::copy_n(surface, rays.size, map);
+    return;
+  }
   for (std::size_t i = 0; i < rays.size; ++i) {
     const SurfaceOptics& at = surfaces[surface[i]];
     const std::uint32_t back = at.tiles_to_back != 0 ? rays.behind[i] : 0;

@@ -6,10 +6,15 @@ namespace lichtmc {
 
 namespace {
 
-std::variant<FewTiles, ManyTiles> tiles_for(const std::vector<std::uint32_t>& first_tile, Hits hits) {
-  // Up to about as many as a batch has impacts, most are hit: to look at all costs less than to remember which.
-  if (first_tile.back() <= batch_histories) return FewTiles(first_tile, hits);
-  return ManyTiles(first_tile.back(), first_tile.size() - 1, hits);
+// To look at this many tiles at the end of a batch costs less than to remember which ones it has hit.
+constexpr std::size_t few_tiles = 4 * batch_histories;
+
+Tally::TileScores tiles_for(const std::vector<std::uint32_t>& first_tile, Hits hits) {
+  const std::size_t tiles = first_tile.back();
+  const std::size_t maps = first_tile.size() - 1;
+  if (tiles <= few_tiles) return FewTiles(first_tile, hits);
+  if (hits == Hits::are_the_score) return ManyHits(tiles, maps);
+  return ManyScores(tiles, maps);
 }
 
 }  // namespace

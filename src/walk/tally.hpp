@@ -9,44 +9,42 @@
 #include <vector>
 
 #include "walk/few_tiles.hpp"
-#include "walk/many_tiles.hpp"
+#include "walk/many_hits.hpp"
+#include "walk/many_scores.hpp"
 #include "walk/totals.hpp"
 
 namespace lichtmc {
 
 class Tally {
  public:
+  using TileScores = std::variant<FewTiles, ManyHits, ManyScores>;
+
   // The tiles of map k are first_tile[k] … first_tile[k + 1] − 1; one number more than there are maps.
   Tally(const std::vector<std::uint32_t>& first_tile, Hits hits);
 
   // Tiles that will score soon.
   void expect(const std::uint32_t* tiles, std::size_t n) const {
-    if (const auto* many = std::get_if<ManyTiles>(&batch_)) many->expect(tiles, n);
+    if (const auto* hits = std::get_if<ManyHits>(&batch_)) hits->expect(tiles, n);
+    if (const auto* scores = std::get_if<ManyScores>(&batch_)) scores->expect(tiles, n);
   }
 
-  // An impact on a tile of a tile map scores `units` (> 0).
-  void score(std::uint32_t tile, std::uint32_t map, std::uint64_t units) {
-    if (auto* few = std::get_if<FewTiles>(&batch_)) {
-      few->score(tile, units);
-    } else {
-      std::get<ManyTiles>(batch_).score(tile, map, units, totals_);
-    }
-  }
-  // One unit for each of n impacts, where hits are the score.
+  // One unit for each of n impacts on tiles of tile maps, where hits are the score.
   void score_each(const std::uint32_t* tiles, const std::uint32_t* maps, std::size_t n) {
     if (auto* few = std::get_if<FewTiles>(&batch_)) {
       few->score_each(tiles, n);
     } else {
-      std::get<ManyTiles>(batch_).score_each(tiles, maps, n, totals_);
+      std::get<ManyHits>(batch_).score_each(tiles, maps, n);
     }
   }
   // units[i] (> 0) for impact i, where hits are counted apart.
   void score_each(const std::uint32_t* tiles, const std::uint32_t* maps, const std::uint32_t* units, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) score(tiles[i], maps[i], units[i]);
+  }
+  void score(std::uint32_t tile, std::uint32_t map, std::uint64_t units) {
     if (auto* few = std::get_if<FewTiles>(&batch_)) {
-      for (std::size_t i = 0; i < n; ++i) few->score(tiles[i], units[i]);
+      few->score(tile, units);
     } else {
-      auto& many = std::get<ManyTiles>(batch_);
-      for (std::size_t i = 0; i < n; ++i) many.score(tiles[i], maps[i], units[i], totals_);
+      std::get<ManyScores>(batch_).score(tile, map, units, totals_);
     }
   }
   void score_behind(std::uint32_t map, std::uint64_t units) { totals_.behind[map] += units; }
@@ -61,7 +59,7 @@ class Tally {
   void add_to(Totals& sum) const;
 
  private:
-  std::variant<FewTiles, ManyTiles> batch_;
+  TileScores batch_;
   Totals totals_;
 };
 

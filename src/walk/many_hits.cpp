@@ -1,0 +1,83 @@
+#include "walk/many_hits.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/lanes.hpp"
+
+namespace lichtmc {
+
+ManyHits::ManyHits(std::size_t tiles, std::size_t maps)
+    : tiles_(tiles), touched_(tiles + 1), map_scores_(maps), closed_(maps) {}
+
+const std::vector<std::uint64_t>& ManyHits::close_batch(std::uint32_t n, Totals& totals) {
+  const std::uint32_t most_counted = n == batch_histories ? 2 : 0;
+  for (std::size_t k = 0; k < touched_count_; ++k) {
+    std::uint32_t& at = tiles_[touched_[k]];
+    const std::uint32_t hits = at & most_hits;
+    if (hits > most_counted) {
+      settle(touched_[k], hits, n, totals);
+      continue;
+    }
+    at += (hits == 1 ? once : twice) - hits;
+    if ((at & most_once) == most_once || at >= most_twice) settle(touched_[k], 0, n, totals);
+  }
+  touched_count_ = 0;
+  std::swap(map_scores_, closed_);
+  std::fill(map_scores_.begin(), map_scores_.end(), 0);
+  return closed_;
+}
+
+namespace {
+
+LICHTMC_LANES std::uint32_t count_of(std::uint32_t map, const std::uint32_t* LICHTMC_APART maps, std::size_t n) {
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) count += maps[i] == map ? 1U : 0U;
+  return count;
+}
+
+}  // namespace
+
+void ManyHits::score_maps(const std::uint32_t* maps, std::size_t n) {
+  // To count a few maps one after the other in lanes costs less than to look up each impact's.
+  constexpr std::size_t few_maps = 8;
+  if (map_scores_.size() <= few_maps) {
+    for (std::uint32_t map = 0; map < map_scores_.size(); ++map) map_scores_[map] += count_of(map, maps, n);
+  } else {
+    for (std::size_t i = 0; i < n; ++i) ++map_scores_[maps[i]];
+  }
+}
+
+// Hits of a batch of n histories, and what was counted before, go to the totals.
+void ManyHits::settle(std::uint32_t tile, std::uint64_t hits, std::uint32_t n, Totals& totals) {
+  if (hits != 0) totals.tiles[tile].add(hits + take_carried(tile), n);
+  add_counted(tile, totals);
+  tiles_[tile] = 0;
+}
+
+void ManyHits::add_counted(std::uint32_t tile, Totals& totals) const {
+  totals.tiles[tile].add_full_batches((tiles_[tile] & most_once) / once, 1);
+  totals.tiles[tile].add_full_batches(tiles_[tile] / twice, 2);
+}
+
+void ManyHits::carry(std::uint32_t tile) {
+  auto carried = std::find_if(carried_.begin(), carried_.end(), [tile](const Carried& c) { return c.tile == tile; });
+  if (carried == carried_.end()) carried = carried_.insert(carried_.end(), {tile, 0});
+  carried->hits += most_hits - 1;
+  tiles_[tile] -= most_hits - 1;
+}
+
+std::uint64_t ManyHits::take_carried(std::uint32_t tile) {
+  const auto carried =
+      std::find_if(carried_.begin(), carried_.end(), [tile](const Carried& c) { return c.tile == tile; });
+  if (carried == carried_.end()) return 0;
+  const std::uint64_t hits = carried->hits;
+  carried_.erase(carried);
+  return hits;
+}
+
+void ManyHits::add_to(Totals& totals) const {
+  for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile) add_counted(tile, totals);
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,39 @@
+#include "walk/many_scores.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace lichtmc {
+
+ManyScores::ManyScores(std::size_t tiles, std::size_t maps) : tiles_(tiles), map_scores_(maps), closed_(maps) {}
+
+const std::vector<std::uint64_t>& ManyScores::close_batch(std::uint32_t n, Totals& totals) {
+  constexpr std::uint32_t last_number = 0xFFFFFFFFU;
+  if (n == batch_histories && batch_ != last_number) {
+    ++batch_;
+  } else {
+    // Only scores of full batches wait, and a number comes once.
+    for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile) {
+      settle(tile, tiles_[tile].batch == batch_ ? n : batch_histories, totals);
+      tiles_[tile].batch = 0;
+    }
+    batch_ = 1;
+  }
+  std::swap(map_scores_, closed_);
+  std::fill(map_scores_.begin(), map_scores_.end(), 0);
+  return closed_;
+}
+
+// The score of a batch of n histories goes to the totals.
+void ManyScores::settle(std::uint32_t tile, std::uint32_t n, Totals& totals) {
+  totals.tiles[tile].add(std::exchange(tiles_[tile].score, 0), n);
+}
+
+void ManyScores::add_to(Totals& totals) const {
+  for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+    totals.tiles[tile].add(tiles_[tile].score, batch_histories);
+    totals.hits[tile] += tiles_[tile].hits;
+  }
+}
+
+}  // namespace lichtmc

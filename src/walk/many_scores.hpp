@@ -1,0 +1,57 @@
+// The scores of a batch where tiles are many and impacts score weights.
+//
+// Each impact goes to one place in memory, and closing a batch to none: a tile's score stays beside the tile, with the
+// number of the batch that it belongs to, and goes to the totals when another batch hits the tile.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "walk/totals.hpp"
+
+namespace lichtmc {
+
+class ManyScores {
+ public:
+  ManyScores(std::size_t tiles, std::size_t maps);
+
+  // Tiles that will score soon are fetched from memory meanwhile.
+  void expect(const std::uint32_t* tiles, std::size_t n) const {
+    for (std::size_t i = 0; i < n; ++i) __builtin_prefetch(&tiles_[tiles[i]], 1);
+  }
+
+  void score(std::uint32_t tile, std::uint32_t map, std::uint64_t units, Totals& totals) {
+    BatchTile& at = tiles_[tile];
+    if (at.batch != batch_) {
+      settle(tile, batch_histories, totals);
+      at.batch = batch_;
+    }
+    at.score += units;
+    map_scores_[map] += units;
+    // 2³² hits at a time are moved to the totals.
+    if (++at.hits == 0) totals.hits[tile] += std::uint64_t{1} << 32;
+  }
+
+  // Ends a batch of n histories; returns the scores of the maps.
+  const std::vector<std::uint64_t>& close_batch(std::uint32_t n, Totals& totals);
+
+  // Adds what is not yet in the totals.
+  void add_to(Totals& totals) const;
+
+ private:
+  struct BatchTile {
+    std::uint64_t score = 0;
+    std::uint32_t batch = 0;  // that hit the tile last
+    std::uint32_t hits = 0;   // not yet in the totals
+  };
+
+  void settle(std::uint32_t tile, std::uint32_t n, Totals& totals);
+
+  std::uint32_t batch_ = 1;  // number of the batch being simulated
+  std::vector<BatchTile> tiles_;
+  std::vector<std::uint64_t> map_scores_;
+  std::vector<std::uint64_t> closed_;
+};
+
+}  // namespace lichtmc
