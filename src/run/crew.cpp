@@ -12,8 +12,7 @@ Crew::Crew(const Scene& scene, const Settings& settings, const Control& control,
       watch_(&watch),
       reporter_(control, watch, Progress::Stage::tiles, settings.photons) {
   for (unsigned k = 0; k < threads; ++k) {
-    workers_.push_back(
-        std::make_unique<Worker>(Worker{Tally(scene.first_tile, hits_), make_walk(scene, settings)}));
+    workers_.push_back(std::make_unique<Worker>(Worker{Tally(scene.first_tile, hits_), make_walk(scene, settings)}));
   }
 }
 

@@ -173,8 +173,7 @@ class CuboidTracer final : public Tracer {
   void scatter(Rays& rays, const std::uint32_t* polar, const std::uint32_t* azimuth, float* cosines) const override {
     scatter_lanes(whole_lanes(rays.size), rays.facet.data(), rays.s.data(), rays.t.data(), polar, azimuth, unit_,
                   rays.x.data(), rays.y.data(), rays.z.data(), rays.dx.data(), rays.dy.data(), rays.dz.data());
-    for (std::size_t i = 0; cosines != nullptr && i < rays.size; ++i)
-      cosines[i] = sample_lambert(polar[i], 0).z;
+    for (std::size_t i = 0; cosines != nullptr && i < rays.size; ++i) cosines[i] = sample_lambert(polar[i], 0).z;
   }
 
   Start start(const glm::dvec3& world_point_m) const override {

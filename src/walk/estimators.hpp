@@ -80,8 +80,8 @@ struct WeightPolicy {
   }
   // The same for a wave, all of which survives so far.
   static WeightLoss reflect_all(const Scene& scene, Wave& wave, Ends& ends, Survivors& survivors) {
-    const WeightLoss loss = reflect_weights(wave.rays.size, wave.surface.data(), scene.reflectance_of.data(),
-                                            wave.weight.data());
+    const WeightLoss loss =
+        reflect_weights(wave.rays.size, wave.surface.data(), scene.reflectance_of.data(), wave.weight.data());
     ends.absorbed += loss.absorbed;
     survivors.count = wave.rays.size;
     return loss;
@@ -107,7 +107,8 @@ struct RouletteWeightPolicy : WeightPolicy {
   static void choose(const Scene& scene, Wave& wave, Ends& ends, Survivors& survivors) {
     if (reflect_all(scene, wave, ends, survivors).lightest >= threshold) return;
     std::array<std::uint8_t, batch_histories> marks;
-    ends.residual += play_roulette(wave.rays.size, wave.chance.data(), threshold, restored, wave.weight.data(), marks.data());
+    ends.residual +=
+        play_roulette(wave.rays.size, wave.chance.data(), threshold, restored, wave.weight.data(), marks.data());
     choose_marked(marks.data(), wave.rays.size, survivors);
   }
 };

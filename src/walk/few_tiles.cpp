@@ -64,8 +64,7 @@ const std::vector<std::uint64_t>& FewTiles::close_batch(std::uint32_t n, Totals&
 }
 
 void FewTiles::add_to(Totals& totals) const {
-  for (std::size_t tile = 0; tile < scores_.size(); ++tile)
-    totals.tiles[tile].add_sums(sums_[tile], squares_[tile]);
+  for (std::size_t tile = 0; tile < scores_.size(); ++tile) totals.tiles[tile].add_sums(sums_[tile], squares_[tile]);
   for (std::size_t tile = 0; tile < hits_.size(); ++tile) totals.hits[tile] += hits_[tile];
 }
 

@@ -29,21 +29,32 @@ glm::dvec3 sample(const SpotEmitter& law, double u, double turns) {
   return sample_spot(law.inner, law.outer, u, turns);
 }
 
-// 1 − cos θ = −expm1(ln u · share), share = 1/(m + 1): generalized Lambert emitters (see directions.hpp).
-LICHTMC_LANES void lambert_versines(std::size_t n, const std::uint32_t* LICHTMC_APART words, float share,
-                                    float* LICHTMC_APART versine) {
-  for (std::size_t i = 0; i < n; ++i) versine[i] = -lane_expm1(share * lane_log_unit(words[i]));
+// Sine and cosine of the angle to the emitter's axis by the laws of directions.hpp. Generalized Lambert emitters:
+// 1 − cos θ = −expm1(ln u · share), share = 1/(m + 1).
+LICHTMC_LANES void lambert_polar(std::size_t n, const std::uint32_t* LICHTMC_APART words, float share,
+                                 float* LICHTMC_APART sine, float* LICHTMC_APART cosine) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float versine = -lane_expm1(share * lane_log_unit(words[i]));
+    sine[i] = std::sqrt(versine * (2.0F - versine));
+    cosine[i] = 1.0F - versine;
+  }
 }
 
-LICHTMC_LANES void isotropic_versines(std::size_t n, const std::uint32_t* LICHTMC_APART words,
-                                      float* LICHTMC_APART versine) {
-  for (std::size_t i = 0; i < n; ++i) versine[i] = (static_cast<float>(words[i]) + 0.5F) * 0x1p-31F;
+// The whole sphere, cos θ = 1 − 2u; both poles from what is left of u, which float holds exactly there.
+LICHTMC_LANES void isotropic_polar(std::size_t n, const std::uint32_t* LICHTMC_APART words, float* LICHTMC_APART sine,
+                                   float* LICHTMC_APART cosine) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float u = (static_cast<float>(words[i]) + 0.5F) * 0x1p-32F;
+    const float rest = (static_cast<float>(~words[i]) + 0.5F) * 0x1p-32F;
+    sine[i] = 2.0F * std::sqrt(u * rest);
+    cosine[i] = rest - u;
+  }
 }
 
 // Directions at these angles to the third axis of a frame, with uniform azimuth.
-LICHTMC_LANES void aim(std::size_t n, const float* LICHTMC_APART versine, const std::uint32_t* LICHTMC_APART words,
-                       const glm::mat3& frame, float* LICHTMC_APART dx, float* LICHTMC_APART dy,
-                       float* LICHTMC_APART dz) {
+LICHTMC_LANES void aim(std::size_t n, const float* LICHTMC_APART sine_polar, const float* LICHTMC_APART cosine_polar,
+                       const std::uint32_t* LICHTMC_APART words, const glm::mat3& frame, float* LICHTMC_APART dx,
+                       float* LICHTMC_APART dy, float* LICHTMC_APART dz) {
   const glm::vec3 a = frame[0];
   const glm::vec3 b = frame[1];
   const glm::vec3 c = frame[2];
@@ -51,10 +62,9 @@ LICHTMC_LANES void aim(std::size_t n, const float* LICHTMC_APART versine, const 
     float sine = 0.0F;
     float cosine = 0.0F;
     sine_cosine(static_cast<float>(words[i]) * 0x1p-32F, sine, cosine);
-    const float across = std::sqrt(versine[i] * (2.0F - versine[i]));
-    const float x = across * cosine;
-    const float y = across * sine;
-    const float z = 1.0F - versine[i];
+    const float x = sine_polar[i] * cosine;
+    const float y = sine_polar[i] * sine;
+    const float z = cosine_polar[i];
     dx[i] = x * a.x + y * b.x + z * c.x;
     dy[i] = x * a.y + y * b.y + z * c.y;
     dz[i] = x * a.z + y * b.z + z * c.z;
@@ -137,7 +147,8 @@ struct Launcher::Launches {
   std::array<std::uint32_t, batch_histories> polar;
   std::array<std::uint32_t, batch_histories> azimuth;
   std::array<std::uint64_t, batch_histories> chance;
-  std::array<float, batch_histories> versine;
+  std::array<float, batch_histories> sine;
+  std::array<float, batch_histories> cosine;
 };
 
 void Launcher::launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays,
@@ -166,8 +177,8 @@ std::vector<std::uint32_t> Launcher::sort_by_source(std::uint32_t n, Launches& l
   std::vector<std::uint32_t> place(sources_.size());
   std::array<std::uint32_t, batch_histories> source;
   for (std::uint32_t i = 0; i < n; ++i) {
-    source[i] = static_cast<std::uint32_t>(
-        choose(powers_up_to_, static_cast<double>(launches.chance[i] >> 11) * 0x1p-53));
+    source[i] =
+        static_cast<std::uint32_t>(choose(powers_up_to_, static_cast<double>(launches.chance[i] >> 11) * 0x1p-53));
     ++place[source[i]];
   }
   std::uint32_t sum = 0;
@@ -188,17 +199,17 @@ void Launcher::launch_from(std::size_t k, Launches& launches, std::uint32_t begi
   const std::size_t n = end - begin;
   const std::uint32_t* polar = &launches.polar[begin];
   const std::uint32_t* azimuth = &launches.azimuth[begin];
-  float* versine = &launches.versine[begin];
+  float* sine_polar = &launches.sine[begin];
+  float* cosine_polar = &launches.cosine[begin];
   const auto share = [](double exponent) { return static_cast<float>(1.0 / (exponent + 1.0)); };
   if (const auto* surface = std::get_if<SurfaceSource>(&sources_[k])) {
-    lambert_versines(n, polar, share(surface->exponent), versine);
+    lambert_polar(n, polar, share(surface->exponent), sine_polar, cosine_polar);
     for (std::uint32_t i = begin; i < end; ++i) {
       float sine = 0.0F;
       float cosine = 0.0F;
       sine_cosine(static_cast<float>(launches.azimuth[i]) * 0x1p-32F, sine, cosine);
-      const float across = std::sqrt(launches.versine[i] * (2.0F - launches.versine[i]));
-      start_on(*surface, {across * cosine, across * sine, 1.0F - launches.versine[i]},
-               stream.draw(first + photon[i], 0, Purpose::place), rays, i);
+      const glm::vec3 local(launches.sine[i] * cosine, launches.sine[i] * sine, launches.cosine[i]);
+      start_on(*surface, local, stream.draw(first + photon[i], 0, Purpose::place), rays, i);
     }
     return;
   }
@@ -208,11 +219,12 @@ void Launcher::launch_from(std::size_t k, Launches& launches, std::uint32_t begi
     return;
   }
   if (const auto* lambert = std::get_if<LambertEmitter>(&point.law)) {
-    lambert_versines(n, polar, share(lambert->exponent), versine);
+    lambert_polar(n, polar, share(lambert->exponent), sine_polar, cosine_polar);
   } else {
-    isotropic_versines(n, polar, versine);
+    isotropic_polar(n, polar, sine_polar, cosine_polar);
   }
-  aim(n, versine, azimuth, glm::mat3(point.to_tracer), &rays.dx[begin], &rays.dy[begin], &rays.dz[begin]);
+  aim(n, sine_polar, cosine_polar, azimuth, glm::mat3(point.to_tracer), &rays.dx[begin], &rays.dy[begin],
+      &rays.dz[begin]);
   std::fill_n(&rays.facet[begin], n, no_facet);
   std::fill_n(&rays.x[begin], n, point.start.point.x);
   std::fill_n(&rays.y[begin], n, point.start.point.y);

@@ -53,8 +53,7 @@ class Launcher {
   // Photons begin … end − 1 of the wave start from source k.
   void launch_from(std::size_t k, Launches& launches, std::uint32_t begin, std::uint32_t end, const Stream& stream,
                    std::uint64_t first, Rays& rays, const std::uint32_t* photon) const;
-  void start_at(const PointSource& source, std::uint32_t polar, std::uint32_t azimuth, Rays& rays,
-                std::size_t i) const;
+  void start_at(const PointSource& source, std::uint32_t polar, std::uint32_t azimuth, Rays& rays, std::size_t i) const;
   void start_on(const SurfaceSource& source, const glm::vec3& local, const Words& place, Rays& rays,
                 std::size_t i) const;
 

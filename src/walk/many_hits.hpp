@@ -1,8 +1,8 @@
 // The hits of a batch where tiles are many and hits are the score.
 //
-// Each impact is a walk to a place in memory of its own: a tile takes four bytes, so that as many tiles as possible stay
-// in the cache. Where tiles are many, most batches hit a tile once, some twice: these are counted and go to the totals
-// now and then.
+// Each impact is a walk to a place in memory of its own: a tile takes four bytes, so that as many tiles as possible
+// stay in the cache. Where tiles are many, most batches hit a tile once, some twice: these are counted and go to the
+// totals now and then.
 #pragma once
 
 #include <cstddef>
@@ -44,8 +44,8 @@ class ManyHits {
   void add_to(Totals& totals) const;
 
  private:
-  // A tile's four bytes: two for its hits in the batch, one each for full batches with one hit and with two that are not
-  // yet in the totals.
+  // A tile's four bytes: two for its hits in the batch, one each for full batches with one hit and with two that are
+  // not yet in the totals.
   static constexpr std::uint32_t most_hits = 0xFFFFU;
   static constexpr std::uint32_t once = 0x1'0000U;
   static constexpr std::uint32_t most_once = 0xFF'0000U;

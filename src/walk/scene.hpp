@@ -44,13 +44,13 @@ struct Scene {
   std::vector<SurfaceOptics> surfaces;
   std::vector<MapPlace> map_places;         // per facet; empty where no surface has a map
   std::vector<std::uint32_t> tile_of_cell;  // every cell has a tile, empty ones the nearest
-  std::vector<double> reflectance_of;        // of each surface
-  std::vector<std::int64_t> survival_of;     // the same in units of 2⁻⁵³, rounded up
-  std::vector<std::uint32_t> surface_of;     // of each facet
+  std::vector<double> reflectance_of;       // of each surface
+  std::vector<std::int64_t> survival_of;    // the same in units of 2⁻⁵³, rounded up
+  std::vector<std::uint32_t> surface_of;    // of each facet
   std::unique_ptr<CellFinder> cells;
-  bool cells_are_tiles = false;    // tile_of_cell[k] = k: rooms of rectangles
+  bool cells_are_tiles = false;           // tile_of_cell[k] = k: rooms of rectangles
   std::vector<std::uint32_t> first_tile;  // of each tile map; one number more, that of all tiles
-  bool reflects_all_somewhere = false;  // a surface, or a place of one, has ρ = 1
+  bool reflects_all_somewhere = false;    // a surface, or a place of one, has ρ = 1
   std::unique_ptr<Launcher> launcher;
 
   // Whether some surface's reflectance changes from point to point.
@@ -67,8 +67,8 @@ struct Scene {
     return reflectance_at(*place.map, uv.x, uv.y);
   }
 
-  // The tile that each flight of a wave ended on, its tile map and surface. A place that rounding puts beside the grid belongs to its outermost
-  // cells.
+  // The tile that each flight of a wave ended on, its tile map and surface. A place that rounding puts beside the grid
+  // belongs to its outermost cells.
   void tile_of_each(const Rays& rays, std::uint32_t* tile, std::uint32_t* map, std::uint32_t* surface) const;
 };
 

@@ -110,8 +110,8 @@ void ListEnded(std::size_t n, Survivors& survivors) {
     const std::size_t all = within(~std::size_t{survivors.sets[i / 8]}, i, n);
     for (std::size_t k = 0; k < 8; k += lanes) {
       const std::size_t set = all >> k & ((std::size_t{1} << lanes) - 1);
-      const auto places = hn::Add(hn::Load(d, ranks<lanes>.data() + set * lanes),
-                                  hn::Set(d, static_cast<std::uint32_t>(i + k)));
+      const auto places =
+          hn::Add(hn::Load(d, ranks<lanes>.data() + set * lanes), hn::Set(d, static_cast<std::uint32_t>(i + k)));
       hn::StoreU(places, d, survivors.ended_at.data() + listed);
       listed += hwy::PopCount(set);
     }

@@ -14,7 +14,10 @@ template <class Policy>
 class TileGoal {
  public:
   TileGoal(const Scene& scene, const Stream& stream, Direct direct)
-      : scene_(&scene), stream_(stream), first_scored_(direct == Direct::analytic ? 2 : 1), tile_(batch_histories),
+      : scene_(&scene),
+        stream_(stream),
+        first_scored_(direct == Direct::analytic ? 2 : 1),
+        tile_(batch_histories),
         map_(batch_histories),
         units_(batch_histories),
         ended_tile_(batch_histories),

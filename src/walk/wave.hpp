@@ -24,13 +24,13 @@ struct Wave {
         surface(batch_histories) {}
 
   Rays rays;
-  std::vector<std::uint32_t> photon;         // number of the history within the batch
-  std::vector<double> weight;                // for estimators that carry one
-  std::vector<std::uint64_t> history;        // number that selects the random words
-  std::vector<std::uint32_t> polar;          // random word 0 of the flight, see draw_many()
-  std::vector<std::uint32_t> azimuth;        // word 1
-  std::vector<std::uint64_t> chance;         // words 2 and 3
-  std::vector<std::uint32_t> surface;        // where the flight ended, where the goal has set it
+  std::vector<std::uint32_t> photon;   // number of the history within the batch
+  std::vector<double> weight;          // for estimators that carry one
+  std::vector<std::uint64_t> history;  // number that selects the random words
+  std::vector<std::uint32_t> polar;    // random word 0 of the flight, see draw_many()
+  std::vector<std::uint32_t> azimuth;  // word 1
+  std::vector<std::uint64_t> chance;   // words 2 and 3
+  std::vector<std::uint32_t> surface;  // where the flight ended, where the goal has set it
 
   // Moves photon `from` to place `to` ≤ from; what the next flight needs of it.
   void move(std::size_t from, std::size_t to) {

@@ -18,8 +18,7 @@ inline double to_double(std::uint32_t x) {
 }
 
 LICHTMC_LANES std::int64_t reflect_lanes(std::size_t n, const std::uint32_t* LICHTMC_APART surface,
-                                         const double* LICHTMC_APART reflectance_of,
-                                         double* LICHTMC_APART weight) {
+                                         const double* LICHTMC_APART reflectance_of, double* LICHTMC_APART weight) {
   std::int64_t absorbed = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const double before = weight[i];
@@ -35,7 +34,8 @@ LICHTMC_LANES double lightest_of(std::size_t n, const double* LICHTMC_APART weig
   double lightest[side_by_side] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
   std::size_t i = 0;
   for (; i + side_by_side <= n; i += side_by_side) {
-    for (std::size_t k = 0; k < side_by_side; ++k) lightest[k] = weight[i + k] < lightest[k] ? weight[i + k] : lightest[k];
+    for (std::size_t k = 0; k < side_by_side; ++k)
+      lightest[k] = weight[i + k] < lightest[k] ? weight[i + k] : lightest[k];
   }
   for (; i < n; ++i) lightest[0] = weight[i] < lightest[0] ? weight[i] : lightest[0];
   double least = 1.0;
@@ -68,8 +68,7 @@ LICHTMC_LANES void units_lanes(std::size_t n, const double* LICHTMC_APART weight
 
 }  // namespace
 
-WeightLoss reflect_weights(std::size_t n, const std::uint32_t* surface, const double* reflectance_of,
-                           double* weight) {
+WeightLoss reflect_weights(std::size_t n, const std::uint32_t* surface, const double* reflectance_of, double* weight) {
   const std::int64_t absorbed = reflect_lanes(n, surface, reflectance_of, weight);
   return {absorbed, lightest_of(n, weight)};
 }

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <vector>
 
-#include "chance/directions.hpp"
 #include "base/lanes.hpp"
+#include "chance/directions.hpp"
 #include "chance/draw_many.hpp"
 #include "chance/lane_math.hpp"
 #include "chance/philox.hpp"
