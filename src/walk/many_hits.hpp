@@ -17,11 +17,6 @@ class ManyHits {
  public:
   ManyHits(std::size_t tiles, std::size_t maps);
 
-  // Tiles that will score soon are fetched from memory meanwhile.
-  void expect(const std::uint32_t* tiles, std::size_t n) const {
-    for (std::size_t i = 0; i < n; ++i) __builtin_prefetch(&tiles_[tiles[i]], 1);
-  }
-
   // A hit for each of n impacts.
   void score_each(const std::uint32_t* tiles, const std::uint32_t* maps, std::size_t n) {
     std::uint32_t* touched = touched_.data();

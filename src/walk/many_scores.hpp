@@ -17,8 +17,11 @@ class ManyScores {
   ManyScores(std::size_t tiles, std::size_t maps);
 
   // Tiles that will score soon are fetched from memory meanwhile.
-  void expect(const std::uint32_t* tiles, std::size_t n) const {
-    for (std::size_t i = 0; i < n; ++i) __builtin_prefetch(&tiles_[tiles[i]], 1);
+  void expect(const std::uint32_t* tiles, std::size_t n, const Totals& totals) const {
+    for (std::size_t i = 0; i < n; ++i) {
+      __builtin_prefetch(&tiles_[tiles[i]], 1);
+      __builtin_prefetch(&totals.tiles[tiles[i]], 1);
+    }
   }
 
   void score(std::uint32_t tile, std::uint32_t map, std::uint64_t units, Totals& totals) {

@@ -24,8 +24,7 @@ class Tally {
 
   // Tiles that will score soon.
   void expect(const std::uint32_t* tiles, std::size_t n) const {
-    if (const auto* hits = std::get_if<ManyHits>(&batch_)) hits->expect(tiles, n);
-    if (const auto* scores = std::get_if<ManyScores>(&batch_)) scores->expect(tiles, n);
+    if (const auto* scores = std::get_if<ManyScores>(&batch_)) scores->expect(tiles, n, totals_);
   }
 
   // One unit for each of n impacts on tiles of tile maps, where hits are the score.
