@@ -37,6 +37,7 @@ LIBRARIES = {
     r"draco/": ["src/gltf/"],
     r"meshoptimizer": ["src/gltf/"],
     r"stb/": ["src/gltf/", "src/output/"],
+    r"hwy/": ["src/chance/", "src/walk/"],
     r"libfccp": ["src/output/"],
 }
 
