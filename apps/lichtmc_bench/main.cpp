@@ -296,24 +296,32 @@ int run(const Options& options) {
 
 }  // namespace
 
-}  // namespace lichtmc::bench
-
-int main(int argc, char** argv) {
-  lichtmc::bench::Options options;
+static int run_program(int argc, char** argv) {
+  Options options;
   CLI::App program{
       "How fast lichtmc is on this machine: ratios measured side by side, with the bars they must reach.\n"
       "Exit status 1 when a bar is missed."};
   program.add_flag("--json", options.json, "Write JSON, with every turn, instead of the table");
   program.add_flag("--quick", options.quick, "Shorter turns: under a minute");
-  program.add_option("--only", options.only,
-                     "One group: textbook, embree, threads, unused, tiles, memory, start, estimators");
+  program.add_option("--only", options.only, "One group of measurements")
+      ->check(CLI::IsMember({"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators"}));
   try {
     program.parse(argc, argv);
-    return lichtmc::bench::run(options);
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : 2;
-  } catch (const std::exception& error) {
-    std::cerr << "lichtmc_bench: " << error.what() << '\n';
-    return 1;
   }
+  return run(options);
+}
+
+}  // namespace lichtmc::bench
+
+int main(int argc, char** argv) {
+  try {
+    return lichtmc::bench::run_program(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "lichtmc_bench: %s\n", error.what());
+  } catch (...) {
+    std::fputs("lichtmc_bench: an unknown fault\n", stderr);
+  }
+  return 1;
 }

@@ -75,7 +75,9 @@ Room room_of_triangles(std::size_t triangles) {
   constexpr int spheres = 8;
   const auto n = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(triangles) / (2.0 * spheres))));
   for (int k = 0; k < spheres; ++k) {
-    const glm::dvec3 centre(0.8 + 2.4 * (k % 2), 0.8 + 1.6 * (k / 4), 0.8 + 2.4 * (k / 2 % 2));
+    const int storey = k / 4;
+    const int row = k / 2 % 2;
+    const glm::dvec3 centre(0.8 + 2.4 * (k % 2), 0.8 + 1.6 * storey, 0.8 + 2.4 * row);
     room.surfaces.push_back(sphere("sphere " + std::to_string(k), centre, 0.5, n));
   }
   return room;

@@ -90,8 +90,9 @@ void DrawMany(const std::array<std::uint32_t, 2>& key, std::size_t n, const std:
   constexpr std::size_t stride = HWY_MAX_BYTES / sizeof(std::uint64_t);
   HWY_ALIGN std::array<std::uint64_t, 2 * rounds * stride> keys;
   for (std::uint32_t round = 0; round < rounds; ++round) {
-    hn::Store(hn::Set(d, key[0] + round * 0x9E3779B9U), d, keys.data() + 2 * round * stride);
-    hn::Store(hn::Set(d, key[1] + round * 0xBB67AE85U), d, keys.data() + (2 * round + 1) * stride);
+    const std::size_t at = std::size_t{2} * round * stride;
+    hn::Store(hn::Set(d, key[0] + round * 0x9E3779B9U), d, keys.data() + at);
+    hn::Store(hn::Set(d, key[1] + round * 0xBB67AE85U), d, keys.data() + at + stride);
   }
   for (std::size_t i = 0; i < n; i += 2 * lanes) {
     Block a, b;

@@ -45,7 +45,7 @@ struct Moments {
   }
   // or of which each scored x (≤ 2³¹).
   void add_full_batches(std::uint64_t batches, std::uint32_t x) {
-    sum += batches * x;
+    sum += static_cast<uint128>(batches) * x;
     squares += static_cast<uint128>(batches) * x * x * (square_units / batch_histories);
   }
 

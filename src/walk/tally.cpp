@@ -7,7 +7,7 @@ namespace lichtmc {
 namespace {
 
 // To look at this many tiles at the end of a batch costs less than to remember which ones it has hit.
-constexpr std::size_t few_tiles = 4 * batch_histories;
+constexpr std::size_t few_tiles = std::size_t{4} * batch_histories;
 
 Tally::TileScores tiles_for(const std::vector<std::uint32_t>& first_tile, Hits hits) {
   const std::size_t tiles = first_tile.back();
