@@ -7,23 +7,18 @@
 
 #include <glm/vec3.hpp>
 
+#include "base/lanes.hpp"
 #include "tracer/facet.hpp"
 
 namespace lichtmc {
 
 struct Rays {
-  explicit Rays(std::size_t capacity)
-      : x(capacity),
-        y(capacity),
-        z(capacity),
-        dx(capacity),
-        dy(capacity),
-        dz(capacity),
-        facet(capacity),
-        s(capacity),
-        t(capacity),
-        behind(capacity),
-        length(capacity) {}
+  // For at least so many flights; the arrays reach to whole_lanes().
+  explicit Rays(std::size_t capacity) {
+    const std::size_t whole = whole_lanes(capacity);
+    for (auto* numbers : {&x, &y, &z, &dx, &dy, &dz, &s, &t, &length}) numbers->resize(whole);
+    for (auto* numbers : {&facet, &behind}) numbers->resize(whole);
+  }
 
   std::size_t size = 0;  // photons in flight; elements beyond are spare
 

@@ -32,7 +32,7 @@
 
 namespace lichtmc {
 
-// Asked every thousand flights of a wave. When it says true and the wave has flown a million times, the wave ends and
+// Asked every thousand flights of a wave. When it says true and the wave has flown 10⁵ times, the wave ends and
 // what still flies is cut off: only a room that keeps its light for ever, or nearly so, gets there.
 using Abandon = std::function<bool()>;
 
@@ -75,7 +75,7 @@ class Kernel {
 
  private:
   static constexpr std::uint32_t abandon_interval = 1024;  // flights between two questions whether to go on
-  static constexpr std::uint32_t patience = 1'000'000;     // flights after which the answer counts
+  static constexpr std::uint32_t patience = 100'000;       // flights after which the answer counts
 
   // Photons start, each with weight 1.
   void launch(std::uint32_t n, Goal& goal) {
