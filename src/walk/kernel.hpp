@@ -144,7 +144,7 @@ class Kernel {
       std::size_t kept = 0;
       for (std::size_t i = 0; i < n; ++i) {
         wave_.weight[kept] = wave_.weight[i];
-        kept += survivors_.sets[i / 8] >> (i % 8) & 1U;
+        kept += std::size_t{survivors_.sets[i / 8]} >> (i % 8) & 1;
       }
     }
     wave_.rays.size = survivors_.count;

@@ -59,14 +59,14 @@ void ChooseByChance(const Wave& wave, const std::int64_t* survival_of, Survivors
 void ListEnded(std::size_t n, Survivors& survivors) {
   std::size_t listed = 0;
   for (std::uint32_t i = 0; i < n; ++i) {
-    if ((survivors.sets[i / 8] >> (i % 8) & 1U) == 0) survivors.ended_at[listed++] = i;
+    if ((std::size_t{survivors.sets[i / 8]} >> (i % 8) & 1) == 0) survivors.ended_at[listed++] = i;
   }
 }
 
 void CloseRanks(Wave& wave, const Survivors& survivors) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < wave.rays.size; ++i) {
-    if ((survivors.sets[i / 8] >> (i % 8) & 1U) != 0) wave.move(i, kept++);
+    if ((std::size_t{survivors.sets[i / 8]} >> (i % 8) & 1) != 0) wave.move(i, kept++);
   }
 }
 
