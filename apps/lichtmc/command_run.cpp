@@ -45,9 +45,10 @@ Estimator parse_estimator(const std::string& text) {
   if (text == "weight" || text == "1") return Estimator::weight;
   if (text == "collision" || text == "2") return Estimator::collision;
   if (text == "absorption" || text == "3") return Estimator::absorption;
+  if (text == "auto") return Estimator::automatic;
   throw InputError(
       "The estimator '" + text +
-      "' is not known (allowed: weight, collision, absorption, or 1, 2, 3). Give one of these to --estimator.");
+      "' is not known (allowed: weight, collision, absorption, or 1, 2, 3; auto). Give one of these to --estimator.");
 }
 
 Engine parse_engine(const std::string& text) {
@@ -158,14 +159,15 @@ const char* describe(StopReason reason) {
 
 // A stop rule that was not met is said, with what it would take.
 void warn_of_missed_target(const Settings& settings, StopReason stopped_by, double error, double histories,
-                           double seconds, const char* remedy) {
+                           double to_target, double seconds, const char* remedy) {
   if (!settings.target_error || stopped_by == StopReason::target_error) return;
   std::cerr << "The target error of " << percent(*settings.target_error) << " was not reached: it is " << percent(error)
             << '.';
-  const double factor = std::pow(error / *settings.target_error, 2);
-  if (std::isfinite(factor)) {
-    std::cerr << " It would take about " << short_count(factor * histories) << " photons ("
-              << short_time(factor * seconds) << " here)" << remedy << '.';
+  // What the errors on the way foretell; before the first of them was known, that they fall with the square root.
+  if (!std::isfinite(to_target)) to_target = histories * std::pow(error / *settings.target_error, 2);
+  if (std::isfinite(to_target)) {
+    std::cerr << " It would take about " << short_count(to_target) << " photons ("
+              << short_time(to_target / histories * seconds) << " here)" << remedy << '.';
   }
   std::cerr << '\n';
 }
@@ -198,7 +200,7 @@ void print_tiles(const Result& result) {
             << (forward ? " photons, " : " walks back from the tiles, ")
             << short_count(static_cast<double>(result.impacts)) << " impacts in " << figure(result.seconds) << " s ("
             << describe(result.stopped_by) << "; engine " << to_string(result.engine) << ", estimator "
-            << to_string(result.settings.estimator) << (direct_is_apart(result) ? ", direct light integrated" : "")
+            << to_string(result.estimator) << (direct_is_apart(result) ? ", direct light integrated" : "")
             << ").\n";
   if (forward) print_balance(result);
   std::cerr << result.tiles.size() << " tiles, relative standard error " << percent(result.rms_relative_error)
@@ -206,7 +208,8 @@ void print_tiles(const Result& result) {
   if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " got none";
   std::cerr << ".\n";
   warn_of_missed_target(result.settings, result.stopped_by, result.rms_relative_error,
-                        static_cast<double>(result.histories), result.seconds, ", or larger tiles");
+                        static_cast<double>(result.histories), result.histories_to_target, result.seconds,
+                        ", or larger tiles");
 }
 
 void print_receivers(const Result& result) {
@@ -216,13 +219,14 @@ void print_receivers(const Result& result) {
             << short_count(histories) << " walks back from them in " << figure(backward.seconds) << " s ("
             << describe(backward.stopped_by) << "), " << short_count(static_cast<double>(backward.shadow_rays))
             << " shadow rays; relative standard error " << percent(backward.rms_relative_error) << " (rms).\n";
-  warn_of_missed_target(result.settings, backward.stopped_by, backward.rms_relative_error, histories, backward.seconds,
-                        "");
+  warn_of_missed_target(result.settings, backward.stopped_by, backward.rms_relative_error, histories,
+                        backward.histories_to_target, backward.seconds, "");
 }
 
 void print_outcome(const Result& result, const std::filesystem::path& folder) {
   if (!result.tiles.empty()) print_tiles(result);
   if (!result.receiver_results.empty()) print_receivers(result);
+  for (const std::string& choice : result.choices) std::cerr << choice << '\n';
   for (const std::string& warning : result.warnings) std::cerr << "Warning: " << warning << '\n';
   print_ignored(result.ignored);
   std::cerr << "Results are in " << folder.string()
@@ -281,7 +285,8 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->group(method);
   command
       .add_option("--estimator", options.estimator,
-                  "weight, collision or absorption (or 1, 2, 3): same mean, other errors; collision suits most rooms")
+                  "weight, collision or absorption (or 1, 2, 3): same mean, other errors; collision suits most rooms. auto: the "
+                  "best of them, by a short pilot of each")
       ->type_name("NAME")
       ->capture_default_str()
       ->group(method);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 
 #include <unistd.h>
 
@@ -46,41 +47,52 @@ ProgressLine::~ProgressLine() {
   if (drawn_ && terminal_) std::cerr << "\r\x1b[K" << std::flush;  // the bar has served; results follow
 }
 
-// The stop rule that is nearest decides how much is done.
-double ProgressLine::share_done(const Progress& progress) const {
-  double share = static_cast<double>(progress.histories) / static_cast<double>(progress.target);
-  if (settings_.max_seconds) share = std::max(share, progress.seconds / *settings_.max_seconds);
-  if (settings_.target_error && progress.rms_relative_error > 0.0) {
-    // Errors fall with the square root of the histories.
-    share = std::max(share, std::pow(*settings_.target_error / progress.rms_relative_error, 2));
-  }
-  return std::clamp(share, 0.0, 1.0);
+// Time to the nearest of the stop rules, s; infinite where none can be told yet.
+double ProgressLine::seconds_left(const Progress& progress) const {
+  double left = std::numeric_limits<double>::infinity();
+  const auto done = static_cast<double>(progress.histories);
+  if (done > 0.0) left = progress.seconds * (static_cast<double>(progress.target) - done) / done;
+  if (progress.seconds_to_target >= 0.0) left = std::min(left, progress.seconds_to_target);
+  if (settings_.max_seconds) left = std::min(left, *settings_.max_seconds - progress.seconds);
+  return std::max(left, 0.0);
 }
 
-std::string ProgressLine::describe(const Progress& progress) const {
-  const double share = share_done(progress);
-  const double left = share > 0.0 ? progress.seconds * (1.0 - share) / share : 0.0;
-  if (progress.stage == Progress::Stage::direct_light) {
-    return "direct light of " + short_count(static_cast<double>(progress.histories)) + " of " +
-           short_count(static_cast<double>(progress.target)) +
-           (left > 0.0 ? ", about " + short_time(left) + " left" : "");
-  }
+double ProgressLine::share_done(const Progress& progress) const {
+  const double left = seconds_left(progress);
+  return std::isfinite(left) ? progress.seconds / (progress.seconds + left) : 0.0;
+}
+
+// What has been simulated, and how fast.
+std::string ProgressLine::work(const Progress& progress) const {
   const bool receivers = progress.stage == Progress::Stage::receivers;
   const bool backward = receivers || settings_.tiles == TileWalk::backward;
   const bool limited = progress.target < std::uint64_t{1} << 62;
-  std::string text = short_count(static_cast<double>(progress.histories)) +
-                     (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") +
-                     (receivers  ? " walks from receivers, "
-                      : backward ? " walks from tiles, "
-                                 : " photons, ") +
-                     short_count(static_cast<double>(progress.impacts) / progress.seconds) +
-                     (backward ? " rays/s" : " impacts/s");
+  return short_count(static_cast<double>(progress.histories)) +
+         (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") +
+         (receivers  ? " walks from receivers, "
+          : backward ? " walks from tiles, "
+                     : " photons, ") +
+         short_count(static_cast<double>(progress.impacts) / progress.seconds) +
+         (backward ? " rays/s" : " impacts/s");
+}
+
+std::string ProgressLine::describe(const Progress& progress) const {
+  if (progress.stage == Progress::Stage::pilot) return "choosing the estimator";
+  const double left = seconds_left(progress);
+  const std::string time = std::isfinite(left) ? ", about " + short_time(left) + " left" : "";
+  if (progress.stage == Progress::Stage::direct_light) {
+    return "direct light of " + short_count(static_cast<double>(progress.histories)) + " of " +
+           short_count(static_cast<double>(progress.target)) + time;
+  }
+  std::string text = work(progress);
   if (progress.rms_relative_error > 0.0) {
     char error[48];
     std::snprintf(error, sizeof error, ", error %.2g %%", 100.0 * progress.rms_relative_error);
     text += error;
   }
-  return share > 0.0 ? text + ", about " + short_time(left) + " left" : text;
+  text += time;
+  if (progress.seconds_to_target > left) text += ", " + short_time(progress.seconds_to_target) + " to the target error";
+  return text;
 }
 
 void ProgressLine::update(const Progress& progress) {

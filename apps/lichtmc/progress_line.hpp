@@ -23,6 +23,8 @@ class ProgressLine {
 
  private:
   std::string describe(const Progress& progress) const;
+  std::string work(const Progress& progress) const;
+  double seconds_left(const Progress& progress) const;
   double share_done(const Progress& progress) const;
 
   Show show_;

@@ -61,6 +61,7 @@ struct ReceiverResult {
 
 // How the receivers' results were got.
 struct BackwardResult {
+  Estimator estimator = Estimator::collision;  // as used
   StopReason stopped_by = StopReason::photons;
   std::uint64_t histories = 0;    // of all receivers together
   std::uint64_t rays = 0;         // flights traced and shadow rays
@@ -68,6 +69,7 @@ struct BackwardResult {
   double seconds = 0.0;           // wall-clock time
   double rms_relative_error = 0.0;  // rms of the receivers' relative standard errors, over those that get light
   double figure_of_merit = 0.0;     // 1 / (rms_relative_error² · seconds), 1/s
+  double histories_to_target = std::numeric_limits<double>::quiet_NaN();  // as Result::histories_to_target
 };
 
 // Where the emitted power went, in W or lm: emitted = absorbed + escaped + residual + lost. Only photons from the
@@ -85,6 +87,8 @@ struct Result {
   Quantity quantity = Quantity::photometric;
   Settings settings;               // as asked for
   Engine engine = Engine::embree;  // as used
+  Estimator estimator = Estimator::collision;  // as used for the tiles
+  std::vector<std::string> choices;            // what Estimator::automatic has chosen and why, a sentence each
   unsigned threads = 1;            // as used
   StopReason stopped_by = StopReason::photons;
 
@@ -102,6 +106,9 @@ struct Result {
   double rms_relative_error =
       0.0;                       // area-weighted rms of the tiles' relative standard errors, over tiles that got light
   double figure_of_merit = 0.0;  // 1 / (rms_relative_error² · seconds), 1/s
+  // Histories that Settings::target_error is forecast to take, from the errors on the way; NaN where none was asked for
+  // or no error is known.
+  double histories_to_target = std::numeric_limits<double>::quiet_NaN();
   std::uint64_t tiles_without_hits = 0;  // that no photon hit, or no walk found light from
 
   std::vector<TileResult> tiles;        // as Tiling::tiles; none where only the backward walk was run

@@ -12,6 +12,7 @@ enum class Estimator {
   weight,      // never absorbed; impact k scores the weight Π ρ of the surfaces before it
   collision,   // survives a surface with probability ρ; every impact scores 1
   absorption,  // as collision, but only the last impact scores, with 1/(1 − ρ)
+  automatic,   // the one that a short pilot of each finds to buy most accuracy per flight in this room
 };
 
 // How flights are traced.
@@ -40,7 +41,7 @@ enum class TileWalk {
   backward,  // walks from random points of each tile back to the light; the direct light is integrated
 };
 
-// "weight", "collision", "absorption"; "auto", "cuboid", "embree"; "sampled", "analytic"; "forward", "backward".
+// "weight", "collision", "absorption", "auto"; "auto", "cuboid", "embree"; "sampled", "analytic"; "forward", "backward".
 std::string_view to_string(Estimator estimator);
 std::string_view to_string(Engine engine);
 std::string_view to_string(Direct direct);

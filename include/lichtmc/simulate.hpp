@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <stop_token>
 
 #include "lichtmc/result.hpp"
@@ -15,6 +16,7 @@ namespace lichtmc {
 struct Progress {
   enum class Stage {
     direct_light,  // integrating it; histories and target are tiles, or receivers
+    pilot,         // short walks by which Estimator::automatic chooses
     tiles,         // walks for the tiles
     receivers,     // walks for the receivers
   };
@@ -22,8 +24,11 @@ struct Progress {
   std::uint64_t histories = 0;  // simulated so far
   std::uint64_t target = 0;     // that there are to simulate if no other stop rule comes first
   std::uint64_t impacts = 0;
-  double seconds = 0.0;             // since the walk, or its direct light, began
-  double rms_relative_error = 0.0;  // at the last time it was evaluated; NaN before that
+  double seconds = 0.0;  // since the walk, or its direct light, began
+  // At the last time it was evaluated; NaN before that.
+  double rms_relative_error = std::numeric_limits<double>::quiet_NaN();
+  // Forecast of the time until Settings::target_error is met, from the errors so far; NaN where there is none.
+  double seconds_to_target = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct Control {

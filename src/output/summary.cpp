@@ -126,7 +126,7 @@ void write_summary(const Room& room, const Result& result, const Sink& sink) {
                {"room", result.room},
                {"unit", std::string(power_unit(result.quantity))},
                {"engine", std::string(to_string(result.engine))},
-               {"estimator", std::string(to_string(result.settings.estimator))},
+               {"estimator", std::string(to_string(result.tiles.empty() ? result.backward.estimator : result.estimator))},
                {"seed", result.settings.seed},
                {"threads", result.threads},
                {"histories", result.histories},
@@ -150,6 +150,7 @@ void write_summary(const Room& room, const Result& result, const Sink& sink) {
   summary["tiles_by"] = std::string(to_string(result.settings.tiles));
   summary["direct"] = std::string(to_string(direct_is_apart(result) ? Direct::analytic : Direct::sampled));
   summary["shadow_rays"] = result.shadow_rays + result.backward.shadow_rays;
+  summary["choices"] = result.choices;
   summary["backward"] = backward_of(result);
   summary["warnings"] = result.warnings;
   summary["mended"] = result.mended;

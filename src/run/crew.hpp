@@ -29,8 +29,11 @@ class Crew {
   // What the threads have counted so far, added up. Exact integers: the same for any number of threads.
   Totals totals() const;
 
-  // Shown by the progress callback from now on.
-  void set_error(double rms_relative_error) { reporter_.set_error(rms_relative_error); }
+  // Shown by the progress callback from now on, see Reporter.
+  void set_error(double rms_relative_error, double histories_to_target) {
+    reporter_.set_error(rms_relative_error, histories_to_target);
+  }
+  void set_stage(Progress::Stage stage) { reporter_.set_stage(stage); }
 
  private:
   struct Worker {

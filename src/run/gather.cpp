@@ -6,7 +6,10 @@
 #include <limits>
 #include <mutex>
 
+#include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
+#include "run/forecast.hpp"
+#include "run/pilot.hpp"
 #include "run/reporter.hpp"
 
 namespace lichtmc {
@@ -36,6 +39,7 @@ class Gathering {
     found_.sums.resize(task.origins);
     found_.group = task.group;
     found_.unit = task.unit;
+    found_.estimator = settings.estimator;
   }
 
   Gathered run() {
@@ -77,12 +81,15 @@ StopReason Gathering::simulate() {
   const std::uint64_t first_look = std::max(2U, 256 / task_.group);  // an error from 256 walks is known to 4 %
   // Without a target error looks serve progress and the end by time: sums are whole at each.
   std::uint64_t look = std::min(first_look, last_);
+  Forecast forecast;
   for (;;) {
     simulate_up_to(look);
     if (watch_.reason()) return *watch_.reason();
     found_.rounds = look;
     const double error = task_.error(found_);
-    reporter_.set_error(error);
+    forecast.look(histories_of(look), error);
+    if (settings_.target_error) found_.histories_to_target = forecast.histories_to(*settings_.target_error);
+    reporter_.set_error(error, found_.histories_to_target);
     if (settings_.target_error && error <= *settings_.target_error) return StopReason::target_error;
     if (look == last_) return StopReason::photons;
     const std::uint64_t more = std::max<std::uint64_t>(1, look / 4);
@@ -99,7 +106,7 @@ void Gathering::simulate_up_to(std::uint64_t rounds) {
 }
 
 void Gathering::take_rounds(std::uint64_t first, std::uint64_t last) {
-  const std::unique_ptr<BackwardWalk> walk = task_.make_walk();
+  const std::unique_ptr<BackwardWalk> walk = task_.make_walk(settings_);
   const std::uint64_t rounds = last - first;
   // Many origins with few rounds, or one origin with some of its rounds.
   const std::uint64_t rounds_at_a_time = histories_at_a_time / task_.group;
@@ -168,8 +175,58 @@ double Gathered::indirect_error(std::size_t k) const {
   return static_cast<double>(std::sqrt(std::max(between, 0.0L) / (n - 1) / n)) / group * unit;
 }
 
-Gathered gather(const GatherTask& task, const Settings& settings, const Control& control, StopWatch& watch,
-                unsigned threads) {
+namespace {
+
+Pilot outcome(const Gathered& found) {
+  Pilot pilot;
+  pilot.estimator = found.estimator;
+  pilot.flights = static_cast<double>(found.count.traced.rays);
+  for (std::size_t k = 0; k < found.sums.size(); ++k) {
+    pilot.values.push_back(found.direct[k].value + found.indirect(k));
+    pilot.errors.push_back(found.indirect_error(k));
+  }
+  return pilot;
+}
+
+Gathered gather_with_best(GatherTask task, const Room& room, Settings settings, const Control& control,
+                          StopWatch& watch, unsigned threads) {
+  TraceCount traced;
+  const std::vector<DirectIrradiance> direct =
+      direct_light_of(task.origins, task.direct, control, threads, watch, traced);
+  task.direct = [&direct](std::size_t k, TraceCount& /*count*/) { return direct[k]; };
+  GatherTask short_task = task;
+  short_task.stage = Progress::Stage::pilot;
+  Settings short_run = settings;
+  short_run.target_error.reset();
+  // Some walks from every origin, or there is nothing to compare.
+  constexpr std::uint64_t fewest_rounds = 8;
+  short_run.photons = std::max(pilot_histories(settings.photons), fewest_rounds * task.origins * task.group);
+  std::vector<Pilot> pilots;
+  for (const Estimator estimator : candidates_for(room, settings)) {
+    short_run.estimator = estimator;
+    Gathered found = Gathering(short_task, short_run, control, watch, threads).run();
+    if (watch.reason()) {
+      found.choice = "The estimator '" + std::string(to_string(estimator)) + "' was taken for " + task.name +
+                     ": the run ended before all were tried.";
+      found.count.traced.add(traced);
+      return found;
+    }
+    pilots.push_back(outcome(found));
+  }
+  const Choice choice = choose_best(pilots, pooled_values(pilots), task.weights, task.name);
+  settings.estimator = pilots[choice.best].estimator;
+  Gathered found = Gathering(task, settings, control, watch, threads).run();
+  found.choice = choice.reason;
+  found.count.traced.add(traced);
+  return found;
+}
+
+}  // namespace
+
+Gathered gather(const GatherTask& task, const Room& room, const Settings& settings, const Control& control,
+                StopWatch& watch, unsigned threads) {
+  if (settings.estimator == Estimator::automatic)
+    return gather_with_best(task, room, settings, control, watch, threads);
   return Gathering(task, settings, control, watch, threads).run();
 }
 

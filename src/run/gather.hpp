@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "lichtmc/result.hpp"
@@ -31,6 +33,9 @@ struct Gathered {
   double unit = 1.0;                     // of the sums, W/m² or lx
   BackwardCount count;
   StopReason stopped_by = StopReason::photons;
+  Estimator estimator = Estimator::collision;  // as used
+  std::string choice;                          // why, where it was chosen
+  double histories_to_target = std::numeric_limits<double>::quiet_NaN();  // as Result::histories_to_target
 
   std::uint64_t histories() const { return rounds * group * sums.size(); }
   // Irradiance that reached origin k reflected, and its standard error: NaN where fewer than two rounds were simulated.
@@ -44,14 +49,18 @@ struct GatherTask {
   std::uint32_t group = 1;  // as make_walk's origins have
   double unit = 1.0;        // as make_walk's scale has
   DirectOf direct;
-  std::function<std::unique_ptr<BackwardWalk>()> make_walk;  // one for each thread
-  std::function<double(const Gathered&)> error;              // what Settings::target_error is about
+  std::function<std::unique_ptr<BackwardWalk>(const Settings&)> make_walk;  // one for each thread
+  std::function<double(const Gathered&)> error;                             // what Settings::target_error is about
+  // For Estimator::automatic: each origin's weight in the mean of squares that `error` is the root of, and what the
+  // origins are called.
+  std::vector<double> weights;
+  std::string name;
 };
 
 // Walks until the first stop rule is met. Every origin gets as many walks; Settings::photons is the number of all
-// together. The same settings give the same sums for any number of threads. Throws RuntimeError where the run is
-// stopped before the first round is whole.
-Gathered gather(const GatherTask& task, const Settings& settings, const Control& control, StopWatch& watch,
-                unsigned threads);
+// together. The same settings give the same sums for any number of threads. Estimator::automatic is replaced by the one
+// that does best in a pilot, see pilot.hpp. Throws RuntimeError where the run is stopped before the first round is whole.
+Gathered gather(const GatherTask& task, const Room& room, const Settings& settings, const Control& control,
+                StopWatch& watch, unsigned threads);
 
 }  // namespace lichtmc

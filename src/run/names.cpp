@@ -14,6 +14,8 @@ std::string_view to_string(Estimator estimator) {
       return "collision";
     case Estimator::absorption:
       return "absorption";
+    case Estimator::automatic:
+      return "auto";
   }
   return "";
 }

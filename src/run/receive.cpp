@@ -109,9 +109,11 @@ void receive(const Room& room, const Scene& scene, const Settings& settings, con
     if (const auto emitter = light.emitter_at(outlook)) refuse_on_emitter(room, k, *emitter);
     return light.at(outlook, stream, k, count);
   };
-  task.make_walk = [&] { return make_backward_walk(scene, light, origins, scale, settings); };
+  task.make_walk = [&](const Settings& own) { return make_backward_walk(scene, light, origins, scale, own); };
   task.error = error_of_receivers;
-  const Gathered found = gather(task, settings, control, watch, result.threads);
+  task.weights.assign(task.origins, 1.0);
+  task.name = "the receivers";
+  const Gathered found = gather(task, room, settings, control, watch, result.threads);
 
   const double power = total_power(room);
   result.receiver_results.resize(task.origins);
@@ -124,7 +126,10 @@ void receive(const Room& room, const Scene& scene, const Settings& settings, con
     one.gain = one.irradiance * room.receivers[k].area_m2 / power;
   }
   BackwardResult& backward = result.backward;
+  backward.estimator = found.estimator;
+  if (!found.choice.empty()) result.choices.push_back(found.choice);
   backward.stopped_by = found.stopped_by;
+  backward.histories_to_target = found.histories_to_target;
   backward.histories = found.histories();
   backward.rays = found.count.traced.rays;
   backward.shadow_rays = found.count.traced.shadow_rays;
@@ -144,13 +149,20 @@ void walk_from_tiles(const Room& room, const Scene& scene, const Settings& setti
   task.group = TileFaces::group;
   task.unit = scale.unit;
   task.direct = [&](std::size_t face, TraceCount& count) { return light.mean(face, count); };
-  task.make_walk = [&] { return make_backward_walk(scene, light.direct_light(), light.faces(), scale, settings); };
+  task.make_walk = [&](const Settings& own) {
+    return make_backward_walk(scene, light.direct_light(), light.faces(), scale, own);
+  };
   task.error = [&](const Gathered& found) {
     return rms_relative_error(tiling, tiles_of(tiling, light.faces(), found));
   };
-  const Gathered found = gather(task, settings, control, watch, result.threads);
+  for (std::size_t face = 0; face < task.origins; ++face) task.weights.push_back(light.faces().area_m2(face));
+  task.name = "the tiles";
+  const Gathered found = gather(task, room, settings, control, watch, result.threads);
 
+  result.estimator = found.estimator;
+  if (!found.choice.empty()) result.choices.push_back(found.choice);
   result.stopped_by = found.stopped_by;
+  result.histories_to_target = found.histories_to_target;
   result.seconds = watch.seconds();
   result.histories = found.histories();
   result.impacts = found.count.impacts;

@@ -1,7 +1,9 @@
 // Tells a run's caller some times a second how far it has come.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <mutex>
@@ -15,11 +17,13 @@ class Reporter {
  public:
   // target: histories that there are to do. Control and watch must outlive the reporter.
   Reporter(const Control& control, const StopWatch& watch, Progress::Stage stage, std::uint64_t target)
-      : control_(&control), watch_(&watch), last_(Clock::now()) {
+      : control_(&control), watch_(&watch), began_(watch.seconds()), last_(Clock::now()) {
     progress_.stage = stage;
     progress_.target = target;
-    progress_.rms_relative_error = std::numeric_limits<double>::quiet_NaN();
   }
+
+  // What is reported from now on is of this stage. Not while threads add.
+  void set_stage(Progress::Stage stage) { progress_.stage = stage; }
 
   // Books what a thread has done since it last told; calls back when it is time. Any thread may call.
   void add(std::uint64_t histories, std::uint64_t impacts) {
@@ -30,9 +34,17 @@ class Reporter {
     if (!control_->progress || now - last_ < interval) return;
     last_ = now;
     progress_.seconds = watch_->seconds();
+    const double rate = static_cast<double>(progress_.histories) / (progress_.seconds - began_);
+    const double left = (histories_to_target_ - static_cast<double>(progress_.histories)) / rate;
+    progress_.seconds_to_target = std::isnan(left) ? left : std::max(left, 0.0);
     control_->progress(progress_);
   }
-  void set_error(double rms_relative_error) { progress_.rms_relative_error = rms_relative_error; }
+  // The error at the last look, and the histories that the target error is forecast to take; NaN where none is asked
+  // for. Not while threads add.
+  void set_error(double rms_relative_error, double histories_to_target) {
+    progress_.rms_relative_error = rms_relative_error;
+    histories_to_target_ = histories_to_target;
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -42,6 +54,8 @@ class Reporter {
   const StopWatch* watch_;
   std::mutex mutex_;
   Progress progress_;
+  double histories_to_target_ = std::numeric_limits<double>::quiet_NaN();
+  double began_;  // when the histories did, s
   Clock::time_point last_;
 };
 

@@ -21,6 +21,8 @@ bool has_area(const Surface& surface) {
   return surface_area(surface) > 0.0;
 }
 
+}  // namespace
+
 const Surface* surface_that_absorbs_nothing(const Room& room) {
   const HighestReflectance highest(room);
   const auto found = std::find_if(room.surfaces.begin(), room.surfaces.end(), [&](const Surface& surface) {
@@ -28,8 +30,6 @@ const Surface* surface_that_absorbs_nothing(const Room& room) {
   });
   return found == room.surfaces.end() ? nullptr : &*found;
 }
-
-}  // namespace
 
 void check_settings(const Settings& settings) {
   if (settings.photons == 0) {

@@ -13,4 +13,7 @@ void check_settings(const Settings& settings);
 // passed check_room().
 void check_settings_for(const Room& room, const Settings& settings);
 
+// The first surface that has ρ = 1 and an area, or null.
+const Surface* surface_that_absorbs_nothing(const Room& room);
+
 }  // namespace lichtmc

@@ -10,13 +10,11 @@
 #include "base/message.hpp"
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
-#include "run/crew.hpp"
+#include "run/forward.hpp"
 #include "run/receive.hpp"
-#include "run/scores.hpp"
 #include "run/settings_check.hpp"
 #include "run/stop_watch.hpp"
 #include "run/surface_results.hpp"
-#include "run/tile_light.hpp"
 #include "run/warnings.hpp"
 #include "walk/scene.hpp"
 #include "walk/trap.hpp"
@@ -32,28 +30,6 @@ unsigned threads_for(const Settings& settings) {
   return static_cast<unsigned>(std::min<std::uint64_t>(asked, batches_of(settings.photons)));
 }
 
-// Simulates until the first stop rule is met. The target error is looked at after numbers of histories that depend on
-// nothing but the settings, so that the run ends at the same history for any number of threads.
-StopReason run_until_stopped(Crew& crew, const StopWatch& watch, const Scores& scores, const Tiling& tiling,
-                             const Settings& settings) {
-  constexpr std::uint64_t first_look =
-      32 * std::uint64_t{batch_histories};  // an error from 32 batches is known to 13 %
-  std::uint64_t look = settings.target_error ? std::min(first_look, settings.photons) : settings.photons;
-  for (;;) {
-    crew.simulate_up_to(look);
-    if (watch.reason()) return *watch.reason();
-    if (settings.target_error) {
-      const double error = rms_relative_error(tiling, scores.tiles(crew.totals()));
-      if (error <= *settings.target_error) return StopReason::target_error;
-      crew.set_error(error);
-    }
-    if (look == settings.photons) return StopReason::photons;
-    // A quarter more each time, whole batches: at most a quarter is simulated in vain.
-    const std::uint64_t more = std::max<std::uint64_t>(1, look / batch_histories / 4) * batch_histories;
-    look = settings.photons - look > more ? look + more : settings.photons;
-  }
-}
-
 std::vector<Ignored> ignored_by_run(const Room& room, Ways ways) {
   std::vector<Ignored> ignored = room.ignored;
   std::size_t without_area = 0;
@@ -67,19 +43,6 @@ std::vector<Ignored> ignored_by_run(const Room& room, Ways ways) {
                        Effect::none});
   }
   return ignored;
-}
-
-// What the forward walk found.
-void fill_in(Result& result, const Totals& totals, const Scores& scores) {
-  result.histories = totals.histories;
-  result.impacts = totals.impacts;
-  result.rays += totals.traced.rays;  // beside those that asked for shadows
-  result.retraced = totals.traced.retraced;
-  result.lost_histories = totals.ends.lost_histories;
-  result.balance = scores.balance(totals);
-  scores.incident(totals, result.incident, result.incident_standard_error);
-  result.tiles = scores.tiles(totals);
-  result.surfaces = scores.surfaces(totals, result.tiles);
 }
 
 // How good the tiles are.
@@ -110,33 +73,11 @@ void complete(Result& result, const Room& room) {
       "with --estimator weight --max-bounces N.");
 }
 
-void walk_from_emitters(Result& result, const Room& room, const Scene& scene, const Settings& settings,
-                        const Control& control, StopWatch& watch) {
-  std::vector<TileDirect> direct;
-  if (settings.direct == Direct::analytic) {
-    TraceCount count;
-    direct =
-        TileLight(room, result.tiling, scene, settings, Way::forward).of_tiles(control, result.threads, watch, count);
-    result.rays = count.rays;
-    result.shadow_rays = count.shadow_rays;
-  }
-  const Scores scores(room, result.tiling, score_law(settings.estimator, scene.has_maps()), std::move(direct));
-  Crew crew(scene, settings, control, watch, result.threads);
-  result.stopped_by = run_until_stopped(crew, watch, scores, result.tiling, settings);
-  result.seconds = watch.seconds();
-  const Totals totals = crew.totals();
-  if (totals.histories == 0) {
-    throw RuntimeError(
-        "The run was stopped before the first photon was simulated: there is no result. Give it more time.");
-  }
-  fill_in(result, totals, scores);
-}
-
 void simulate_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
                     const Control& control) {
   StopWatch watch(settings.max_seconds, control.stop);
   if (settings.tiles == TileWalk::forward) {
-    walk_from_emitters(result, room, scene, settings, control, watch);
+    walk_from_emitters(room, scene, settings, control, watch, result);
   } else {
     walk_from_tiles(room, scene, settings, control, watch, result);
   }

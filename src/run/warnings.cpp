@@ -48,7 +48,7 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result) {
         "No light met any surface. Check where the emitters are and which way they shine; a shining surface shines "
         "from its front only.");
   }
-  const bool roulette = result.settings.estimator == Estimator::weight && !result.settings.max_bounces;
+  const bool roulette = result.estimator == Estimator::weight && !result.settings.max_bounces;
   constexpr double noticeable = 0.001;
   if (!roulette && balance.residual > noticeable * balance.emitted) {
     warnings.push_back(percent(balance.residual / balance.emitted) +

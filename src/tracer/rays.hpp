@@ -42,6 +42,13 @@ struct Rays {
     dy[i] = direction.y;
     dz[i] = direction.z;
   }
+  // Where flight `from` has landed is where flight `to` has.
+  void move_landing(std::size_t from, std::size_t to) {
+    facet[to] = facet[from];
+    s[to] = s[from];
+    t[to] = t[from];
+    behind[to] = behind[from];
+  }
   glm::vec3 start(std::size_t i) const { return {x[i], y[i], z[i]}; }
   glm::vec3 direction(std::size_t i) const { return {dx[i], dy[i], dz[i]}; }
 };

@@ -1,6 +1,7 @@
 #include "walk/backward.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -84,6 +85,8 @@ class ReceiverGoal {
     if constexpr (!Policy::scores_every_impact) found_[i] += direct_[i];
     finish(wave, i);
   }
+
+  static void part(Wave& /*wave*/) {}
 
   // A flight that meets a shining surface has found some of the direct light of the surface that it left. The
   // receiver's own direct light is known already.
@@ -264,8 +267,10 @@ std::unique_ptr<BackwardWalk> walk_from(const Scene& scene, const DirectLight& l
     case Estimator::absorption:
       return with(AbsorptionPolicy{}, 0);
     case Estimator::weight:
+    case Estimator::automatic:  // resolved before, see run/pilot.hpp
       break;
   }
+  assert(settings.estimator == Estimator::weight);
   if (settings.max_bounces) return with(TruncatedWeightPolicy{}, *settings.max_bounces);
   return with(RouletteWeightPolicy{}, 0);
 }

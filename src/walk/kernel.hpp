@@ -8,6 +8,7 @@
 //   histories(wave)           sets the numbers of the photons' histories, which select their random words
 //   misses(), traced(), ends()
 //   escape(wave, i)           photon i met no surface
+//   part(wave)                the flight is over; a photon may become several that go on from where it ended
 //   land(wave)                all photons have landed
 //   score(wave)               all photons score; what land() asked of memory has had time to come
 //   watches_absorption        constant: whether absorb() is to be called
@@ -61,6 +62,7 @@ class Kernel {
     for (std::uint32_t flight = 1; wave_.rays.size > 0; ++flight) {
       scene_->tracer->trace(wave_.rays, goal.misses(), goal.traced());
       lose_what_escaped(goal);
+      goal.part(wave_);
       fill_up_lanes();
       goal.land(wave_);
       draw(flight, goal);

@@ -1,6 +1,7 @@
 // The forward walk: photons start at the emitters and score on the tiles.
 #include "walk/walk.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 #include "walk/kernel.hpp"
@@ -8,6 +9,11 @@
 namespace lichtmc {
 
 namespace {
+
+// Where direct light is integrated, the first flight of a photon scores nothing: it only brings the photon to where it is
+// reflected first. So many histories share it, and cost a walk only its other flights. More would save little, and their
+// scores grow more alike (docs/trade-off.md has the figures).
+constexpr std::uint32_t family_size = 8;
 
 // What forward photons are for, see kernel.hpp.
 template <class Policy>
@@ -17,6 +23,7 @@ class TileGoal {
       : scene_(&scene),
         stream_(stream),
         first_scored_(direct == Direct::analytic ? 2 : 1),
+        family_(direct == Direct::analytic ? family_size : 1),
         tile_(batch_histories),
         map_(batch_histories),
         units_(batch_histories),
@@ -28,10 +35,13 @@ class TileGoal {
     tally_ = &tally;
   }
 
-  // Photons start at the emitters.
+  // Photons start at the emitters, one for each family.
   void start(Wave& wave, std::uint32_t n) {
     flight_ = 0;
-    scene_->launcher->launch_all(stream_, first_, n, wave.rays, wave.photon.data());
+    n_ = n;
+    const std::uint32_t families = (n + family_ - 1) / family_;
+    wave.rays.size = families;
+    scene_->launcher->launch_all(stream_, first_, families, wave.rays, wave.photon.data());
   }
   void histories(Wave& wave) const {
     for (std::size_t i = 0; i < wave.rays.size; ++i) wave.history[i] = first_ + wave.photon[i];
@@ -41,13 +51,32 @@ class TileGoal {
   Ends& ends() { return tally_->counts().ends; }
 
   void escape(const Wave& wave, std::size_t i) {
-    const auto units = static_cast<int128>(Policy::units(wave.weight[i]));
+    const std::uint32_t photons = flight_ == 0 ? members(wave.photon[i]) : 1;
+    const int128 units = static_cast<int128>(Policy::units(wave.weight[i])) * photons;
     if (scene_->misses == Misses::escape) {
       ends().escaped += units;
     } else {
       ends().lost += units;
-      ++ends().lost_histories;
+      ends().lost_histories += photons;
     }
+  }
+
+  // After the first flight photons of a family go ways of their own.
+  void part(Wave& wave) const {
+    if (flight_ > 0 || family_ == 1) return;
+    Rays& rays = wave.rays;
+    std::size_t all = 0;
+    for (std::size_t i = 0; i < rays.size; ++i) all += members(wave.photon[i]);
+    // From the last on: a family's place is read before it is written to.
+    std::size_t to = all;
+    for (std::size_t i = rays.size; i-- > 0;) {
+      const std::uint32_t family = wave.photon[i];
+      for (std::uint32_t k = members(family); k-- > 0;) {
+        rays.move_landing(i, --to);
+        wave.photon[to] = family * family_ + k;
+      }
+    }
+    rays.size = all;
   }
 
   // Every impact falls on a tile.
@@ -102,6 +131,8 @@ class TileGoal {
   void move(const Wave& /*wave*/, std::size_t /*from*/, std::size_t /*to*/) {}
 
  private:
+  std::uint32_t members(std::uint32_t family) const { return std::min(family_, n_ - family * family_); }
+
   // Most rooms are hit on their fronts alone.
   void score_from_behind(const Wave& wave) {
     const Rays& rays = wave.rays;
@@ -116,7 +147,9 @@ class TileGoal {
   const Scene* scene_;
   Stream stream_;
   std::uint32_t first_scored_;  // number of the first flight whose end scores
+  std::uint32_t family_;        // histories that share their first flight
   std::uint32_t flight_ = 0;
+  std::uint32_t n_ = 0;              // histories of the batch
   std::vector<std::uint32_t> tile_;  // where the flight ended
   std::vector<std::uint32_t> map_;   // the tile's map
   std::vector<std::uint32_t> units_;
@@ -169,8 +202,10 @@ std::unique_ptr<Walk> make_walk(const Scene& scene, const Settings& settings) {
         return std::make_unique<ForwardWalk<MappedAbsorptionPolicy, MappedReflectance>>(scene, settings, 0);
       return std::make_unique<ForwardWalk<AbsorptionPolicy, SurfaceReflectance>>(scene, settings, 0);
     case Estimator::weight:
+    case Estimator::automatic:  // resolved before, see run/pilot.hpp
       break;
   }
+  assert(settings.estimator == Estimator::weight);
   if (settings.max_bounces) return walk_with<TruncatedWeightPolicy>(scene, settings, *settings.max_bounces);
   return walk_with<RouletteWeightPolicy>(scene, settings, 0);
 }
@@ -183,8 +218,10 @@ ScoreLaw score_law(Estimator estimator, bool has_maps) {
       if (has_maps) return {MappedAbsorptionPolicy::hits, 1.0 / weight_units, true, false, false};
       return {AbsorptionPolicy::hits, 1.0, true, true, true};
     case Estimator::weight:
+    case Estimator::automatic:
       break;
   }
+  assert(estimator == Estimator::weight);
   return {WeightPolicy::hits, 1.0 / weight_units, false, false, false};
 }
 

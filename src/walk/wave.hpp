@@ -37,10 +37,7 @@ struct Wave {
     photon[to] = photon[from];
     polar[to] = polar[from];
     azimuth[to] = azimuth[from];
-    rays.facet[to] = rays.facet[from];
-    rays.s[to] = rays.s[from];
-    rays.t[to] = rays.t[from];
-    rays.behind[to] = rays.behind[from];
+    rays.move_landing(from, to);
   }
 };
 

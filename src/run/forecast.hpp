@@ -1,0 +1,33 @@
+// How many histories a target error will take, from the errors on the way there.
+//
+// Once every tile has been hit some times, the relative error R falls with the square root of the histories N: FOM =
+// 1/(R² T) is constant. Before that it falls more slowly, because tiles that were just hit for the first time come in
+// with errors near 100 %. So the forecast goes on at the slope that was seen over the last doubling of N, and never at
+// a steeper one than −1/2.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace lichtmc {
+
+class Forecast {
+ public:
+  // The error (> 0) after so many histories; each call with more of them.
+  void look(std::uint64_t histories, double error);
+
+  // Histories from the start to the target error (> 0); NaN before the first look, at least those of the last look where
+  // the target was not met by then.
+  double histories_to(double target) const;
+
+ private:
+  struct Look {
+    double histories;
+    double error;
+  };
+  double slope() const;
+
+  std::vector<Look> looks_;
+};
+
+}  // namespace lichtmc

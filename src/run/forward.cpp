@@ -1,0 +1,167 @@
+#include "run/forward.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "chance/moments.hpp"
+#include "lichtmc/error.hpp"
+#include "run/crew.hpp"
+#include "run/forecast.hpp"
+#include "run/pilot.hpp"
+#include "run/scores.hpp"
+#include "run/surface_results.hpp"
+#include "run/tile_light.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// One estimator at work. Histories are numbered the same with all of them: those of a pilot are the first of the run.
+struct Contender {
+  Settings settings;
+  Scores scores;
+  std::unique_ptr<Crew> crew;
+};
+
+std::vector<Contender> contenders_for(const Room& room, const Scene& scene, const Settings& settings,
+                                      const Control& control, StopWatch& watch, const Result& result,
+                                      const std::vector<TileDirect>& direct) {
+  std::vector<Contender> contenders;
+  for (const Estimator estimator : candidates_for(room, settings)) {
+    Settings own = settings;
+    own.estimator = estimator;
+    contenders.push_back({own, Scores(room, result.tiling, score_law(estimator, scene.has_maps()), direct),
+                          std::make_unique<Crew>(scene, own, control, watch, result.threads)});
+  }
+  return contenders;
+}
+
+Pilot outcome(const Contender& contender) {
+  const Totals totals = contender.crew->totals();
+  Pilot pilot;
+  pilot.estimator = contender.settings.estimator;
+  pilot.flights = static_cast<double>(totals.traced.rays);
+  if (totals.histories == 0) return pilot;
+  for (const TileResult& tile : contender.scores.tiles(totals)) {
+    pilot.values.push_back(tile.irradiance);
+    pilot.hits.push_back(static_cast<double>(tile.hits));
+    pilot.errors.push_back(tile.hits > 0 ? tile.standard_error : 0.0);
+  }
+  return pilot;
+}
+
+// What the tiles' errors are relative to. A tile that a pilot has hit once or not at all is not known to be as bright as
+// that says: its mean is drawn towards that of its tile map, with the strength of ten hits.
+std::vector<double> means_of(const std::vector<Pilot>& pilots, const Tiling& tiling) {
+  constexpr double strength = 10.0;
+  std::vector<double> means = pooled_values(pilots);
+  std::vector<double> power(tiling.maps.size(), 0.0);
+  std::vector<double> area(tiling.maps.size(), 0.0);
+  for (std::size_t t = 0; t < means.size(); ++t) {
+    const Tile& tile = tiling.tiles[t];
+    power[tile.map] += means[t] * tile.area_m2;
+    area[tile.map] += tile.area_m2;
+  }
+  for (std::size_t t = 0; t < means.size(); ++t) {
+    const std::size_t map = tiling.tiles[t].map;
+    if (!(area[map] > 0.0)) continue;
+    double hits = 0.0;
+    for (const Pilot& pilot : pilots) hits += pilot.hits[t];
+    means[t] = (hits * means[t] + strength * power[map] / area[map]) / (hits + strength);
+  }
+  return means;
+}
+
+// Leaves the contender that does best; it goes on from where its pilot has ended.
+void keep_best(std::vector<Contender>& contenders, std::uint64_t photons, const StopWatch& watch, Result& result) {
+  if (contenders.size() == 1) return;
+  std::vector<Pilot> pilots;
+  for (Contender& contender : contenders) {
+    contender.crew->set_stage(Progress::Stage::pilot);
+    contender.crew->simulate_up_to(std::min(pilot_histories(photons), photons));
+    pilots.push_back(outcome(contender));
+    if (watch.reason()) break;
+  }
+  Choice choice;
+  if (pilots.size() < contenders.size() || pilots.back().values.empty()) {
+    choice.reason = "The estimator '" + std::string(to_string(pilots.front().estimator)) +
+                    "' was taken for the tiles: the run ended before the others were tried.";
+  } else {
+    std::vector<double> areas;
+    for (const Tile& tile : result.tiling.tiles) areas.push_back(tile.area_m2);
+    choice = choose_best(pilots, means_of(pilots, result.tiling), areas, "the tiles");
+  }
+  result.choices.push_back(choice.reason);
+  std::swap(contenders.front(), contenders[choice.best]);
+  contenders.erase(contenders.begin() + 1, contenders.end());
+  contenders.front().crew->set_stage(Progress::Stage::tiles);
+}
+
+// Simulates until the first stop rule is met. The target error is looked at after numbers of histories that depend on
+// nothing but the settings, so that the run ends at the same history for any number of threads.
+StopReason run_until_stopped(const Contender& contender, const StopWatch& watch, Result& result) {
+  constexpr std::uint64_t first_look =
+      32 * std::uint64_t{batch_histories};  // an error from 32 batches is known to 13 %
+  const Settings& settings = contender.settings;
+  Crew& crew = *contender.crew;
+  const std::uint64_t done = crew.totals().histories;
+  std::uint64_t look = settings.target_error ? std::min(std::max(first_look, done), settings.photons) : settings.photons;
+  Forecast forecast;
+  for (;;) {
+    crew.simulate_up_to(look);
+    if (watch.reason()) return *watch.reason();
+    if (settings.target_error) {
+      const double error = rms_relative_error(result.tiling, contender.scores.tiles(crew.totals()));
+      forecast.look(look, error);
+      result.histories_to_target = forecast.histories_to(*settings.target_error);
+      if (error <= *settings.target_error) return StopReason::target_error;
+      crew.set_error(error, result.histories_to_target);
+    }
+    if (look == settings.photons) return StopReason::photons;
+    // A quarter more each time, whole batches: at most a quarter is simulated in vain.
+    const std::uint64_t more = std::max<std::uint64_t>(1, look / batch_histories / 4) * batch_histories;
+    look = settings.photons - look > more ? look + more : settings.photons;
+  }
+}
+
+void fill_in(Result& result, const Totals& totals, const Scores& scores) {
+  result.histories = totals.histories;
+  result.impacts = totals.impacts;
+  result.rays += totals.traced.rays;  // beside those that asked for shadows
+  result.retraced = totals.traced.retraced;
+  result.lost_histories = totals.ends.lost_histories;
+  result.balance = scores.balance(totals);
+  scores.incident(totals, result.incident, result.incident_standard_error);
+  result.tiles = scores.tiles(totals);
+  result.surfaces = scores.surfaces(totals, result.tiles);
+}
+
+}  // namespace
+
+void walk_from_emitters(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
+                        StopWatch& watch, Result& result) {
+  std::vector<TileDirect> direct;
+  if (settings.direct == Direct::analytic) {
+    TraceCount count;
+    direct =
+        TileLight(room, result.tiling, scene, settings, Way::forward).of_tiles(control, result.threads, watch, count);
+    result.rays = count.rays;
+    result.shadow_rays = count.shadow_rays;
+  }
+  std::vector<Contender> contenders = contenders_for(room, scene, settings, control, watch, result, direct);
+  keep_best(contenders, settings.photons, watch, result);
+  const Contender& chosen = contenders.front();
+  result.estimator = chosen.settings.estimator;
+  result.stopped_by = run_until_stopped(chosen, watch, result);
+  result.seconds = watch.seconds();
+  const Totals totals = chosen.crew->totals();
+  if (totals.histories == 0) {
+    throw RuntimeError(
+        "The run was stopped before the first photon was simulated: there is no result. Give it more time.");
+  }
+  fill_in(result, totals, chosen.scores);
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,18 @@
+// Forward walks: photons from the emitters to the tiles, until the first stop rule is met.
+#pragma once
+
+#include "lichtmc/result.hpp"
+#include "lichtmc/room.hpp"
+#include "lichtmc/settings.hpp"
+#include "lichtmc/simulate.hpp"
+#include "run/stop_watch.hpp"
+#include "walk/scene.hpp"
+
+namespace lichtmc {
+
+// Fills in what the photons tell: tiles, surfaces, balance, incident power, and how they were got. Throws RuntimeError
+// where the run is stopped before the first photon is simulated.
+void walk_from_emitters(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
+                        StopWatch& watch, Result& result);
+
+}  // namespace lichtmc
