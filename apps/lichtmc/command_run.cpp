@@ -55,8 +55,9 @@ Engine parse_engine(const std::string& text) {
   if (text == "auto") return Engine::automatic;
   if (text == "cuboid") return Engine::cuboid;
   if (text == "embree") return Engine::embree;
+  if (text == "embree-fast") return Engine::embree_fast;
   throw InputError("The engine '" + text +
-                   "' is not known (allowed: auto, cuboid, embree). Give one of these to --engine.");
+                   "' is not known (allowed: auto, cuboid, embree, embree-fast). Give one of these to --engine.");
 }
 
 Ways parse_ways(const std::string& text) {
@@ -318,7 +319,8 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->group(method);
   command
       .add_option("--engine", options.engine,
-                  "How flights are traced: auto, cuboid (closed form, empty cuboids only) or embree")
+                  "How flights are traced: auto, cuboid (closed form, empty cuboids only), embree, or embree-fast (may "
+                  "lose a photon in many millions at edges)")
       ->type_name("NAME")
       ->capture_default_str()
       ->group(method);

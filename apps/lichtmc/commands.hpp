@@ -8,6 +8,7 @@ namespace lichtmc::app {
 
 void add_run_command(CLI::App& program);
 void add_cuboid_command(CLI::App& program);
+void add_study_command(CLI::App& program);
 void add_check_command(CLI::App& program, int& status);
 void add_compare_command(CLI::App& program, int& status);
 

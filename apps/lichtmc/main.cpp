@@ -43,6 +43,7 @@ int run_program(int argc, char** argv) {
       "More on a command:  lichtmc COMMAND --help\n"
       "Exit status: 0 done; 1 the run failed; 2 the command line or an input is wrong.");
   lichtmc::app::add_run_command(program);
+  lichtmc::app::add_study_command(program);
   lichtmc::app::add_cuboid_command(program);
   lichtmc::app::add_check_command(program, status);
   lichtmc::app::add_compare_command(program, status);

@@ -13,6 +13,7 @@
 #include "lichtmc/room.hpp"       // IWYU pragma: export
 #include "lichtmc/settings.hpp"   // IWYU pragma: export
 #include "lichtmc/simulate.hpp"   // IWYU pragma: export
+#include "lichtmc/study.hpp"      // IWYU pragma: export
 #include "lichtmc/tiles.hpp"      // IWYU pragma: export
 #include "lichtmc/units.hpp"      // IWYU pragma: export
 #include "lichtmc/version.hpp"    // IWYU pragma: export

@@ -6,6 +6,7 @@
 
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
+#include "lichtmc/study.hpp"
 
 namespace lichtmc {
 
@@ -20,6 +21,13 @@ void prepare_output(const std::filesystem::path& folder);
 // with a summary.json of this run is complete. tiles/ holds the maps of this run only. Throws RuntimeError where
 // something cannot be written.
 void write_results(const Room& room, const Result& result, const std::filesystem::path& folder);
+
+// Writes study.csv, error_over_time.svg, bias_over_bounces.svg, figures_of_merit.svg and advice.txt into a folder, each
+// whole or not at all. Throws RuntimeError where one cannot be written.
+void write_study(const Study& study, const std::filesystem::path& folder);
+
+// What advice.txt holds: references, the cheapest settings, and what was left out.
+std::string advice_text(const Study& study);
 
 // What summary.json holds.
 std::string summary_json(const Room& room, const Result& result);

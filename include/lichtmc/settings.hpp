@@ -17,9 +17,10 @@ enum class Estimator {
 
 // How flights are traced.
 enum class Engine {
-  automatic,  // the closed form where the room is an empty cuboid, else Embree
-  cuboid,     // closed form of the cuboid
-  embree,     // any room
+  automatic,    // the closed form where the room is an empty cuboid, else Embree
+  cuboid,       // closed form of the cuboid
+  embree,       // any room
+  embree_fast,  // as embree, somewhat faster; a photon may slip between triangles that share an edge
 };
 
 // Which walks are run.
@@ -41,7 +42,7 @@ enum class TileWalk {
   backward,  // walks from random points of each tile back to the light; the direct light is integrated
 };
 
-// "weight", "collision", "absorption", "auto"; "auto", "cuboid", "embree"; "sampled", "analytic"; "forward", "backward".
+// "weight", "collision", "absorption", "auto"; "auto", "cuboid", "embree", "embree-fast"; "sampled", "analytic"; "forward", "backward".
 std::string_view to_string(Estimator estimator);
 std::string_view to_string(Engine engine);
 std::string_view to_string(Direct direct);

@@ -28,6 +28,8 @@ std::string_view to_string(Engine engine) {
       return "cuboid";
     case Engine::embree:
       return "embree";
+    case Engine::embree_fast:
+      return "embree-fast";
   }
   return "";
 }

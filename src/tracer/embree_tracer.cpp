@@ -150,12 +150,11 @@ LICHTMC_LANES void scatter_lanes(std::size_t n, const Departure* LICHTMC_APART d
 
 class EmbreeTracer final : public Tracer {
  public:
-  EmbreeTracer(const Room& room, const Tiling& tiling) {
+  EmbreeTracer(const Room& room, const Tiling& tiling, Edges edges) {
     if (!device_) throw_embree_error(nullptr, "starting");
     scene_ = {rtcNewScene(device_.get()), &rtcReleaseScene};
-    // Robust: rays do not slip between triangles that share an edge. Medium quality: the same tree for any number of
-    // threads.
-    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    if (edges == Edges::robust) rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    // Medium quality: the same tree for any number of threads.
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
     place(room);
     casts_shadows_ = !is_convex(WeldedMesh(room));
@@ -419,8 +418,8 @@ Start EmbreeTracer::start(const glm::dvec3& world_point_m) const {
 
 }  // namespace
 
-std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling) {
-  return std::make_unique<EmbreeTracer>(room, tiling);
+std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling, Edges edges) {
+  return std::make_unique<EmbreeTracer>(room, tiling, edges);
 }
 
 }  // namespace lichtmc

@@ -121,7 +121,13 @@ class Tracer {
 // of a sentence that begins with "the room".
 std::unique_ptr<Tracer> make_cuboid_tracer(const Room& room, const Tiling& tiling, std::string& why_not);
 
+// How rays meet the edges of triangles.
+enum class Edges {
+  robust,  // a ray does not slip between triangles that share an edge
+  fast,    // it may, once in many millions of flights
+};
+
 // Embree, for any room. Throws RuntimeError where Embree fails.
-std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling);
+std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling, Edges edges = Edges::robust);
 
 }  // namespace lichtmc

@@ -58,7 +58,7 @@ std::uint32_t tiles_between(const TileMap& front, const TileMap& back) {
 
 std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engine asked, Engine& taken) {
   std::string why_not;
-  if (asked != Engine::embree) {
+  if (asked == Engine::automatic || asked == Engine::cuboid) {
     taken = Engine::cuboid;
     if (auto tracer = make_cuboid_tracer(room, tiling, why_not)) return tracer;
     if (asked == Engine::cuboid) {
@@ -66,8 +66,8 @@ std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engi
                        ". Use the engine 'auto' or 'embree'.");
     }
   }
-  taken = Engine::embree;
-  return make_embree_tracer(room, tiling);
+  taken = asked == Engine::embree_fast ? asked : Engine::embree;
+  return make_embree_tracer(room, tiling, asked == Engine::embree_fast ? Edges::fast : Edges::robust);
 }
 
 // Where facets lie on the maps of their surfaces. Facets of surfaces with a map are triangles, one each.

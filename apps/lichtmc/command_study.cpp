@@ -1,0 +1,109 @@
+// lichtmc study: the trade of speed against accuracy in a room.
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <unistd.h>
+
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "lichtmc/error.hpp"
+#include "lichtmc/output.hpp"
+#include "lichtmc/study.hpp"
+#include "quantities.hpp"
+#include "room_options.hpp"
+
+namespace lichtmc::app {
+
+namespace {
+
+struct StudyCommand {
+  RoomOptions reading;
+  std::string output;
+  std::optional<std::string> max_time, tile;
+  std::string seed = "1";
+  std::optional<int> threads;
+  bool quick = false;
+  bool quiet = false;
+};
+
+StudyOptions parse_options(const StudyCommand& command) {
+  constexpr double quick_seconds = 45.0;  // with reading, starting and writing less than a minute
+  StudyOptions options;
+  if (command.quick && command.max_time)
+    throw InputError("Both --quick and --max-time are given (allowed: one of them). Leave one out.");
+  if (command.quick) options.seconds = quick_seconds;
+  if (command.max_time) options.seconds = parse_seconds(*command.max_time, "--max-time");
+  if (command.tile) options.tile_edge_m = parse_number(*command.tile, "--tile");
+  options.seed = parse_seed(command.seed, "--seed");
+  if (command.threads && *command.threads < 1) {
+    throw InputError("The number of threads is " + std::to_string(*command.threads) +
+                     " (allowed: 1 or more). Leave out --threads to use all processors.");
+  }
+  options.threads = static_cast<unsigned>(command.threads.value_or(0));
+  return options;
+}
+
+void run(const StudyCommand& command) {
+  StudyOptions options = parse_options(command);
+  const Room room = read_room(command.reading);
+  check_room(room);
+  const std::filesystem::path folder = command.output.empty()
+                                           ? std::filesystem::path(command.reading.file).stem().concat(".study")
+                                           : std::filesystem::path(command.output);
+  prepare_output(folder);
+  const InterruptWatch interrupt;
+  options.stop = interrupt.token();
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (!command.quiet) {
+    options.progress = [terminal](const std::string& what, std::size_t done, std::size_t of) {
+      const std::string count = of > 0 ? std::to_string(done + 1) + " of " + std::to_string(of) + ": " : "";
+      std::cerr << (terminal ? "\r" : "") << count << what << (terminal ? "\x1b[K" : "\n") << std::flush;
+    };
+  }
+  const Study found = study(room, options);
+  if (!command.quiet && terminal) std::cerr << "\r\x1b[K";
+  write_study(found, folder);
+  std::cout << advice_text(found);
+  if (!command.quiet) {
+    std::cerr << "\nResults are in " << folder.string()
+              << ": advice.txt, study.csv, error_over_time.svg, bias_over_bounces.svg, figures_of_merit.svg.\n";
+  }
+}
+
+}  // namespace
+
+void add_study_command(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("study", "Measure the trade of speed against accuracy in a room, and say what to choose");
+  auto options = std::make_shared<StudyCommand>();
+  add_room_argument(*command, options->reading);
+  command->add_option("-o,--output", options->output, "Folder for the results [name of ROOM with .study]")
+      ->type_name("DIR");
+  command->add_option("--max-time", options->max_time, "Time for the whole study: 60s, 10min, 2h [10min]")
+      ->type_name("T");
+  command->add_flag("--quick", options->quick, "A first look in under a minute");
+  command
+      ->add_option("--tile", options->tile,
+                   "Edge of a tile in metres; half and twice of it are tried too [0.1, more in rooms above 20 m2]")
+      ->type_name("M");
+  command->add_option("--seed", options->seed, "Selects the random numbers; the reference has its own")
+      ->type_name("S")
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "Number of threads [one per processor]")->type_name("N");
+  add_room_options(*command, options->reading);
+  command->add_flag("--quiet", options->quiet, "No progress; only the advice and errors");
+  command->footer(
+      "Every estimator, forward and backward, with the direct light sampled and integrated, with more and more light\n"
+      "packets; the weight estimator cut off after 2 to 50 flights; other tile sizes. All are held against a reference\n"
+      "of 30 times as many light packets. The advice is for the tiles; receivers are not studied.\n\n"
+      "Examples:\n"
+      "  lichtmc study room.glb --quick\n"
+      "  lichtmc study hall.glb --tile 0.25 --max-time 30min -o out/hall_study");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace lichtmc::app

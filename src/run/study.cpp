@@ -1,0 +1,279 @@
+#include "lichtmc/study.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "base/message.hpp"
+#include "chance/moments.hpp"
+#include "lichtmc/error.hpp"
+#include "lichtmc/simulate.hpp"
+#include "run/advice.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// Tiles are held against references known so well or better.
+constexpr double known_to = 0.1;
+// A reference has so many times the histories of any row: its error adds 1/60 to that of the longest.
+constexpr std::uint64_t reference_factor = 30;
+constexpr std::uint64_t steps_of_ladder = 4;  // each four times the histories of the one before
+
+struct Reference {
+  Result result;
+  std::vector<bool> known;  // per tile
+  StudyReference facts;
+};
+
+double area_weighted_rms(double squares, double area) {
+  return area > 0.0 ? std::sqrt(squares / area) : std::numeric_limits<double>::quiet_NaN();
+}
+
+Reference make_reference(Result result) {
+  Reference reference;
+  double area = 0.0;
+  double lit = 0.0;
+  double squares = 0.0;
+  for (std::size_t t = 0; t < result.tiles.size(); ++t) {
+    const TileResult& tile = result.tiles[t];
+    const double relative = tile.standard_error / tile.irradiance;
+    const double area_m2 = result.tiling.tiles[t].area_m2;
+    const bool known = tile.irradiance > 0.0 && relative <= known_to;
+    reference.known.push_back(known);
+    if (tile.irradiance > 0.0) lit += area_m2;
+    if (!known) continue;
+    area += area_m2;
+    squares += area_m2 * relative * relative;
+  }
+  reference.facts = {result.settings.tile_edge_m, result.tiles.size(), result.histories,
+                     area_weighted_rms(squares, area), lit > 0.0 ? area / lit : 0.0};
+  reference.result = std::move(result);
+  return reference;
+}
+
+StudyRow row_of(const Result& result, const Reference& reference) {
+  StudyRow row;
+  row.direction = result.settings.tiles;
+  row.estimator = result.estimator;
+  row.engine = result.engine;
+  row.histories = result.histories;
+  row.max_bounces = result.settings.max_bounces;
+  row.tile_edge_m = result.settings.tile_edge_m;
+  row.direct = direct_is_apart(result) ? Direct::analytic : Direct::sampled;
+  row.seconds = result.seconds;
+  double area = 0.0;
+  double squares = 0.0;
+  double stated = 0.0;
+  double power = 0.0;
+  double excess = 0.0;
+  for (std::size_t t = 0; t < result.tiles.size(); ++t) {
+    if (!reference.known[t]) continue;
+    const double truth = reference.result.tiles[t].irradiance;
+    const TileResult& tile = result.tiles[t];
+    const double area_m2 = result.tiling.tiles[t].area_m2;
+    area += area_m2;
+    squares += area_m2 * std::pow((tile.irradiance - truth) / truth, 2);
+    stated += area_m2 * std::pow(tile.standard_error / truth, 2);
+    power += area_m2 * truth;
+    excess += area_m2 * (tile.irradiance - truth);
+  }
+  row.rms_error = area_weighted_rms(squares, area);
+  row.standard_error = area_weighted_rms(stated, area);
+  row.bias = excess / power;
+  row.figure_of_merit = 1.0 / (row.rms_error * row.rms_error * row.seconds);
+  return row;
+}
+
+double total_area(const Room& room) {
+  double area = 0.0;
+  for (const Surface& surface : room.surfaces) area += surface_area(surface);
+  return area;
+}
+
+// A tenth of a metre, or what makes some 2000 tiles, rounded up to two digits so that people can repeat it.
+double usual_edge(const Room& room) {
+  constexpr double usual = 0.1;
+  constexpr double tiles = 2000.0;
+  const double edge = std::max(usual, std::sqrt(total_area(room) / tiles));
+  const double digit = std::pow(10.0, std::floor(std::log10(edge)) - 1.0);
+  return std::stod(short_number(std::ceil(edge / digit - 1e-9) * digit));
+}
+
+class Studying {
+ public:
+  Studying(const Room& room, const StudyOptions& options) : room_(&room), options_(&options) {
+    edge_ = options.tile_edge_m.value_or(usual_edge(room));
+  }
+
+  Study run();
+
+ private:
+  // A setting and its share of the time.
+  struct Plan {
+    std::string name;
+    Settings settings;
+    bool ladder = true;  // with growing histories, or with the most at once
+    double share = 0.0;
+  };
+
+  Settings settings_with(Estimator estimator, Engine engine = Engine::automatic) const;
+  std::vector<Plan> plans() const;
+  const Reference& reference_for(double edge, double share);
+  void measure(const Plan& plan);
+  bool measure_once(const Plan& plan, const Reference& reference, std::uint64_t photons, double& seconds_left);
+  void tell(const std::string& what);
+
+  const Room* room_;
+  const StudyOptions* options_;
+  double edge_;
+  std::map<double, Reference> references_;  // by tile edge
+  std::size_t done_ = 0;
+  std::size_t of_ = 0;
+  Study study_;
+};
+
+Settings Studying::settings_with(Estimator estimator, Engine engine) const {
+  Settings settings;
+  settings.estimator = estimator;
+  settings.engine = engine;
+  settings.ways = Ways::forward;
+  settings.tile_edge_m = edge_;
+  settings.seed = options_->seed;
+  settings.threads = options_->threads;
+  return settings;
+}
+
+std::string name_of(const Settings& settings) {
+  std::string name = std::string(to_string(settings.tiles)) + ", " + std::string(to_string(settings.estimator));
+  if (settings.max_bounces) name += " cut off after " + to_text(*settings.max_bounces, "flight");
+  if (settings.direct == Direct::analytic) name += ", direct light integrated";
+  if (settings.engine != Engine::automatic) name += ", " + std::string(to_string(settings.engine));
+  return name + ", tiles of " + short_number(settings.tile_edge_m) + " m";
+}
+
+std::vector<Studying::Plan> Studying::plans() const {
+  std::vector<Plan> plans;
+  const auto add = [&](const Settings& settings, bool ladder, double share) {
+    plans.push_back({name_of(settings), settings, ladder, share});
+  };
+  constexpr Estimator estimators[] = {Estimator::weight, Estimator::collision, Estimator::absorption};
+  for (const Estimator estimator : estimators) {
+    add(settings_with(estimator), true, 2.0);
+    Settings integrated = settings_with(estimator);
+    integrated.direct = Direct::analytic;
+    add(integrated, true, 2.0);
+    Settings backward = settings_with(estimator);
+    backward.tiles = TileWalk::backward;
+    add(backward, true, 2.0);
+  }
+  // Where the cuboid's closed form serves, Embree is measured beside it.
+  const Engine usual = references_.at(edge_).result.engine;
+  if (usual == Engine::cuboid) add(settings_with(Estimator::collision, Engine::embree), true, 2.0);
+  add(settings_with(Estimator::collision, Engine::embree_fast), true, 2.0);
+  for (const std::uint32_t bounces : {2U, 3U, 5U, 7U, 10U, 14U, 20U, 30U, 50U}) {
+    Settings cut = settings_with(Estimator::weight);
+    cut.max_bounces = bounces;
+    add(cut, false, 0.5);
+  }
+  for (const double factor : {0.5, 2.0}) {
+    Settings other = settings_with(Estimator::collision);
+    other.tile_edge_m *= factor;
+    add(other, false, 0.5);
+  }
+  double all = 0.0;
+  for (const Plan& plan : plans) all += plan.share;
+  constexpr double for_rows = 0.55;  // of the time; the rest is for references
+  for (Plan& plan : plans) plan.share *= for_rows / all;
+  return plans;
+}
+
+void Studying::tell(const std::string& what) {
+  if (options_->progress) options_->progress(what, done_, of_);
+  ++done_;
+}
+
+const Reference& Studying::reference_for(double edge, double share) {
+  if (const auto found = references_.find(edge); found != references_.end()) return found->second;
+  tell("reference, tiles of " + short_number(edge) + " m");
+  Settings settings = settings_with(Estimator::collision);
+  settings.tile_edge_m = edge;
+  settings.seed = options_->seed ^ 0x9E3779B97F4A7C15U;
+  settings.photons = std::uint64_t{1} << 62;
+  settings.max_seconds = share * options_->seconds;
+  Control control;
+  control.stop = options_->stop;
+  Reference reference = make_reference(simulate(*room_, settings, control));
+  if (reference.result.histories < 2 * reference_factor * batch_histories) {
+    throw InputError("The time of " + short_number(options_->seconds) + " s is too short to study " + room_->source +
+                     ": its reference came to " + std::to_string(reference.result.histories) + " photons (allowed: " +
+                     std::to_string(2 * reference_factor * batch_histories) + " or more). Give --max-time more.");
+  }
+  study_.references.push_back(reference.facts);
+  study_.threads = reference.result.threads;
+  return references_.emplace(edge, std::move(reference)).first->second;
+}
+
+// Returns whether the run came to its end.
+bool Studying::measure_once(const Plan& plan, const Reference& reference, std::uint64_t photons, double& seconds_left) {
+  Settings settings = plan.settings;
+  settings.photons = photons;
+  settings.max_seconds = seconds_left;
+  Control control;
+  control.stop = options_->stop;
+  const auto began = std::chrono::steady_clock::now();
+  const Result result = simulate(*room_, settings, control);
+  seconds_left -= std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  study_.rows.push_back(row_of(result, reference));
+  return result.stopped_by == StopReason::photons && seconds_left > 0.0;
+}
+
+void Studying::measure(const Plan& plan) {
+  constexpr double for_other_sizes = 0.05;
+  const Reference& reference = reference_for(plan.settings.tile_edge_m, for_other_sizes);
+  tell(plan.name);
+  const std::uint64_t batches = reference.result.histories / reference_factor / batch_histories;
+  double seconds_left = plan.share * options_->seconds;
+  try {
+    for (std::uint64_t step = plan.ladder ? steps_of_ladder : 1; step-- > 0;) {
+      const std::uint64_t on_step = batches >> (2 * step);
+      if (on_step < 2) continue;  // one batch alone tells no error
+      if (!measure_once(plan, reference, on_step * batch_histories, seconds_left)) break;
+    }
+  } catch (const InputError& error) {
+    study_.left_out.push_back(plan.name + ": " + error.what());
+  } catch (const RuntimeError& error) {
+    study_.left_out.push_back(plan.name + ": not done in its share of the time, " +
+                              short_number(plan.share * options_->seconds) + " s. Give --max-time more.");
+  }
+}
+
+Study Studying::run() {
+  study_.room = room_->source;
+  constexpr double for_reference = 0.35;
+  reference_for(edge_, for_reference);
+  const std::vector<Plan> all = plans();
+  of_ = all.size() + 3;  // and the references
+  for (const Plan& plan : all) {
+    if (options_->stop.stop_requested()) break;
+    measure(plan);
+  }
+  study_.advice = advice_from(study_.rows, edge_, room_->source);
+  return std::move(study_);
+}
+
+}  // namespace
+
+Study study(const Room& room, const StudyOptions& options) {
+  constexpr double shortest = 5.0;
+  if (!(options.seconds >= shortest) || !std::isfinite(options.seconds)) {
+    throw InputError("The time for the study is " + to_text(options.seconds) +
+                     " s (allowed: 5 s or more). Give --max-time a time, for example 10min.");
+  }
+  return Studying(room, options).run();
+}
+
+}  // namespace lichtmc
