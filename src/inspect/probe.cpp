@@ -167,7 +167,7 @@ glm::dvec3 find_inside(const Room& room, const Tracer& tracer, const glm::dvec3&
     const Words place = stream.draw(c, 0, Purpose::place);
     const glm::dvec3 share(unit_open(place[0]), unit_open(place[1]), unit_open(place[2]));
     const glm::dvec3 candidate = c == 0 ? best : low + (high - low) * (0.1 + 0.8 * share);
-    const Start start = tracer.start(candidate);
+    const Start start = tracer.start(candidate, glm::dvec3(0.0));
     if (start.on_surface) continue;
     for (std::uint32_t i = 0; i < rays_each; ++i) {
       const Words words = stream.draw(std::uint64_t{c} * rays_each + i, 0, Purpose::emission);

@@ -133,7 +133,8 @@ void check_shape(const Room& room, const SurfaceEmitter& shape, const std::strin
     refuse(room, "number of the surface " + of, std::to_string(shape.surface),
            "below " + std::to_string(room.surfaces.size()), "Let it name a surface.");
   }
-  require(surface_area(room.surfaces[shape.surface]) > 0.0, room, "area in m² of the emitting surface " + of, 0.0,
+  require(surface_area(room.surfaces[shape.surface]) > 0.0, room,
+          "area in m² of the emitting surface " + in_quotes(room.surfaces[shape.surface].name) + " " + of, 0.0,
           "above 0", "Give it triangles that have an area, or remove the emitter.");
   check_exponent(room, shape.exponent, of);
 }

@@ -19,6 +19,7 @@
 #include "base/lanes.hpp"
 #include "chance/directions.hpp"
 #include "room/cuboid_shape.hpp"
+#include "tracer/touch.hpp"
 #include "tracer/tracer.hpp"
 
 namespace lichtmc {
@@ -176,22 +177,31 @@ class CuboidTracer final : public Tracer {
     for (std::size_t i = 0; cosines != nullptr && i < rays.size; ++i) cosines[i] = sample_lambert(polar[i], 0).z;
   }
 
-  Start start(const glm::dvec3& world_point_m) const override {
+  Start start(const glm::dvec3& world_point_m, const glm::dvec3& axis) const override {
     Start result;
     const glm::dvec3 unit = points_ * (world_point_m - corner_);
     for (int k = 0; k < 3; ++k) {
-      // Within rounding of a wall is on it.
-      const double nearest_wall = unit[k] < 0.5 ? 0.0 : 1.0;
-      const bool on_wall = std::abs(unit[k] - nearest_wall) <= wall_rounding;
-      result.point[k] = static_cast<float>(on_wall ? nearest_wall : unit[k]);
-      result.on_surface = result.on_surface || on_wall;
+      const bool upper = unit[k] >= 0.5;
+      const double wall = upper ? 1.0 : 0.0;
+      if (std::abs(unit[k] - wall) > wall_rounding) {
+        result.point[k] = static_cast<float>(unit[k]);
+        continue;
+      }
+      // Within rounding of a wall it is on it, or the next place before it.
+      const glm::dvec3 edge = world_vector({k == 0, k == 1, k == 2});
+      const bool inside = upper ? unit[k] < wall : unit[k] > wall;
+      const double length = glm::length(edge);
+      const bool before = inside && stays_before({world_point_m, corner_ + wall * edge, edge / length, length}, axis);
+      const double next = upper ? 1.0 - 0x1p-24 : 0x1p-24;
+      result.point[k] = static_cast<float>(before ? next : wall);
+      result.on_surface = result.on_surface || !before;
     }
     return result;
   }
 
   // Whether a point lies in the cuboid, its walls included.
   bool holds(const glm::dvec3& world_point_m) const {
-    const glm::vec3 unit = start(world_point_m).point;
+    const glm::vec3 unit = start(world_point_m, glm::dvec3(0.0)).point;
     return unit.x >= 0.0F && unit.x <= 1.0F && unit.y >= 0.0F && unit.y <= 1.0F && unit.z >= 0.0F && unit.z <= 1.0F;
   }
 

@@ -27,6 +27,7 @@
 #include "room/bounds.hpp"
 #include "room/convexity.hpp"
 #include "tracer/embree.hpp"
+#include "tracer/touch.hpp"
 #include "tracer/tracer.hpp"
 
 namespace lichtmc {
@@ -52,6 +53,11 @@ struct alignas(64) Departure {
 // corner and one of the coordinates; twice that is the step.
 constexpr double step_roundings = 8.0 * 0x1p-24;
 
+// Where a facet is parallel to two axes the normal has one component, to the last digit, and only the coordinate along
+// it counts: such walls may stand as close to each other as they like. Near the origin a distance remains that does not
+// vanish in the products.
+constexpr double least_step = step_roundings * 0x1p-24;
+
 // A photon keeps this many steps away from the sides of its facet, so that it stays inside where walls meet at angles
 // down to 27°.
 constexpr double margin_steps = 2.0;
@@ -70,13 +76,17 @@ Departure make_departure(const std::array<glm::vec3, 3>& corners, const glm::dve
   const double reach = std::max({largest_component(p[0]), largest_component(p[1]), largest_component(p[2])});
   const std::array<double, 3> side{glm::length(p[2] - p[1]), glm::length(p[0] - p[2]), glm::length(p[1] - p[0])};
   const double step = step_roundings * (reach + std::max({side[0], side[1], side[2]}));
+  double own_step = step;
+  for (int k = 0; k < 3; ++k) {
+    if (p[0][k] == p[1][k] && p[0][k] == p[2][k]) own_step = step_roundings * std::abs(p[0][k]) + least_step;
+  }
 
   Departure departure;
   departure.corner = corners[0];
   departure.edge_s = corners[1] - corners[0];
   departure.edge_t = corners[2] - corners[0];
   departure.normal = glm::vec3(normal);
-  departure.step = static_cast<float>(step);
+  departure.step = static_cast<float>(own_step);
   for (int k = 0; k < 3; ++k) {
     // Height of the triangle over side k; a share of it is a barycentric coordinate.
     const double share = margin_steps * step * side[static_cast<std::size_t>(k)] / twice_area;
@@ -150,7 +160,7 @@ LICHTMC_LANES void scatter_lanes(std::size_t n, const Departure* LICHTMC_APART d
 
 class EmbreeTracer final : public Tracer {
  public:
-  EmbreeTracer(const Room& room, const Tiling& tiling, Edges edges) {
+  EmbreeTracer(const Room& room, const Tiling& tiling, Edges edges) : room_(&room) {
     if (!device_) throw_embree_error(nullptr, "starting");
     scene_ = {rtcNewScene(device_.get()), &rtcReleaseScene};
     if (edges == Edges::robust) rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
@@ -206,7 +216,7 @@ class EmbreeTracer final : public Tracer {
     for (std::size_t i = 0; cosines != nullptr && i < rays.size; ++i) cosines[i] = sample_lambert(polar[i], 0).z;
   }
 
-  Start start(const glm::dvec3& world_point_m) const override;
+  Start start(const glm::dvec3& world_point_m, const glm::dvec3& axis) const override;
 
   bool is_blocked(const glm::vec3& start, const glm::vec3& way, TraceCount& count) const override {
     EmbreeQuery query;
@@ -246,6 +256,13 @@ class EmbreeTracer final : public Tracer {
     ray.mask = 0xFFFFFFFF;
     query.occluded(scene_.get(), ray);
     return ray.tfar < 0.0F;  // Embree's word for yes is −∞
+  }
+
+  // The first corner of a facet in the world, m.
+  const glm::dvec3& corner_of(std::size_t facet) const {
+    const std::size_t surface = facets_[facet].surface;
+    const Surface& own = room_->surfaces[surface];
+    return own.positions[own.triangles[facet - first_facet_[surface]].x];
   }
 
   void place(const Room& room);
@@ -332,6 +349,7 @@ class EmbreeTracer final : public Tracer {
     return misses != 0;
   }
 
+  const Room* room_;
   Device device_{rtcNewDevice(nullptr), &rtcReleaseDevice};
   Scene scene_{nullptr, &rtcReleaseScene};
   glm::dvec3 centre_{0.0};
@@ -390,28 +408,43 @@ void EmbreeTracer::add_facets(const Room& room, const Tiling& tiling) {
   rtcReleaseGeometry(geometry);
 }
 
-Start EmbreeTracer::start(const glm::dvec3& world_point_m) const {
+// Whether a point (tracer's coordinates) lies on a facet, or not farther from it than `distance`.
+bool touches(const Departure& facet, const glm::dvec3& point, double distance) {
+  const glm::dvec3 normal(facet.normal);
+  const glm::dvec3 from_corner = point - glm::dvec3(facet.corner);
+  if (std::abs(glm::dot(from_corner, normal)) > distance) return false;
+  const glm::dvec3 cross = glm::cross(glm::dvec3(facet.edge_s), glm::dvec3(facet.edge_t));
+  const double area = glm::dot(cross, cross);
+  if (!(area > 0.0)) return false;
+  const double s = glm::dot(glm::cross(from_corner, glm::dvec3(facet.edge_t)), cross) / area;
+  const double t = glm::dot(glm::cross(glm::dvec3(facet.edge_s), from_corner), cross) / area;
+  const glm::dvec3 margin(facet.margin);
+  return !(s < -margin.y || t < -margin.z || s + t > 1.0 + margin.x);
+}
+
+Start EmbreeTracer::start(const glm::dvec3& world_point_m, const glm::dvec3& axis) const {
   Start result;
   const glm::dvec3 point = scale_ * (world_point_m - centre_);
   result.point = glm::vec3(point);
+  std::vector<glm::vec3> planes;
   for (std::size_t k = 0; k < departures_.size(); ++k) {
     const Departure& facet = departures_[k];
     const glm::dvec3 normal(facet.normal);
-    const glm::dvec3 from_corner = point - glm::dvec3(facet.corner);
-    if (std::abs(glm::dot(from_corner, normal)) > double{facet.step}) continue;
-    const glm::dvec3 cross = glm::cross(glm::dvec3(facet.edge_s), glm::dvec3(facet.edge_t));
-    const double area = glm::dot(cross, cross);
-    if (!(area > 0.0)) continue;
-    const double s = glm::dot(glm::cross(from_corner, glm::dvec3(facet.edge_t)), cross) / area;
-    const double t = glm::dot(glm::cross(glm::dvec3(facet.edge_s), from_corner), cross) / area;
-    const glm::dvec3 margin(facet.margin);
-    if (s < -margin.y || t < -margin.z || s + t > 1.0 + margin.x) continue;
-    result.on_surface = true;
+    const NearPlane plane{world_point_m, corner_of(k), normal, 1.0 / scale_};
+    if (!touches(facet, point, std::max(double{facet.step}, scale_ * plane.rounding()))) continue;
     // Triangles of one plane count once.
-    const bool known = std::any_of(result.steps.begin(), result.steps.end(), [&](const glm::vec3& other) {
-      return std::abs(glm::dot(glm::normalize(glm::dvec3(other)), normal)) > 1.0 - 1e-6;
+    const bool known = std::any_of(planes.begin(), planes.end(), [&](const glm::vec3& other) {
+      return std::abs(glm::dot(glm::dvec3(other), normal)) > 1.0 - 1e-6;
     });
-    if (!known) result.steps.push_back(2.0F * facet.step * facet.normal);
+    if (known) continue;
+    planes.push_back(facet.normal);
+    const glm::vec3 step = 2.0F * facet.step * facet.normal;
+    if (stays_before(plane, axis)) {
+      result.point += plane.distance() < 0.0 ? -step : step;
+    } else {
+      result.steps.push_back(step);
+      result.on_surface = true;
+    }
   }
   return result;
 }

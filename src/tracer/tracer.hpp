@@ -72,7 +72,11 @@ class Tracer {
   // from two random words each. cosines: of the angles to the normals, unless null.
   virtual void scatter(Rays& rays, const std::uint32_t* polar, const std::uint32_t* azimuth, float* cosines) const = 0;
 
-  virtual Start start(const glm::dvec3& world_point_m) const = 0;
+  // Where photons of an emitter at this point start; axis: the middle of its beam, or 0 where it has none. An emitter
+  // on a surface, as far as coordinates of floats can say, shines to both sides of it, from each side what goes there.
+  // One before a surface, closer than the tracer's own coordinates can say, stays before it, unless its beam goes
+  // through it: then the distance is taken for a rounding.
+  virtual Start start(const glm::dvec3& world_point_m, const glm::dvec3& axis) const = 0;
   virtual TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const = 0;
 
   // Which of these straight ways are blocked: sets blocked. A way that begins and ends free of surfaces is blocked by
@@ -85,7 +89,7 @@ class Tracer {
   // Whether some surface can stand between two points in the room. Where none can, nothing is asked.
   virtual bool casts_shadows() const = 0;
 
-  // The least distance from a surface that can be told apart from lying on it, in the tracer's coordinates.
+  // The least distance from any surface that can be told apart from lying on it, in the tracer's coordinates.
   virtual float step() const = 0;
 
   // A point and a vector in the tracer's coordinates → the world, in m; and back.
@@ -127,7 +131,7 @@ enum class Edges {
   fast,    // it may, once in many millions of flights
 };
 
-// Embree, for any room. Throws RuntimeError where Embree fails.
+// Embree, for any room, which must outlive it. Throws RuntimeError where Embree fails.
 std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling, Edges edges = Edges::robust);
 
 }  // namespace lichtmc

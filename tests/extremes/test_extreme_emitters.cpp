@@ -15,8 +15,7 @@ constexpr double photons = 1e5;
 constexpr auto n = static_cast<std::uint64_t>(photons);
 
 Result simulate_in(const Emitter& emitter, Engine engine, double tile_edge_m = 0.1, double reflectance = 0.0) {
-  return simulate(unit_cube(reflectance, emitter),
-                  settings_of(Estimator::collision, engine, photons, 12, tile_edge_m));
+  return simulate(unit_cube(reflectance, emitter), settings_of(Estimator::collision, engine, photons, 12, tile_edge_m));
 }
 
 // A beam without width.
@@ -35,7 +34,8 @@ TEST_CASE("extreme: an emitter on a wall does not light that wall") {
   }
 }
 
-TEST_CASE("extreme: of an isotropic emitter on a wall a half stays inside, on an edge a quarter, in a corner an eighth") {
+TEST_CASE(
+    "extreme: of an isotropic emitter on a wall a half stays inside, on an edge a quarter, in a corner an eighth") {
   for (const Engine engine : both_engines) {
     std::vector<Compared> shares;
     for (const auto& [position, inside] : std::vector<std::pair<glm::dvec3, double>>{
@@ -68,6 +68,20 @@ TEST_CASE("extreme: an emitter on the floor that shines down lights nothing, and
     const Result result = simulate_in(lambert({0.3, 0.0, 0.6}, {0, -1, 0}, 1.0), engine);
     CHECK(result.incident == 0.0);
     CHECK(result.balance.escaped == 1.0);
+  }
+}
+
+TEST_CASE(
+    "extreme: a Lambert emitter a billionth of a metre over the floor that shines along it lights it with a half") {
+  for (const Engine engine : both_engines) {
+    const Result along = simulate_in(lambert({0.3, 1e-9, 0.6}, {1, 0, 0}, 1.0), engine);
+    check_shares({share(power_on(along, "floor"), 0.5, n)});
+    CHECK(along.incident == 1.0);
+    CHECK(simulate_in(isotropic({0.3, 1e-9, 0.6}), engine).incident == 1.0);
+    // Behind the floor by a rounding is on it where the light goes into the room.
+    CHECK(simulate_in(lambert({0.3, -1e-9, 0.6}, {0, 1, 0}, 1.0), engine).incident == 1.0);
+    // At 1 m floats, which files hold, cannot say so little.
+    check_shares({share(simulate_in(isotropic({1.0 - 1e-9, 0.3, 0.6}), engine).incident, 0.5, n)});
   }
 }
 
@@ -156,8 +170,9 @@ TEST_CASE("extreme: narrow beams (m = 10⁶, 10³⁰ and the largest number) end
 
 TEST_CASE("extreme: exponents below 0 and those that are no numbers are refused") {
   for (const double exponent : {-1e-9, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-    const std::string message =
-        refusal([&] { simulate_in(lambert({0.5, 0.5, 0.5}, {0, -1, 0}, exponent), Engine::cuboid); });
+    const std::string message = refusal([&] {
+      simulate_in(lambert({0.5, 0.5, 0.5}, {0, -1, 0}, exponent), Engine::cuboid);
+    });
     INFO(message);
     CHECK(message.find("exponent") != std::string::npos);
   }

@@ -38,14 +38,15 @@ TEST_CASE("extreme: from white walls under an open top all light escapes; in a c
     check_all_finite(result);
   }
   for (const Engine engine : both_engines) {
-    const std::string message = refusal(
-        [&] { simulate(unit_cube(1.0, centre), settings_of(Estimator::collision, engine, 1e4, 30)); });
+    const std::string message =
+        refusal([&] { simulate(unit_cube(1.0, centre), settings_of(Estimator::collision, engine, 1e4, 30)); });
     INFO(message);
     CHECK(message.find("reflect") != std::string::npos);
   }
 }
 
-TEST_CASE("extreme: where light goes round a thousand million times a run ends when it is told to, and says what is left") {
+TEST_CASE(
+    "extreme: where light goes round a thousand million times a run ends when it is told to, and says what is left") {
   Settings settings = settings_of(Estimator::collision, Engine::cuboid, 1e6, 31);
   settings.max_seconds = 1.0;
   const Result result = simulate(unit_cube(1.0 - 1e-9, centre), settings);

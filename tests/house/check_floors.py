@@ -24,10 +24,10 @@ PUBLIC = {
     "error": "base", "units": "base", "version": "base",
     "room": "room", "cuboid": "room", "mend": "room", "tiles": "room",
     "settings": "room",  # plain data that every floor may read
-    "result": "run", "simulate": "run", "receivers": "run", "inspect": "inspect",
+    "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
     "gltf": "gltf", "output": "output", "compare": "output",
 }
-WINGS_SEE_RESULTS = {"output": ["result", "inspect"], "gltf": []}
+WINGS_SEE_RESULTS = {"output": ["result", "inspect", "study"], "gltf": []}
 # Libraries that one file or folder alone may name.
 LIBRARIES = {
     r"embree\d?/": ["src/tracer/embree.hpp"],

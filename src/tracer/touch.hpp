@@ -1,0 +1,45 @@
+// Emitters closer to a surface than coordinates can say.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace lichtmc {
+
+// An emitter and a plane near it, in world coordinates: m.
+struct NearPlane {
+  glm::dvec3 emitter{0.0};
+  glm::dvec3 on_plane{0.0};
+  glm::dvec3 normal{0.0, 1.0, 0.0};  // length 1, to either side
+  double extent = 1.0;               // of the room
+
+  double distance() const { return glm::dot(normal, emitter - on_plane); }
+
+  // By how much their distance may be off where the coordinates, or the steps of a transformation to them, were floats.
+  // A room far from the origin is as large as others: what moved it there did not round it.
+  double rounding() const {
+    constexpr double float_roundings = 4.0 * 0x1p-24;
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k)
+      sum += std::abs(normal[k]) * std::min(extent, std::max(std::abs(emitter[k]), std::abs(on_plane[k])));
+    return float_roundings * sum;
+  }
+};
+
+// Whether an emitter stays on its side of a plane that is too near for the tracer, or counts as lying on it. It stays
+// where the distance is more than a rounding and its beam (`axis`, 0 for none) does not go through the plane: a lamp
+// flush with a ceiling that lies a little behind it is meant to shine.
+inline bool stays_before(const NearPlane& plane, const glm::dvec3& axis) {
+  constexpr double along_plane = 1e-6;  // sine of the angle up to which an axis counts as parallel
+  const double distance = plane.distance();
+  if (!(std::abs(distance) > plane.rounding())) return false;
+  const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
+  if (!(largest > 0.0)) return true;
+  const double along = glm::dot(glm::normalize(axis / largest), plane.normal);
+  return std::copysign(1.0, distance) * along >= -along_plane;
+}
+
+}  // namespace lichtmc
