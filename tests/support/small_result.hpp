@@ -68,6 +68,7 @@ inline Result make_result() {
   result.quantity = Quantity::radiometric;
   result.settings.seed = std::numeric_limits<std::uint64_t>::max();
   result.settings.estimator = Estimator::weight;
+  result.estimator = Estimator::weight;
   result.settings.max_bounces = 12;
   result.settings.tile_edge_m = 0.1;
   result.engine = Engine::cuboid;
