@@ -1,6 +1,7 @@
 // lichtmc study: the trade of speed against accuracy in a room.
-#include <cstdio>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -47,6 +48,22 @@ StudyOptions parse_options(const StudyCommand& command) {
   return options;
 }
 
+// One line that is written over on a terminal; elsewhere a line for each run.
+std::function<void(const StudyProgress&)> progress_printer(bool terminal) {
+  return [terminal, last = std::string()](const StudyProgress& progress) mutable {
+    std::string line = progress.of > 0 ? std::to_string(progress.done + 1) + " of " + std::to_string(progress.of) + ": "
+                                       : std::string();
+    line += progress.what;
+    if (terminal) {
+      std::cerr << '\r' << line << ", " << std::lround(progress.seconds) << " s of about "
+                << std::lround(progress.of_seconds) << " s\x1b[K" << std::flush;
+    } else if (line != last) {
+      std::cerr << line << '\n' << std::flush;
+    }
+    last = line;
+  };
+}
+
 void run(const StudyCommand& command) {
   StudyOptions options = parse_options(command);
   const Room room = read_room(command.reading);
@@ -58,12 +75,7 @@ void run(const StudyCommand& command) {
   const InterruptWatch interrupt;
   options.stop = interrupt.token();
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (!command.quiet) {
-    options.progress = [terminal](const std::string& what, std::size_t done, std::size_t of) {
-      const std::string count = of > 0 ? std::to_string(done + 1) + " of " + std::to_string(of) + ": " : "";
-      std::cerr << (terminal ? "\r" : "") << count << what << (terminal ? "\x1b[K" : "\n") << std::flush;
-    };
-  }
+  if (!command.quiet) options.progress = progress_printer(terminal);
   const Study found = study(room, options);
   if (!command.quiet && terminal) std::cerr << "\r\x1b[K";
   write_study(found, folder);
@@ -98,7 +110,8 @@ void add_study_command(CLI::App& program) {
   command->add_flag("--quiet", options->quiet, "No progress; only the advice and errors");
   command->footer(
       "Every estimator, forward and backward, with the direct light sampled and integrated, with more and more light\n"
-      "packets; the weight estimator cut off after 2 to 50 flights; other tile sizes. All are held against a reference\n"
+      "packets; the weight estimator cut off after 2 to 50 flights; other tile sizes. All are held against a "
+      "reference\n"
       "of 30 times as many light packets. The advice is for the tiles; receivers are not studied.\n\n"
       "Examples:\n"
       "  lichtmc study room.glb --quick\n"

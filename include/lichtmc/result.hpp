@@ -85,11 +85,11 @@ struct Balance {
 struct Result {
   std::string room;  // Room::source
   Quantity quantity = Quantity::photometric;
-  Settings settings;               // as asked for
-  Engine engine = Engine::embree;  // as used
+  Settings settings;                           // as asked for
+  Engine engine = Engine::embree;              // as used
   Estimator estimator = Estimator::collision;  // as used for the tiles
   std::vector<std::string> choices;            // what Estimator::automatic has chosen and why, a sentence each
-  unsigned threads = 1;            // as used
+  unsigned threads = 1;                        // as used
   StopReason stopped_by = StopReason::photons;
 
   std::uint64_t histories = 0;

@@ -42,7 +42,8 @@ enum class TileWalk {
   backward,  // walks from random points of each tile back to the light; the direct light is integrated
 };
 
-// "weight", "collision", "absorption", "auto"; "auto", "cuboid", "embree", "embree-fast"; "sampled", "analytic"; "forward", "backward".
+// "weight", "collision", "absorption", "auto"; "auto", "cuboid", "embree", "embree-fast"; "sampled", "analytic";
+// "forward", "backward".
 std::string_view to_string(Estimator estimator);
 std::string_view to_string(Engine engine);
 std::string_view to_string(Direct direct);

@@ -13,13 +13,22 @@
 
 namespace lichtmc {
 
+// Where a study stands.
+struct StudyProgress {
+  std::string what;         // the run that is on: "forward, collision, tiles of 0.1 m"
+  std::size_t done = 0;     // runs that have ended
+  std::size_t of = 0;       // that there will be; 0 while that is not known
+  double seconds = 0.0;     // since the study began
+  double of_seconds = 0.0;  // StudyOptions::seconds
+};
+
 struct StudyOptions {
   double seconds = 600.0;             // wall-clock time for all of it, about; ≥ 5
   std::optional<double> tile_edge_m;  // default: 0.1 m, or so much longer that there are about 2000 tiles
   std::uint64_t seed = 1;             // the reference has another one
   unsigned threads = 0;               // 0: one per processor
-  // Called before each run with what it is, how many runs are done and how many there will be.
-  std::function<void(const std::string& what, std::size_t done, std::size_t of)> progress;
+  // Called before each run and some times a second while it goes on, from one thread at a time.
+  std::function<void(const StudyProgress&)> progress;
   std::stop_token stop;  // ends the study early; what was measured so far is returned
 };
 
@@ -33,10 +42,10 @@ struct StudyRow {
   std::optional<std::uint32_t> max_bounces;
   double tile_edge_m = 0.0;
   Direct direct = Direct::sampled;
-  double seconds = 0.0;         // of the walk, with that of integrating direct light
-  double rms_error = 0.0;       // rms difference from the reference
-  double bias = 0.0;            // of the power on all these tiles together
-  double standard_error = 0.0;  // rms of what the run itself states
+  double seconds = 0.0;          // of the walk, with that of integrating direct light
+  double rms_error = 0.0;        // rms difference from the reference
+  double bias = 0.0;             // of the power on all these tiles together
+  double standard_error = 0.0;   // rms of what the run itself states
   double figure_of_merit = 0.0;  // 1 / (rms_error² · seconds), 1/s
 };
 

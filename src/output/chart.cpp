@@ -78,7 +78,10 @@ class Axis {
     }
     const double rough = (high_ - low_) / 6.0;
     const double decade = std::pow(10.0, std::floor(std::log10(rough)));
-    const double step = decade * (rough > 5.0 * decade ? 10.0 : rough > 2.0 * decade ? 5.0 : rough > decade ? 2.0 : 1.0);
+    const double step = decade * (rough > 5.0 * decade   ? 10.0
+                                  : rough > 2.0 * decade ? 5.0
+                                  : rough > decade       ? 2.0
+                                                         : 1.0);
     for (double k = std::ceil(low_ / step); k * step <= high_; k += 1.0) ticks.push_back(k * step);
     return ticks;
   }

@@ -93,8 +93,8 @@ std::string figures_of_merit(const Study& study) {
 std::string advice_text(const Study& study) {
   std::string text = "Room " + study.room + ", " + to_text(study.threads, "thread") + ".\n";
   for (const StudyReference& reference : study.references) {
-    text += "Reference for tiles of " + short_number(reference.tile_edge_m) + " m: " +
-            to_text(reference.tiles, "tile") + ", " + short_number(static_cast<double>(reference.histories)) +
+    text += "Reference for tiles of " + short_number(reference.tile_edge_m) +
+            " m: " + to_text(reference.tiles, "tile") + ", " + short_number(static_cast<double>(reference.histories)) +
             " photons, known to " + short_number(100.0 * reference.standard_error) + " % (rms), " +
             short_number(100.0 * reference.area_share) + " % of the lit area to 10 % or better: errors are of these.\n";
   }

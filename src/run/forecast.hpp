@@ -16,8 +16,8 @@ class Forecast {
   // The error (> 0) after so many histories; each call with more of them.
   void look(std::uint64_t histories, double error);
 
-  // Histories from the start to the target error (> 0); NaN before the first look, at least those of the last look where
-  // the target was not met by then.
+  // Histories from the start to the target error (> 0); NaN before the first look, at least those of the last look
+  // where the target was not met by then.
   double histories_to(double target) const;
 
  private:

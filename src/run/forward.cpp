@@ -1,6 +1,7 @@
 #include "run/forward.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -38,6 +39,10 @@ std::vector<Contender> contenders_for(const Room& room, const Scene& scene, cons
   return contenders;
 }
 
+double known_of(const TileResult& tile) {
+  return std::isnan(tile.direct) ? 0.0 : tile.direct;
+}
+
 Pilot outcome(const Contender& contender) {
   const Totals totals = contender.crew->totals();
   Pilot pilot;
@@ -45,33 +50,25 @@ Pilot outcome(const Contender& contender) {
   pilot.flights = static_cast<double>(totals.traced.rays);
   if (totals.histories == 0) return pilot;
   for (const TileResult& tile : contender.scores.tiles(totals)) {
-    pilot.values.push_back(tile.irradiance);
+    pilot.values.push_back(tile.irradiance - known_of(tile));
     pilot.hits.push_back(static_cast<double>(tile.hits));
     pilot.errors.push_back(tile.hits > 0 ? tile.standard_error : 0.0);
   }
   return pilot;
 }
 
-// What the tiles' errors are relative to. A tile that a pilot has hit once or not at all is not known to be as bright as
-// that says: its mean is drawn towards that of its tile map, with the strength of ten hits.
-std::vector<double> means_of(const std::vector<Pilot>& pilots, const Tiling& tiling) {
-  constexpr double strength = 10.0;
-  std::vector<double> means = pooled_values(pilots);
-  std::vector<double> power(tiling.maps.size(), 0.0);
-  std::vector<double> area(tiling.maps.size(), 0.0);
-  for (std::size_t t = 0; t < means.size(); ++t) {
-    const Tile& tile = tiling.tiles[t];
-    power[tile.map] += means[t] * tile.area_m2;
-    area[tile.map] += tile.area_m2;
+Choice choose_for_tiles(std::vector<Pilot>& pilots, const Contender& contender, const Tiling& tiling) {
+  CountedTiles tiles;
+  tiles.maps = tiling.maps.size();
+  for (const Tile& tile : tiling.tiles) {
+    tiles.areas.push_back(tile.area_m2);
+    tiles.map.push_back(tile.map);
   }
-  for (std::size_t t = 0; t < means.size(); ++t) {
-    const std::size_t map = tiling.tiles[t].map;
-    if (!(area[map] > 0.0)) continue;
-    double hits = 0.0;
-    for (const Pilot& pilot : pilots) hits += pilot.hits[t];
-    means[t] = (hits * means[t] + strength * power[map] / area[map]) / (hits + strength);
-  }
-  return means;
+  std::vector<double> means = likely_values(pilots, tiles);
+  make_errors_likely(pilots, means, tiles);
+  const std::vector<TileResult> found = contender.scores.tiles(contender.crew->totals());
+  for (std::size_t t = 0; t < means.size(); ++t) means[t] += known_of(found[t]);
+  return choose_best(pilots, means, tiles.areas, "the tiles");
 }
 
 // Leaves the contender that does best; it goes on from where its pilot has ended.
@@ -89,9 +86,7 @@ void keep_best(std::vector<Contender>& contenders, std::uint64_t photons, const 
     choice.reason = "The estimator '" + std::string(to_string(pilots.front().estimator)) +
                     "' was taken for the tiles: the run ended before the others were tried.";
   } else {
-    std::vector<double> areas;
-    for (const Tile& tile : result.tiling.tiles) areas.push_back(tile.area_m2);
-    choice = choose_best(pilots, means_of(pilots, result.tiling), areas, "the tiles");
+    choice = choose_for_tiles(pilots, contenders.front(), result.tiling);
   }
   result.choices.push_back(choice.reason);
   std::swap(contenders.front(), contenders[choice.best]);
@@ -107,7 +102,8 @@ StopReason run_until_stopped(const Contender& contender, const StopWatch& watch,
   const Settings& settings = contender.settings;
   Crew& crew = *contender.crew;
   const std::uint64_t done = crew.totals().histories;
-  std::uint64_t look = settings.target_error ? std::min(std::max(first_look, done), settings.photons) : settings.photons;
+  std::uint64_t look =
+      settings.target_error ? std::min(std::max(first_look, done), settings.photons) : settings.photons;
   Forecast forecast;
   for (;;) {
     crew.simulate_up_to(look);

@@ -33,8 +33,8 @@ struct Gathered {
   double unit = 1.0;                     // of the sums, W/m² or lx
   BackwardCount count;
   StopReason stopped_by = StopReason::photons;
-  Estimator estimator = Estimator::collision;  // as used
-  std::string choice;                          // why, where it was chosen
+  Estimator estimator = Estimator::collision;                             // as used
+  std::string choice;                                                     // why, where it was chosen
   double histories_to_target = std::numeric_limits<double>::quiet_NaN();  // as Result::histories_to_target
 
   std::uint64_t histories() const { return rounds * group * sums.size(); }
@@ -59,7 +59,8 @@ struct GatherTask {
 
 // Walks until the first stop rule is met. Every origin gets as many walks; Settings::photons is the number of all
 // together. The same settings give the same sums for any number of threads. Estimator::automatic is replaced by the one
-// that does best in a pilot, see pilot.hpp. Throws RuntimeError where the run is stopped before the first round is whole.
+// that does best in a pilot, see pilot.hpp. Throws RuntimeError where the run is stopped before the first round is
+// whole.
 Gathered gather(const GatherTask& task, const Room& room, const Settings& settings, const Control& control,
                 StopWatch& watch, unsigned threads);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/message.hpp"
 #include "chance/moments.hpp"
@@ -18,10 +19,22 @@ std::vector<Estimator> candidates_for(const Room& room, const Settings& settings
 }
 
 std::uint64_t pilot_histories(std::uint64_t photons) {
-  constexpr std::uint64_t fewest = 4;  // batches: a variance summed over many tiles is known from few
-  constexpr std::uint64_t most = 256;
-  return std::clamp(photons / 64 / batch_histories, fewest, most) * batch_histories;
+  constexpr std::uint64_t fewest = 16;  // batches: a variance summed over many tiles is known from few
+  constexpr std::uint64_t most = 512;
+  return std::clamp(photons / 40 / batch_histories, fewest, most) * batch_histories;
 }
+
+namespace {
+
+std::vector<double> hits_of_all(const std::vector<Pilot>& pilots) {
+  std::vector<double> hits(pilots.front().hits.size(), 0.0);
+  for (const Pilot& pilot : pilots) {
+    for (std::size_t t = 0; t < hits.size(); ++t) hits[t] += pilot.hits[t];
+  }
+  return hits;
+}
+
+}  // namespace
 
 std::vector<double> pooled_values(const std::vector<Pilot>& pilots) {
   std::vector<double> means(pilots.front().values.size(), 0.0);
@@ -29,6 +42,67 @@ std::vector<double> pooled_values(const std::vector<Pilot>& pilots) {
     for (std::size_t t = 0; t < means.size(); ++t) means[t] += pilot.values[t] / static_cast<double>(pilots.size());
   }
   return means;
+}
+
+std::vector<double> likely_values(const std::vector<Pilot>& pilots, const CountedTiles& tiles) {
+  struct OfMap {
+    double power = 0.0;
+    double area = 0.0;
+    double hits = 0.0;
+  };
+  std::vector<OfMap> maps(tiles.maps);
+  std::vector<double> values = pooled_values(pilots);
+  std::vector<double> hits = hits_of_all(pilots);
+  for (std::size_t t = 0; t < values.size(); ++t) {
+    OfMap& map = maps[tiles.map[t]];
+    map.power += values[t] * tiles.areas[t];
+    map.area += tiles.areas[t];
+    map.hits += hits[t];
+  }
+  for (std::size_t t = 0; t < values.size(); ++t) {
+    const OfMap& map = maps[tiles.map[t]];
+    const double expected = map.hits * tiles.areas[t] / map.area;
+    values[t] = map.power / map.area * (hits[t] + 1.0) / (expected + 1.0);
+  }
+  return values;
+}
+
+void make_errors_likely(std::vector<Pilot>& pilots, const std::vector<double>& likely, const CountedTiles& tiles) {
+  constexpr double enough_hits = 4000.0;  // of all pilots together: rare large weights make a few hundred too few
+  const std::vector<double> hits = hits_of_all(pilots);
+  std::vector<std::size_t> by_brightness(likely.size());
+  std::iota(by_brightness.begin(), by_brightness.end(), std::size_t{0});
+  std::stable_sort(by_brightness.begin(), by_brightness.end(),
+                   [&](std::size_t a, std::size_t b) { return likely[a] < likely[b]; });
+  // Groups from the darkest on; what is left at the end joins the last.
+  std::vector<std::size_t> ends;
+  double sum = 0.0;
+  double left = std::accumulate(hits.begin(), hits.end(), 0.0);
+  for (std::size_t k = 0; k < by_brightness.size(); ++k) {
+    sum += hits[by_brightness[k]];
+    if (sum < enough_hits || left - sum < enough_hits) continue;
+    ends.push_back(k + 1);
+    left -= sum;
+    sum = 0.0;
+  }
+  ends.push_back(by_brightness.size());
+  for (Pilot& pilot : pilots) {
+    std::size_t begin = 0;
+    for (const std::size_t end : ends) {
+      double variance = 0.0;
+      double power = 0.0;
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::size_t t = by_brightness[k];
+        variance += std::pow(pilot.errors[t] * tiles.areas[t], 2);
+        power += likely[t] * tiles.areas[t];
+      }
+      for (std::size_t k = begin; k < end && power > 0.0; ++k) {
+        const std::size_t t = by_brightness[k];
+        pilot.errors[t] = std::sqrt(variance / power * likely[t] / tiles.areas[t]);
+      }
+      begin = end;
+    }
+  }
 }
 
 Choice choose_best(const std::vector<Pilot>& pilots, const std::vector<double>& means,
@@ -42,10 +116,11 @@ Choice choose_best(const std::vector<Pilot>& pilots, const std::vector<double>& 
     costs.push_back(squares * pilot.flights);
   }
   Choice choice;
-  const bool known = std::all_of(costs.begin(), costs.end(), [](double cost) { return cost > 0.0 && std::isfinite(cost); });
+  const bool known =
+      std::all_of(costs.begin(), costs.end(), [](double cost) { return cost > 0.0 && std::isfinite(cost); });
   if (!known) {
-    choice.reason = "The estimator '" + std::string(to_string(pilots.front().estimator)) + "' was taken for " + of_what +
-                    ": too little light was found in a short pilot to tell the estimators apart.";
+    choice.reason = "The estimator '" + std::string(to_string(pilots.front().estimator)) + "' was taken for " +
+                    of_what + ": too little light was found in a short pilot to tell the estimators apart.";
     return choice;
   }
   choice.best = static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());

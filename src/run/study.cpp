@@ -125,13 +125,18 @@ class Studying {
   const Reference& reference_for(double edge, double share);
   void measure(const Plan& plan);
   bool measure_once(const Plan& plan, const Reference& reference, std::uint64_t photons, double& seconds_left);
-  void tell(const std::string& what);
+  void begin(const std::string& what);
+  double seconds() const;
+  void tell() const;
+  Control control() const;
 
   const Room* room_;
   const StudyOptions* options_;
   double edge_;
   std::map<double, Reference> references_;  // by tile edge
-  std::size_t done_ = 0;
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::string what_;
+  std::size_t begun_ = 0;
   std::size_t of_ = 0;
   Study study_;
 };
@@ -191,22 +196,36 @@ std::vector<Studying::Plan> Studying::plans() const {
   return plans;
 }
 
-void Studying::tell(const std::string& what) {
-  if (options_->progress) options_->progress(what, done_, of_);
-  ++done_;
+double Studying::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+}
+
+void Studying::tell() const {
+  if (options_->progress) options_->progress({what_, begun_ - 1, of_, seconds(), options_->seconds});
+}
+
+void Studying::begin(const std::string& what) {
+  what_ = what;
+  ++begun_;
+  tell();
+}
+
+Control Studying::control() const {
+  Control control;
+  control.progress = [this](const Progress&) { tell(); };
+  control.stop = options_->stop;
+  return control;
 }
 
 const Reference& Studying::reference_for(double edge, double share) {
   if (const auto found = references_.find(edge); found != references_.end()) return found->second;
-  tell("reference, tiles of " + short_number(edge) + " m");
+  begin("reference, tiles of " + short_number(edge) + " m");
   Settings settings = settings_with(Estimator::collision);
   settings.tile_edge_m = edge;
   settings.seed = options_->seed ^ 0x9E3779B97F4A7C15U;
   settings.photons = std::uint64_t{1} << 62;
   settings.max_seconds = share * options_->seconds;
-  Control control;
-  control.stop = options_->stop;
-  Reference reference = make_reference(simulate(*room_, settings, control));
+  Reference reference = make_reference(simulate(*room_, settings, control()));
   if (reference.result.histories < 2 * reference_factor * batch_histories) {
     throw InputError("The time of " + short_number(options_->seconds) + " s is too short to study " + room_->source +
                      ": its reference came to " + std::to_string(reference.result.histories) + " photons (allowed: " +
@@ -222,10 +241,8 @@ bool Studying::measure_once(const Plan& plan, const Reference& reference, std::u
   Settings settings = plan.settings;
   settings.photons = photons;
   settings.max_seconds = seconds_left;
-  Control control;
-  control.stop = options_->stop;
   const auto began = std::chrono::steady_clock::now();
-  const Result result = simulate(*room_, settings, control);
+  const Result result = simulate(*room_, settings, control());
   seconds_left -= std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   study_.rows.push_back(row_of(result, reference));
   return result.stopped_by == StopReason::photons && seconds_left > 0.0;
@@ -234,7 +251,7 @@ bool Studying::measure_once(const Plan& plan, const Reference& reference, std::u
 void Studying::measure(const Plan& plan) {
   constexpr double for_other_sizes = 0.05;
   const Reference& reference = reference_for(plan.settings.tile_edge_m, for_other_sizes);
-  tell(plan.name);
+  begin(plan.name);
   const std::uint64_t batches = reference.result.histories / reference_factor / batch_histories;
   double seconds_left = plan.share * options_->seconds;
   try {

@@ -1,0 +1,131 @@
+// Which estimator a pilot speaks for, and what errors on the way say about the way left.
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "run/forecast.hpp"
+#include "run/pilot.hpp"
+#include "support/catch.hpp"
+#include "support/rooms.hpp"
+
+using namespace lichtmc;
+using namespace lichtmc::test;
+
+namespace {
+
+Pilot pilot(Estimator estimator, double flights, const std::vector<double>& errors) {
+  Pilot one;
+  one.estimator = estimator;
+  one.flights = flights;
+  one.errors = errors;
+  one.values.assign(errors.size(), 1.0);
+  one.hits.assign(errors.size(), 10.0);
+  return one;
+}
+
+}  // namespace
+
+TEST_CASE("candidates are the estimator asked for, or those that the room allows") {
+  Settings settings;
+  settings.estimator = Estimator::weight;
+  CHECK(candidates_for(unit_cube(0.5, paper_emitter()), settings) == std::vector<Estimator>{Estimator::weight});
+  settings.estimator = Estimator::automatic;
+  CHECK(candidates_for(unit_cube(0.5, paper_emitter()), settings).size() == 3);
+  Room white_wall = unit_cube(0.5, paper_emitter());
+  white_wall.surfaces[0].reflectance = 1.0;
+  CHECK(candidates_for(white_wall, settings) == std::vector<Estimator>{Estimator::collision, Estimator::weight});
+}
+
+TEST_CASE("a pilot takes a small share of a long run, and never more than tells") {
+  CHECK(pilot_histories(1000) == 16 * 1024);
+  CHECK(pilot_histories(40 * 1024 * 100) == 100 * 1024);
+  CHECK(pilot_histories(std::uint64_t{1} << 60U) == 512 * 1024);
+}
+
+TEST_CASE("the pilot with the least variance for the same flights is chosen") {
+  // Variances 4 and 1, flights 1 and 5: the first needs 4, the second 5 for the same error.
+  const std::vector<Pilot> pilots{pilot(Estimator::collision, 1000.0, {0.2, 0.2}),
+                                  pilot(Estimator::weight, 5000.0, {0.1, 0.1})};
+  const Choice choice = choose_best(pilots, {1.0, 1.0}, {1.0, 1.0}, "the tiles");
+  CHECK(choice.best == 0);
+  CHECK(choice.reason.find("'collision' was chosen for the tiles") != std::string::npos);
+  CHECK(choice.reason.find("'weight' needs 1.25 times as many flights") != std::string::npos);
+  // Weights count: the second is better where the area is, and errors are relative to the means given.
+  const std::vector<Pilot> uneven{pilot(Estimator::collision, 1000.0, {0.1, 0.4}),
+                                  pilot(Estimator::weight, 1000.0, {0.4, 0.1})};
+  CHECK(choose_best(uneven, {1.0, 1.0}, {1.0, 9.0}, "the tiles").best == 1);
+  CHECK(choose_best(uneven, {1.0, 1.0}, {9.0, 1.0}, "the tiles").best == 0);
+  CHECK(choose_best(uneven, {1.0, 100.0}, {1.0, 9.0}, "the tiles").best == 0);
+}
+
+TEST_CASE("tiles that pilots have hardly hit are as bright as their map, less what has missed them") {
+  // One map of three tiles of equal areas, 100 hits each expected at the mean of 1; one was not hit at all.
+  Pilot one = pilot(Estimator::collision, 1000.0, {0.1, 0.1, 0.0});
+  one.values = {1.5, 1.5, 0.0};
+  one.hits = {150.0, 150.0, 0.0};
+  const CountedTiles tiles{{1.0, 1.0, 1.0}, {0, 0, 0}, 1};
+  const std::vector<double> likely = likely_values({one}, tiles);
+  CHECK(likely[0] == Approx(151.0 / 101.0));
+  CHECK(likely[2] == Approx(1.0 / 101.0));
+  // A map of its own that nothing hit is dark.
+  const CountedTiles apart{{1.0, 1.0, 1.0}, {0, 0, 1}, 2};
+  CHECK(likely_values({one}, apart)[2] == 0.0);
+}
+
+TEST_CASE("dark tiles share the variance of a hit, so that none is certain for having been missed") {
+  // 100 dark tiles of which half were hit, 80 times each; a bright one. Variance of a power: 0.25 times its mean where
+  // it is dark, once where it is bright.
+  Pilot weights = pilot(Estimator::weight, 1000.0, std::vector<double>(101, 0.0));
+  std::vector<double> likely(101, 0.01);
+  weights.hits.assign(101, 0.0);
+  for (std::size_t t = 1; t < 100; t += 2) {
+    weights.hits[t] = 80.0;
+    weights.errors[t] = std::sqrt(2.0 * 0.25 * 0.01);
+  }
+  weights.hits[100] = 1e5;
+  likely[100] = 1.0;
+  weights.errors[100] = 1.0;
+  std::vector<Pilot> pilots{weights};
+  make_errors_likely(pilots, likely, {std::vector<double>(101, 1.0), std::vector<std::uint32_t>(101, 0), 1});
+  for (std::size_t t = 0; t < 100; ++t) CHECK(pilots[0].errors[t] == Approx(std::sqrt(0.25 * 0.01)));
+  CHECK(pilots[0].errors[100] == Approx(1.0));
+}
+
+TEST_CASE("where pilots found no light nothing is chosen, and that is said") {
+  const std::vector<Pilot> dark{pilot(Estimator::collision, 1000.0, {0.0}), pilot(Estimator::weight, 1000.0, {0.0})};
+  const Choice choice = choose_best(dark, {0.0}, {1.0}, "the tiles");
+  CHECK(choice.best == 0);
+  CHECK(choice.reason.find("too little light") != std::string::npos);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Pilot> unknown{pilot(Estimator::collision, 1000.0, {nan}), pilot(Estimator::weight, 1000.0, {nan})};
+  CHECK(choose_best(unknown, {1.0}, {1.0}, "the tiles").reason.find("too little light") != std::string::npos);
+}
+
+TEST_CASE("a forecast goes on at the slope of the errors") {
+  Forecast none;
+  CHECK(std::isnan(none.histories_to(0.01)));
+  // R = 10/√N.
+  Forecast steady;
+  for (const std::uint64_t n : {1000U, 2000U, 4000U}) steady.look(n, 10.0 / std::sqrt(n));
+  CHECK(steady.histories_to(0.01) == Approx(1e6));
+  CHECK(steady.histories_to(1.0) == 4000.0);  // met
+  // R = N^(−1/4) as long as tiles are still being found: 10⁻² takes 10⁸.
+  Forecast slow;
+  for (const std::uint64_t n : {1000U, 2000U, 4000U}) slow.look(n, std::pow(n, -0.25));
+  CHECK(slow.histories_to(0.01) == Approx(1e8));
+  // Errors that fall faster than any law, and one that does not fall: a number all the same.
+  Forecast lucky;
+  lucky.look(1000, 1.0);
+  lucky.look(2000, 0.1);
+  CHECK(lucky.histories_to(0.01) == Approx(2000.0 * 100.0));
+  Forecast stuck;
+  stuck.look(1000, 0.5);
+  stuck.look(2000, 0.5);
+  CHECK(std::isfinite(stuck.histories_to(0.25)));
+  CHECK(stuck.histories_to(0.25) > 1e8);
+  // What is no error is no look.
+  Forecast unknown;
+  unknown.look(1000, std::numeric_limits<double>::quiet_NaN());
+  CHECK(std::isnan(unknown.histories_to(0.01)));
+}
