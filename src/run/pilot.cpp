@@ -93,12 +93,13 @@ void make_errors_likely(std::vector<Pilot>& pilots, const std::vector<double>& l
       double power = 0.0;
       for (std::size_t k = begin; k < end; ++k) {
         const std::size_t t = by_brightness[k];
+        if (!(hits[t] > 0.0)) continue;
         variance += std::pow(pilot.errors[t] * tiles.areas[t], 2);
         power += likely[t] * tiles.areas[t];
       }
       for (std::size_t k = begin; k < end && power > 0.0; ++k) {
         const std::size_t t = by_brightness[k];
-        pilot.errors[t] = std::sqrt(variance / power * likely[t] / tiles.areas[t]);
+        pilot.errors[t] = hits[t] > 0.0 ? std::sqrt(variance / power * likely[t] / tiles.areas[t]) : 0.0;
       }
       begin = end;
     }

@@ -58,7 +58,7 @@ std::vector<double> likely_values(const std::vector<Pilot>& pilots, const Counte
 // Replaces each pilot's errors by likely ones. The variance of a tile's power is its mean power times a factor that
 // depends on the estimator and on how far from the emitters the light of the tile has come: less for weights that have
 // become small on the way. Tiles as dark as each other share one factor, dark ones with few hits that of some thousand
-// hits together.
+// hits together. Tiles that no pilot has hit, as the outsides of walls, count for none.
 void make_errors_likely(std::vector<Pilot>& pilots, const std::vector<double>& likely, const CountedTiles& tiles);
 
 // means: that errors are relative to. weights: of the values in the mean of squares, for example areas. `of_what` comes

@@ -74,22 +74,32 @@ TEST_CASE("tiles that pilots have hardly hit are as bright as their map, less wh
 }
 
 TEST_CASE("dark tiles share the variance of a hit, so that none is certain for having been missed") {
-  // 100 dark tiles of which half were hit, 80 times each; a bright one. Variance of a power: 0.25 times its mean where
-  // it is dark, once where it is bright.
-  Pilot weights = pilot(Estimator::weight, 1000.0, std::vector<double>(101, 0.0));
-  std::vector<double> likely(101, 0.01);
-  weights.hits.assign(101, 0.0);
+  // 100 dark tiles; one pilot has hit half of them, 80 times each, the other all of them; a bright one, and one that is
+  // quite dark. Variance of a power by the first: 0.25 times its mean where it is dark, once where it is bright.
+  Pilot first = pilot(Estimator::weight, 1000.0, std::vector<double>(102, 0.0));
+  Pilot second = pilot(Estimator::collision, 1000.0, std::vector<double>(102, std::sqrt(0.01)));
+  first.hits.assign(102, 0.0);
+  second.hits.assign(102, 40.0);
+  std::vector<double> likely(102, 0.01);
   for (std::size_t t = 1; t < 100; t += 2) {
-    weights.hits[t] = 80.0;
-    weights.errors[t] = std::sqrt(2.0 * 0.25 * 0.01);
+    first.hits[t] = 80.0;
+    first.errors[t] = std::sqrt(2.0 * 0.25 * 0.01);
   }
-  weights.hits[100] = 1e5;
   likely[100] = 1.0;
-  weights.errors[100] = 1.0;
-  std::vector<Pilot> pilots{weights};
-  make_errors_likely(pilots, likely, {std::vector<double>(101, 1.0), std::vector<std::uint32_t>(101, 0), 1});
-  for (std::size_t t = 0; t < 100; ++t) CHECK(pilots[0].errors[t] == Approx(std::sqrt(0.25 * 0.01)));
+  first.hits[100] = 1e5;
+  first.errors[100] = second.errors[100] = 1.0;
+  likely[101] = 1e-5;
+  second.hits[101] = second.errors[101] = 0.0;
+  std::vector<Pilot> pilots{first, second};
+  make_errors_likely(pilots, likely, {std::vector<double>(102, 1.0), std::vector<std::uint32_t>(102, 0), 1});
+  for (std::size_t t = 0; t < 100; ++t) {
+    CHECK(pilots[0].errors[t] == Approx(std::sqrt(0.25 * 0.01)));
+    CHECK(pilots[1].errors[t] == Approx(std::sqrt(0.01)));
+  }
   CHECK(pilots[0].errors[100] == Approx(1.0));
+  // No light is known to come there at all.
+  CHECK(pilots[0].errors[101] == 0.0);
+  CHECK(pilots[1].errors[101] == 0.0);
 }
 
 TEST_CASE("where pilots found no light nothing is chosen, and that is said") {
