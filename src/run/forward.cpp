@@ -77,7 +77,7 @@ void keep_best(std::vector<Contender>& contenders, std::uint64_t photons, const 
   std::vector<Pilot> pilots;
   for (Contender& contender : contenders) {
     contender.crew->set_stage(Progress::Stage::pilot);
-    contender.crew->simulate_up_to(std::min(pilot_histories(photons), photons));
+    contender.crew->simulate_up_to(std::min(pilot_histories(photons, contender.settings.estimator), photons));
     pilots.push_back(outcome(contender));
     if (watch.reason()) break;
   }

@@ -200,10 +200,11 @@ Gathered gather_with_best(GatherTask task, const Room& room, Settings settings, 
   short_run.target_error.reset();
   // Some walks from every origin, or there is nothing to compare.
   constexpr std::uint64_t fewest_rounds = 8;
-  short_run.photons = std::max(pilot_histories(settings.photons), fewest_rounds * task.origins * task.group);
   std::vector<Pilot> pilots;
   for (const Estimator estimator : candidates_for(room, settings)) {
     short_run.estimator = estimator;
+    short_run.photons =
+        std::max(pilot_histories(settings.photons, estimator), fewest_rounds * task.origins * task.group);
     Gathered found = Gathering(short_task, short_run, control, watch, threads).run();
     if (watch.reason()) {
       found.choice = "The estimator '" + std::string(to_string(estimator)) + "' was taken for " + task.name +

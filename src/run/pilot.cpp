@@ -18,10 +18,13 @@ std::vector<Estimator> candidates_for(const Room& room, const Settings& settings
   return candidates;
 }
 
-std::uint64_t pilot_histories(std::uint64_t photons) {
+std::uint64_t pilot_histories(std::uint64_t photons, Estimator estimator) {
   constexpr std::uint64_t fewest = 16;  // batches: a variance summed over many tiles is known from few
-  constexpr std::uint64_t most = 512;
-  return std::clamp(photons / 40 / batch_histories, fewest, most) * batch_histories;
+  constexpr std::uint64_t most = 1024;
+  const std::uint64_t batches = std::clamp(photons / 20 / batch_histories, fewest, most);
+  // Where tiles are small against the room absorption has 1/(1 − ρ) times the variance of collision for the same walk.
+  // That needs no long pilot to be seen.
+  return (estimator == Estimator::absorption ? std::max(fewest, batches / 4) : batches) * batch_histories;
 }
 
 namespace {

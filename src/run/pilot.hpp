@@ -20,9 +20,9 @@ namespace lichtmc {
 // Estimators that can be chosen from: the one in the settings; or, for `automatic`, those that the room allows.
 std::vector<Estimator> candidates_for(const Room& room, const Settings& settings);
 
-// Histories of a pilot: one in 40 of those that are to be simulated at most, but enough to tell a variance, and never
-// more than there is use for.
-std::uint64_t pilot_histories(std::uint64_t photons);
+// Histories of a pilot: one in 20 of those that are to be simulated at most (for absorption one in 80), but enough to
+// tell a variance, and never more than there is use for.
+std::uint64_t pilot_histories(std::uint64_t photons, Estimator estimator);
 
 // What one estimator has found. Values and standard errors are of the same tiles or receivers in the same order for
 // all.

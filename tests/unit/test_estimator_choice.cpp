@@ -38,9 +38,10 @@ TEST_CASE("candidates are the estimator asked for, or those that the room allows
 }
 
 TEST_CASE("a pilot takes a small share of a long run, and never more than tells") {
-  CHECK(pilot_histories(1000) == 16 * 1024);
-  CHECK(pilot_histories(40 * 1024 * 100) == 100 * 1024);
-  CHECK(pilot_histories(std::uint64_t{1} << 60U) == 512 * 1024);
+  CHECK(pilot_histories(1000, Estimator::weight) == 16 * 1024);
+  CHECK(pilot_histories(20 * 1024 * 100, Estimator::weight) == 100 * 1024);
+  CHECK(pilot_histories(20 * 1024 * 100, Estimator::absorption) == 25 * 1024);
+  CHECK(pilot_histories(std::uint64_t{1} << 60U, Estimator::collision) == 1024 * 1024);
 }
 
 TEST_CASE("the pilot with the least variance for the same flights is chosen") {
