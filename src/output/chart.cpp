@@ -12,7 +12,7 @@ namespace lichtmc {
 
 namespace {
 
-constexpr double width = 900.0;
+constexpr double width = 980.0;
 constexpr double height = 560.0;
 constexpr double left = 80.0;
 constexpr double right = 600.0;  // the legend stands beyond

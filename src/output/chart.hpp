@@ -28,7 +28,7 @@ struct LineChart {
   std::vector<ChartSeries> series;
 };
 
-// A picture of its own, 900 × 560; text is escaped.
+// A picture of its own, 980 × 560; text is escaped.
 std::string to_svg(const LineChart& chart);
 
 struct Bar {

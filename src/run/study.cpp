@@ -137,6 +137,7 @@ class Studying {
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::string what_;
   std::size_t begun_ = 0;
+  std::uint64_t rung_ = 0;  // histories of the ladder's last run
   std::size_t of_ = 0;
   Study study_;
 };
@@ -236,7 +237,8 @@ const Reference& Studying::reference_for(double edge, double share) {
   return references_.emplace(edge, std::move(reference)).first->second;
 }
 
-// Returns whether the run came to its end.
+// Returns whether the run came to its end, in time. One that the time has cut shorter than the rung before says nothing
+// new.
 bool Studying::measure_once(const Plan& plan, const Reference& reference, std::uint64_t photons, double& seconds_left) {
   Settings settings = plan.settings;
   settings.photons = photons;
@@ -244,7 +246,9 @@ bool Studying::measure_once(const Plan& plan, const Reference& reference, std::u
   const auto began = std::chrono::steady_clock::now();
   const Result result = simulate(*room_, settings, control());
   seconds_left -= std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  study_.rows.push_back(row_of(result, reference));
+  const bool longer = !plan.ladder || result.histories > rung_;
+  rung_ = result.histories;
+  if (longer) study_.rows.push_back(row_of(result, reference));
   return result.stopped_by == StopReason::photons && seconds_left > 0.0;
 }
 
@@ -254,6 +258,7 @@ void Studying::measure(const Plan& plan) {
   begin(plan.name);
   const std::uint64_t batches = reference.result.histories / reference_factor / batch_histories;
   double seconds_left = plan.share * options_->seconds;
+  rung_ = 0;
   try {
     for (std::uint64_t step = plan.ladder ? steps_of_ladder : 1; step-- > 0;) {
       const std::uint64_t on_step = batches >> (2 * step);
