@@ -99,6 +99,7 @@ struct Result {
   std::uint64_t retraced = 0;        // flights that met no surface and were traced again by the slower rule
   std::uint64_t lost_histories = 0;  // histories behind Balance::lost
   double seconds = 0.0;              // wall-clock time of the walk, with that of integrating direct light
+  double direct_seconds = 0.0;       // of that, integrating direct light
 
   Balance balance;
   double incident = 0.0;                 // incident power of all tiles in W or lm

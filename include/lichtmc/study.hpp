@@ -43,6 +43,7 @@ struct StudyRow {
   double tile_edge_m = 0.0;
   Direct direct = Direct::sampled;
   double seconds = 0.0;          // of the walk, with that of integrating direct light
+  double direct_seconds = 0.0;   // of that, integrating direct light
   double rms_error = 0.0;        // rms difference from the reference
   double bias = 0.0;             // of the power on all these tiles together
   double standard_error = 0.0;   // rms of what the run itself states

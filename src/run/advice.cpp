@@ -15,19 +15,6 @@ bool same_setting(const StudyRow& a, const StudyRow& b) {
          a.max_bounces == b.max_bounces && a.tile_edge_m == b.tile_edge_m && a.direct == b.direct;
 }
 
-// Seconds that do not grow with the histories, from the shortest and the longest run of the setting; 0 where there is
-// but one.
-double overhead_of(const std::vector<StudyRow>& rows, const StudyRow& longest) {
-  const StudyRow* shortest = &longest;
-  for (const StudyRow& row : rows) {
-    if (same_setting(row, longest) && row.histories < shortest->histories) shortest = &row;
-  }
-  if (shortest->histories == longest.histories) return 0.0;
-  const double per_history =
-      (longest.seconds - shortest->seconds) / static_cast<double>(longest.histories - shortest->histories);
-  return std::clamp(shortest->seconds - per_history * static_cast<double>(shortest->histories), 0.0, longest.seconds);
-}
-
 // The bias that a row shows: what its standard error does not explain.
 double bias_of(const StudyRow& row) {
   // Only walks that are cut off have one by design; others differ from the reference by chance.
@@ -54,18 +41,17 @@ std::string time_text(double seconds) {
   return short_number(seconds / 3600.0) + " h";
 }
 
-std::optional<Advice> forecast(const std::vector<StudyRow>& rows, const StudyRow& row, double error) {
+std::optional<Advice> forecast(const StudyRow& row, double error) {
   const double bias = bias_of(row);
   const double allowed = error * error - bias * bias;
   // A bias of more than half the error leaves too little to chance for the stated error to mean what it says.
   if (!(row.standard_error > 0.0) || !std::isfinite(row.standard_error) || 2.0 * bias > error) return {};
   const double more = row.standard_error * row.standard_error / allowed;
-  const double overhead = overhead_of(rows, row);
   Advice advice;
   advice.error = error;
   advice.setting = row;
   advice.histories = std::max(more * static_cast<double>(row.histories), 1.0);
-  advice.seconds = overhead + more * (row.seconds - overhead);
+  advice.seconds = row.direct_seconds + more * (row.seconds - row.direct_seconds);
   return advice;
 }
 
@@ -82,7 +68,7 @@ std::vector<Advice> advice_from(const std::vector<StudyRow>& rows, double tile_e
         return same_setting(other, row) && other.histories > row.histories;
       });
       if (!longest) continue;
-      const std::optional<Advice> one = forecast(rows, row, error);
+      const std::optional<Advice> one = forecast(row, error);
       if (one && (!best || one->seconds < best->seconds)) best = one;
     }
     if (!best) continue;

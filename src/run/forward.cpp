@@ -145,6 +145,7 @@ void walk_from_emitters(const Room& room, const Scene& scene, const Settings& se
         TileLight(room, result.tiling, scene, settings, Way::forward).of_tiles(control, result.threads, watch, count);
     result.rays = count.rays;
     result.shadow_rays = count.shadow_rays;
+    result.direct_seconds = watch.seconds();
   }
   std::vector<Contender> contenders = contenders_for(room, scene, settings, control, watch, result, direct);
   keep_best(contenders, settings.photons, watch, result);

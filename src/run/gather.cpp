@@ -44,6 +44,7 @@ class Gathering {
 
   Gathered run() {
     found_.direct = direct_light_of(task_.origins, task_.direct, control_, threads_, watch_, found_.count.traced);
+    found_.direct_seconds = watch_.seconds();
     found_.stopped_by = simulate();
     if (found_.rounds == 0) refuse_too_short();
     return std::move(found_);
@@ -193,6 +194,7 @@ Gathered gather_with_best(GatherTask task, const Room& room, Settings settings, 
   TraceCount traced;
   const std::vector<DirectIrradiance> direct =
       direct_light_of(task.origins, task.direct, control, threads, watch, traced);
+  const double direct_seconds = watch.seconds();
   task.direct = [&direct](std::size_t k, TraceCount& /*count*/) { return direct[k]; };
   GatherTask short_task = task;
   short_task.stage = Progress::Stage::pilot;
@@ -218,6 +220,7 @@ Gathered gather_with_best(GatherTask task, const Room& room, Settings settings, 
   settings.estimator = pilots[choice.best].estimator;
   Gathered found = Gathering(task, settings, control, watch, threads).run();
   found.choice = choice.reason;
+  found.direct_seconds = direct_seconds;
   found.count.traced.add(traced);
   return found;
 }

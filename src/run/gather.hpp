@@ -32,6 +32,7 @@ struct Gathered {
   std::uint32_t group = 1;               // walks in a round
   double unit = 1.0;                     // of the sums, W/m² or lx
   BackwardCount count;
+  double direct_seconds = 0.0;  // integrating direct light
   StopReason stopped_by = StopReason::photons;
   Estimator estimator = Estimator::collision;                             // as used
   std::string choice;                                                     // why, where it was chosen

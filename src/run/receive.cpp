@@ -164,6 +164,7 @@ void walk_from_tiles(const Room& room, const Scene& scene, const Settings& setti
   result.stopped_by = found.stopped_by;
   result.histories_to_target = found.histories_to_target;
   result.seconds = watch.seconds();
+  result.direct_seconds = found.direct_seconds;
   result.histories = found.histories();
   result.impacts = found.count.impacts;
   result.rays = found.count.traced.rays;

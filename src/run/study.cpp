@@ -65,6 +65,7 @@ StudyRow row_of(const Result& result, const Reference& reference) {
   row.tile_edge_m = result.settings.tile_edge_m;
   row.direct = direct_is_apart(result) ? Direct::analytic : Direct::sampled;
   row.seconds = result.seconds;
+  row.direct_seconds = result.direct_seconds;
   double area = 0.0;
   double squares = 0.0;
   double stated = 0.0;
