@@ -27,7 +27,11 @@ double Forecast::histories_to(double target) const {
   if (looks_.empty()) return std::numeric_limits<double>::quiet_NaN();
   const Look& last = looks_.back();
   if (last.error <= target) return last.histories;
-  return last.histories * std::pow(last.error / target, 1.0 / slope());
+  constexpr double slow_factor = 100.0;
+  const double more = std::pow(last.error / target, 1.0 / slope());
+  if (more <= slow_factor) return last.histories * more;
+  const double error_then = last.error * std::pow(slow_factor, -slope());
+  return last.histories * slow_factor * std::pow(error_then / target, 2.0);
 }
 
 }  // namespace lichtmc

@@ -2,8 +2,8 @@
 //
 // Once every tile has been hit some times, the relative error R falls with the square root of the histories N: FOM =
 // 1/(R² T) is constant. Before that it falls more slowly, because tiles that were just hit for the first time come in
-// with errors near 100 %. So the forecast goes on at the slope that was seen over the last doubling of N, and never at
-// a steeper one than −1/2.
+// with errors near 100 %. So the forecast goes on at the slope that was seen over the last doubling of N, never a
+// steeper one than −1/2, for a hundred times as many histories; by then the tiles have been found, and −1/2 holds.
 #pragma once
 
 #include <cstdint>
