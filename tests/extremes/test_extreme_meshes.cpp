@@ -1,6 +1,7 @@
 // Meshes at the limits of what a mesh is.
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include <glm/geometric.hpp>
 
@@ -18,15 +19,15 @@ Result walk_in(const Room& room, double tile_edge_m = 0.1, std::uint64_t seed = 
   return simulate(room, settings_of(Estimator::collision, Engine::embree, photons, seed, tile_edge_m));
 }
 
-std::size_t index_of(const Room& room, const std::string& name) {
+std::size_t index_of(const Room& room, std::string_view name) {
   for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
     if (room.surfaces[k].name == name) return k;
   }
-  throw std::logic_error("no surface " + name);
+  throw std::logic_error("no surface " + std::string(name));
 }
 
 // Takes a surface's triangles and UVs away.
-Surface& cleared(Room& room, const std::string& name) {
+Surface& cleared(Room& room, std::string_view name) {
   Surface& surface = room.surfaces[index_of(room, name)];
   surface.positions.clear();
   surface.uvs.clear();

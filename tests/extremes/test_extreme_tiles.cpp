@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <string_view>
 
 #include "extremes.hpp"
 #include "support/surfaces.hpp"
@@ -41,11 +42,11 @@ double area_of_tiles(const Result& result, const std::string& map) {
   return area;
 }
 
-const TileMap& map_named(const Result& result, const std::string& name) {
+const TileMap& map_named(const Result& result, std::string_view name) {
   for (const TileMap& map : result.tiling.maps) {
     if (map.name == name) return map;
   }
-  throw std::logic_error("no map " + name);
+  throw std::logic_error("no map " + std::string(name));
 }
 
 // The floor's power is that of the same mesh without texture coordinates to the last digit, its tiles' areas add up to
