@@ -255,12 +255,12 @@ bool Studying::measure_once(const Plan& plan, const Reference& reference, std::u
 
 void Studying::measure(const Plan& plan) {
   constexpr double for_other_sizes = 0.05;
-  const Reference& reference = reference_for(plan.settings.tile_edge_m, for_other_sizes);
-  begin(plan.name);
-  const std::uint64_t batches = reference.result.histories / reference_factor / batch_histories;
   double seconds_left = plan.share * options_->seconds;
   rung_ = 0;
   try {
+    const Reference& reference = reference_for(plan.settings.tile_edge_m, for_other_sizes);
+    begin(plan.name);
+    const std::uint64_t batches = reference.result.histories / reference_factor / batch_histories;
     for (std::uint64_t step = plan.ladder ? steps_of_ladder : 1; step-- > 0;) {
       const std::uint64_t on_step = batches >> (2 * step);
       if (on_step < 2) continue;  // one batch alone tells no error
