@@ -119,11 +119,7 @@ Settings parse_settings(const RunOptions& options) {
   }
   settings.tile_edge_m = parse_number(options.tile, "--tile");
   settings.seed = parse_seed(options.seed, "--seed");
-  if (options.threads && *options.threads < 1) {
-    throw InputError("The number of threads is " + std::to_string(*options.threads) +
-                     " (allowed: 1 or more). Leave out --threads to use all processors.");
-  }
-  settings.threads = static_cast<unsigned>(options.threads.value_or(0));
+  settings.threads = parse_threads(options.threads);
   settings.engine = parse_engine(options.engine);
   if (options.only) settings.ways = parse_ways(*options.only);
   settings.tiles = parse_tiles(options.tiles);
@@ -201,8 +197,7 @@ void print_tiles(const Result& result) {
             << (forward ? " photons, " : " walks back from the tiles, ")
             << short_count(static_cast<double>(result.impacts)) << " impacts in " << figure(result.seconds) << " s ("
             << describe(result.stopped_by) << "; engine " << to_string(result.engine) << ", estimator "
-            << to_string(result.estimator) << (direct_is_apart(result) ? ", direct light integrated" : "")
-            << ").\n";
+            << to_string(result.estimator) << (direct_is_apart(result) ? ", direct light integrated" : "") << ").\n";
   if (forward) print_balance(result);
   std::cerr << result.tiles.size() << " tiles, relative standard error " << percent(result.rms_relative_error)
             << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of those that got light)" : ")");
@@ -286,7 +281,8 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->group(method);
   command
       .add_option("--estimator", options.estimator,
-                  "weight, collision or absorption (or 1, 2, 3): same mean, other errors; collision suits most rooms. auto: the "
+                  "weight, collision or absorption (or 1, 2, 3): same mean, other errors; collision suits most rooms. "
+                  "auto: the "
                   "best of them, by a short pilot of each")
       ->type_name("NAME")
       ->capture_default_str()

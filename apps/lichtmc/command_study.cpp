@@ -40,11 +40,7 @@ StudyOptions parse_options(const StudyCommand& command) {
   if (command.max_time) options.seconds = parse_seconds(*command.max_time, "--max-time");
   if (command.tile) options.tile_edge_m = parse_number(*command.tile, "--tile");
   options.seed = parse_seed(command.seed, "--seed");
-  if (command.threads && *command.threads < 1) {
-    throw InputError("The number of threads is " + std::to_string(*command.threads) +
-                     " (allowed: 1 or more). Leave out --threads to use all processors.");
-  }
-  options.threads = static_cast<unsigned>(command.threads.value_or(0));
+  options.threads = parse_threads(command.threads);
   return options;
 }
 

@@ -72,8 +72,7 @@ std::string ProgressLine::work(const Progress& progress) const {
          (receivers  ? " walks from receivers, "
           : backward ? " walks from tiles, "
                      : " photons, ") +
-         short_count(static_cast<double>(progress.impacts) / progress.seconds) +
-         (backward ? " rays/s" : " impacts/s");
+         short_count(static_cast<double>(progress.impacts) / progress.seconds) + (backward ? " rays/s" : " impacts/s");
 }
 
 std::string ProgressLine::describe(const Progress& progress) const {

@@ -77,6 +77,14 @@ std::uint64_t parse_seed(std::string_view text, std::string_view option) {
   return seed;
 }
 
+unsigned parse_threads(const std::optional<int>& threads) {
+  if (threads && *threads < 1) {
+    throw InputError("The number of threads is " + std::to_string(*threads) +
+                     " (allowed: 1 or more). Leave out --threads to use all processors.");
+  }
+  return static_cast<unsigned>(threads.value_or(0));
+}
+
 double parse_share(std::string_view text, std::string_view option) {
   constexpr std::array<Suffix, 2> suffixes{{{"", 1.0}, {"%", 0.01}}};
   double number = 0.0;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,9 @@ std::uint64_t parse_count(std::string_view text, std::string_view option);
 
 // The seed: a whole number from 0 to 2^64 − 1.
 std::uint64_t parse_seed(std::string_view text, std::string_view option);
+
+// --threads: 1 or more; 0, one per processor, where it was not given.
+unsigned parse_threads(const std::optional<int>& threads);
 
 // A share: "1%" or "0.01"; 1 and more only with the percent sign.
 double parse_share(std::string_view text, std::string_view option);

@@ -429,6 +429,8 @@ Start EmbreeTracer::start(const glm::dvec3& world_point_m, const glm::dvec3& axi
   std::vector<glm::vec3> planes;
   for (std::size_t k = 0; k < departures_.size(); ++k) {
     const Departure& facet = departures_[k];
+    // Most facets are far off.
+    if (!touches(facet, point, std::max(double{facet.step}, NearPlane::most_rounding))) continue;
     const glm::dvec3 normal(facet.normal);
     const NearPlane plane{world_point_m, corner_of(k), normal, 1.0 / scale_};
     if (!touches(facet, point, std::max(double{facet.step}, scale_ * plane.rounding()))) continue;

@@ -16,12 +16,15 @@ struct NearPlane {
   glm::dvec3 normal{0.0, 1.0, 0.0};  // length 1, to either side
   double extent = 1.0;               // of the room
 
+  static constexpr double float_roundings = 4.0 * 0x1p-24;
+  // A rounding is at most this share of the extent: the components of a normal add up to √3 at most.
+  static constexpr double most_rounding = 1.75 * float_roundings;
+
   double distance() const { return glm::dot(normal, emitter - on_plane); }
 
   // By how much their distance may be off where the coordinates, or the steps of a transformation to them, were floats.
   // A room far from the origin is as large as others: what moved it there did not round it.
   double rounding() const {
-    constexpr double float_roundings = 4.0 * 0x1p-24;
     double sum = 0.0;
     for (int k = 0; k < 3; ++k)
       sum += std::abs(normal[k]) * std::min(extent, std::max(std::abs(emitter[k]), std::abs(on_plane[k])));
@@ -30,16 +33,13 @@ struct NearPlane {
 };
 
 // Whether an emitter stays on its side of a plane that is too near for the tracer, or counts as lying on it. It stays
-// where the distance is more than a rounding and its beam (`axis`, 0 for none) does not go through the plane: a lamp
-// flush with a ceiling that lies a little behind it is meant to shine.
+// where the distance is more than a rounding and its beam (`axis`, of length 1, 0 for none) does not go through the
+// plane: a lamp flush with a ceiling that lies a little behind it is meant to shine.
 inline bool stays_before(const NearPlane& plane, const glm::dvec3& axis) {
   constexpr double along_plane = 1e-6;  // sine of the angle up to which an axis counts as parallel
   const double distance = plane.distance();
   if (!(std::abs(distance) > plane.rounding())) return false;
-  const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
-  if (!(largest > 0.0)) return true;
-  const double along = glm::dot(glm::normalize(axis / largest), plane.normal);
-  return std::copysign(1.0, distance) * along >= -along_plane;
+  return std::copysign(1.0, distance) * glm::dot(axis, plane.normal) >= -along_plane;
 }
 
 }  // namespace lichtmc

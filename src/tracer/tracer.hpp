@@ -72,10 +72,10 @@ class Tracer {
   // from two random words each. cosines: of the angles to the normals, unless null.
   virtual void scatter(Rays& rays, const std::uint32_t* polar, const std::uint32_t* azimuth, float* cosines) const = 0;
 
-  // Where photons of an emitter at this point start; axis: the middle of its beam, or 0 where it has none. An emitter
-  // on a surface, as far as coordinates of floats can say, shines to both sides of it, from each side what goes there.
-  // One before a surface, closer than the tracer's own coordinates can say, stays before it, unless its beam goes
-  // through it: then the distance is taken for a rounding.
+  // Where photons of an emitter at this point start; axis: the middle of its beam, of length 1, or 0 where it has none.
+  // An emitter on a surface, as far as coordinates of floats can say, shines to both sides of it, from each side what
+  // goes there. One before a surface, closer than the tracer's own coordinates can say, stays before it, unless its
+  // beam goes through it: then the distance is taken for a rounding.
   virtual Start start(const glm::dvec3& world_point_m, const glm::dvec3& axis) const = 0;
   virtual TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const = 0;
 

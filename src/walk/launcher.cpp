@@ -105,11 +105,12 @@ Launcher::PointSource Launcher::point_source(const Emitter& emitter, const Trace
         if constexpr (requires { law.axis; }) axis = law.axis;
       },
       emitter.shape);
-  source.start = tracer.start(position, axis);
-  hangs_free_ = hangs_free_ && !source.start.on_surface;
   // Scaled by its largest component first: the square of a very long or short axis would not be a double.
   const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
-  const Frame frame = frame_about(largest > 0.0 ? glm::normalize(axis / largest) : glm::dvec3(0.0, 0.0, 1.0));
+  if (largest > 0.0) axis = glm::normalize(axis / largest);
+  source.start = tracer.start(position, axis);
+  hangs_free_ = hangs_free_ && !source.start.on_surface;
+  const Frame frame = frame_about(largest > 0.0 ? axis : glm::dvec3(0.0, 0.0, 1.0));
   source.to_tracer = tracer.directions() * glm::dmat3(frame.tangent, frame.bitangent, frame.normal);
   return source;
 }

@@ -10,9 +10,9 @@ namespace lichtmc {
 
 namespace {
 
-// Where direct light is integrated, the first flight of a photon scores nothing: it only brings the photon to where it is
-// reflected first. So many histories share it, and cost a walk only its other flights. More would save little, and their
-// scores grow more alike (docs/trade-off.md has the figures).
+// Where direct light is integrated, the first flight of a photon scores nothing: it only brings the photon to where it
+// is reflected first. So many histories share it, and cost a walk only its other flights. More would save little, and
+// their scores grow more alike (docs/trade-off.md has the figures).
 constexpr std::uint32_t family_size = 8;
 
 // What forward photons are for, see kernel.hpp.

@@ -85,7 +85,7 @@ TEST_CASE("extreme: tiles larger than the walls, tiles that do not fit them: the
 }
 
 TEST_CASE("extreme: a tile that a wall's outline cuts has the area that is left of it") {
-  // A floor of 1 m × 0.75 m with a corner cut off: tiles of 0.25 m on its hypotenuse are halves.
+  // A right triangle with legs of 1 m: tiles of 0.25 m on its hypotenuse are halves.
   Room room = unit_cube(0.0, isotropic({0.5, 0.5, 0.5}));
   Surface corner;
   corner.name = "corner";
@@ -169,7 +169,7 @@ TEST_CASE("extreme: mirrored texture coordinates mirror the map") {
   }
 }
 
-TEST_CASE("extreme: any number of threads and any way to cut a run into batches of them gives the same bits") {
+TEST_CASE("extreme: any number of threads, and so any way of sharing out the batches, gives the same bits") {
   const auto same = [](double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; };
   for (const Engine engine : both_engines) {
     for (const Estimator estimator : all_estimators) {

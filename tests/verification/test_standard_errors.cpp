@@ -37,8 +37,8 @@ std::vector<Compared> means_of(const std::vector<Spread>& tiles) {
   return figures;
 }
 
-// Σ deviation² over its stated expectation is χ² with as many degrees of freedom as there are runs, divided by them; its
-// cube root is normal to 10⁻³ (E. Wilson, M. Hilferty, The distribution of chi-square, 1931).
+// Σ deviation² over its stated expectation is χ² with as many degrees of freedom as there are runs, divided by them;
+// its cube root is normal to 10⁻³ (E. Wilson, M. Hilferty, The distribution of chi-square, 1931).
 std::vector<Compared> variances_of(const std::vector<Spread>& tiles) {
   constexpr double spread = 2.0 / (9.0 * runs);
   std::vector<Compared> figures;
@@ -63,8 +63,9 @@ void check_share(double measured, double expected, double pairs) {
 
 TEST_CASE("standard errors: 200 runs cover the exact floor of the paper's cube, by every estimator") {
   const auto floor = read_table(std::string(LICHTMC_TEST_DATA) + "/cube_cos5_rho0.6_floor.csv");
-  for (const Case& each : {Case{Estimator::weight, Direct::sampled}, Case{Estimator::collision, Direct::sampled},
-                           Case{Estimator::absorption, Direct::sampled}, Case{Estimator::collision, Direct::analytic}}) {
+  for (const Case& each :
+       {Case{Estimator::weight, Direct::sampled}, Case{Estimator::collision, Direct::sampled},
+        Case{Estimator::absorption, Direct::sampled}, Case{Estimator::collision, Direct::analytic}}) {
     // 200 batches, so that Student's t is normal to 10⁻³; a tile of the floor expects 500 hits and more.
     constexpr double photons = 200 * 1024;
     std::vector<Spread> tiles(100);
@@ -74,9 +75,9 @@ TEST_CASE("standard errors: 200 runs cover the exact floor of the paper's cube, 
       Settings settings = settings_of(each.estimator, Engine::cuboid, photons, 1000 + run);
       settings.direct = each.direct;
       const Result result = simulate(unit_cube(0.6, paper_emitter()), settings);
-      const auto map = static_cast<std::size_t>(
-          std::find_if(result.surfaces.begin(), result.surfaces.end(), [](const auto& s) { return s.name == "floor"; }) -
-          result.surfaces.begin());
+      const auto map = static_cast<std::size_t>(std::find_if(result.surfaces.begin(), result.surfaces.end(),
+                                                             [](const auto& s) { return s.name == "floor"; }) -
+                                                result.surfaces.begin());
       std::size_t k = 0;
       for (std::size_t i = 0; i < result.tiles.size(); ++i) {
         const Tile& tile = result.tiling.tiles[i];
@@ -114,8 +115,7 @@ TEST_CASE("standard errors: of tiles that expect between a half and three hits")
   constexpr double edge = 0.02;
   const auto p_of = [](const Tile& tile) {
     const glm::dvec3 half(0.5 * edge, 0.0, 0.0);
-    return edge * edge *
-           tile_mean(tile.point, half, glm::dvec3(0.0, 0.0, 0.5 * edge), 4, [](const glm::dvec3& at) {
+    return edge * edge * tile_mean(tile.point, half, glm::dvec3(0.0, 0.0, 0.5 * edge), 4, [](const glm::dvec3& at) {
              const glm::dvec3 way = at - glm::dvec3(0.5);
              return 0.5 / (4.0 * pi * std::pow(glm::dot(way, way), 1.5));
            });
@@ -174,8 +174,8 @@ TEST_CASE("standard errors: of tiles that expect between a half and three hits")
                                      squares * std::sqrt(3.0 / pairs)}});
   INFO("variance: " << variance.text);
   CHECK(variance.agrees);
-  // Tiles without a hit are as many as the law says, and what they state holds the truth where fewer than 1.15 hits were
-  // to be expected.
+  // Tiles without a hit are as many as the law says, and what they state holds the truth where fewer than 1.15 hits
+  // were to be expected.
   check_share(empty / pairs, expected_empty / tiles, pairs);
   CHECK(empty_covered > 0.0);
   CHECK(empty_covered < empty);
