@@ -6,8 +6,11 @@
 #include "lichtmc/error.hpp"      // IWYU pragma: export
 #include "lichtmc/gltf.hpp"       // IWYU pragma: export
 #include "lichtmc/inspect.hpp"    // IWYU pragma: export
+#include "lichtmc/lit_room.hpp"   // IWYU pragma: export
 #include "lichtmc/mend.hpp"       // IWYU pragma: export
 #include "lichtmc/output.hpp"     // IWYU pragma: export
+#include "lichtmc/paths.hpp"      // IWYU pragma: export
+#include "lichtmc/picture.hpp"    // IWYU pragma: export
 #include "lichtmc/receivers.hpp"  // IWYU pragma: export
 #include "lichtmc/result.hpp"     // IWYU pragma: export
 #include "lichtmc/room.hpp"       // IWYU pragma: export

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace lichtmc {
 
@@ -13,6 +14,12 @@ std::string to_text(double value) {
 
 std::string short_number(double value) {
   std::array<char, 32> text{};
+  // Thousands are read more easily than powers of ten.
+  const double size = std::abs(value);
+  if (size >= 999.5 && size < 999'500.0) {
+    const double unit = size < 9'995.0 ? 10.0 : size < 99'950.0 ? 100.0 : 1'000.0;
+    return std::to_string(std::llround(value / unit) * std::llround(unit));
+  }
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3).ptr;
   return {text.data(), end};
 }

@@ -9,7 +9,7 @@ namespace lichtmc {
 // A number in the shortest form that reads back as the same double: "0.1", "1e+30", "nan".
 std::string to_text(double value);
 
-// A number in three digits, for people: "0.123", "12.3", "1.23e+06".
+// A number in three digits, for people: "0.123", "12.3", "12300", "1.23e+06".
 std::string short_number(double value);
 
 // A count with its noun, in the singular or plural: "1 triangle", "12 triangles".

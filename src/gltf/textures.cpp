@@ -9,6 +9,7 @@
 #include <stb/stb_image.h>
 
 #include "base/message.hpp"
+#include "base/png.hpp"
 #include "gltf/materials.hpp"
 
 namespace lichtmc {
@@ -29,17 +30,13 @@ glm::dvec2 pair_in(const Document& document, const tinygltf::Value& object, cons
   return {value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble()};
 }
 
-// IEC 61966-2-1: the share of light that an sRGB value of 0 … 1 stands for.
-double linear(double srgb) {
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
-
 // Linear light of every value that a channel of n bits can have.
 template <class Channel>
 std::vector<double> linear_values() {
   constexpr std::size_t count = std::size_t{1} << (8 * sizeof(Channel));
   std::vector<double> values(count);
-  for (std::size_t k = 0; k < count; ++k) values[k] = linear(static_cast<double>(k) / static_cast<double>(count - 1));
+  for (std::size_t k = 0; k < count; ++k)
+    values[k] = light_of_srgb(static_cast<double>(k) / static_cast<double>(count - 1));
   return values;
 }
 

@@ -154,7 +154,7 @@ void Reporter::receivers() {
   if (room_.receivers.empty()) return;
   add(Severity::note, "receivers",
       to_text(room_.receivers.size(), "receiver") + ", the first " + in_quotes(room_.receivers.front().name) + ".",
-      "A run measures tiles; receivers are not evaluated.");
+      "A run measures the tiles and at the receivers.");
 }
 
 void Reporter::not_modelled() {

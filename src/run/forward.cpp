@@ -94,30 +94,35 @@ void keep_best(std::vector<Contender>& contenders, std::uint64_t photons, const 
   contenders.front().crew->set_stage(Progress::Stage::tiles);
 }
 
-// Simulates until the first stop rule is met. The target error is looked at after numbers of histories that depend on
-// nothing but the settings, so that the run ends at the same history for any number of threads.
+// Simulates until the first stop rule is met. Errors are looked at after numbers of histories that depend on nothing
+// but the settings and the tiles, so that the run ends at the same history for any number of threads.
 StopReason run_until_stopped(const Contender& contender, const StopWatch& watch, Result& result) {
   constexpr std::uint64_t first_look =
       32 * std::uint64_t{batch_histories};  // an error from 32 batches is known to 13 %
   const Settings& settings = contender.settings;
   Crew& crew = *contender.crew;
   const std::uint64_t done = crew.totals().histories;
-  std::uint64_t look =
-      settings.target_error ? std::min(std::max(first_look, done), settings.photons) : settings.photons;
+  // Where no target asks for them, looks only show how the error falls: none before tiles are hit, and few.
+  const std::uint64_t hits_each_quarter = (result.tiling.tiles.size() / 4 / batch_histories + 1) * batch_histories;
+  const std::uint64_t first = settings.target_error ? first_look : std::max(first_look, hits_each_quarter);
+  std::uint64_t look = std::min(std::max(first, done), settings.photons);
   Forecast forecast;
   for (;;) {
     crew.simulate_up_to(look);
     if (watch.reason()) return *watch.reason();
+    if (look == settings.photons && !settings.target_error) return StopReason::photons;
+    const double error = rms_relative_error(result.tiling, contender.scores.tiles(crew.totals()));
+    result.convergence.push_back({look, watch.seconds(), error});
     if (settings.target_error) {
-      const double error = rms_relative_error(result.tiling, contender.scores.tiles(crew.totals()));
       forecast.look(look, error);
       result.histories_to_target = forecast.histories_to(*settings.target_error);
       if (error <= *settings.target_error) return StopReason::target_error;
-      crew.set_error(error, result.histories_to_target);
     }
+    crew.set_error(error, result.histories_to_target);
     if (look == settings.photons) return StopReason::photons;
     // A quarter more each time, whole batches: at most a quarter is simulated in vain.
-    const std::uint64_t more = std::max<std::uint64_t>(1, look / batch_histories / 4) * batch_histories;
+    const std::uint64_t part = settings.target_error ? 4 : 1;
+    const std::uint64_t more = std::max<std::uint64_t>(1, look / batch_histories / part) * batch_histories;
     look = settings.photons - look > more ? look + more : settings.photons;
   }
 }

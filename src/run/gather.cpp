@@ -89,6 +89,7 @@ StopReason Gathering::simulate() {
     found_.rounds = look;
     const double error = task_.error(found_);
     forecast.look(histories_of(look), error);
+    found_.convergence.push_back({histories_of(look), watch_.seconds(), error});
     if (settings_.target_error) found_.histories_to_target = forecast.histories_to(*settings_.target_error);
     reporter_.set_error(error, found_.histories_to_target);
     if (settings_.target_error && error <= *settings_.target_error) return StopReason::target_error;

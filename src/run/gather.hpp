@@ -37,6 +37,7 @@ struct Gathered {
   Estimator estimator = Estimator::collision;                             // as used
   std::string choice;                                                     // why, where it was chosen
   double histories_to_target = std::numeric_limits<double>::quiet_NaN();  // as Result::histories_to_target
+  std::vector<ErrorLook> convergence;
 
   std::uint64_t histories() const { return rounds * group * sums.size(); }
   // Irradiance that reached origin k reflected, and its standard error: NaN where fewer than two rounds were simulated.

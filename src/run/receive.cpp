@@ -130,6 +130,7 @@ void receive(const Room& room, const Scene& scene, const Settings& settings, con
   if (!found.choice.empty()) result.choices.push_back(found.choice);
   backward.stopped_by = found.stopped_by;
   backward.histories_to_target = found.histories_to_target;
+  backward.convergence = found.convergence;
   backward.histories = found.histories();
   backward.rays = found.count.traced.rays;
   backward.shadow_rays = found.count.traced.shadow_rays;
@@ -163,6 +164,7 @@ void walk_from_tiles(const Room& room, const Scene& scene, const Settings& setti
   if (!found.choice.empty()) result.choices.push_back(found.choice);
   result.stopped_by = found.stopped_by;
   result.histories_to_target = found.histories_to_target;
+  result.convergence = found.convergence;
   result.seconds = watch.seconds();
   result.direct_seconds = found.direct_seconds;
   result.histories = found.histories();

@@ -49,6 +49,8 @@ std::vector<Ignored> ignored_by_run(const Room& room, Ways ways) {
 void rate(Result& result) {
   result.rms_relative_error = rms_relative_error(result.tiling, result.tiles);
   result.figure_of_merit = 1.0 / (result.rms_relative_error * result.rms_relative_error * result.seconds);
+  if (result.convergence.empty() || result.convergence.back().histories != result.histories)
+    result.convergence.push_back({result.histories, result.seconds, result.rms_relative_error});
   result.tiles_without_hits = static_cast<std::uint64_t>(std::count_if(
       result.tiles.begin(), result.tiles.end(), [](const TileResult& tile) { return !(tile.irradiance > 0.0); }));
 }

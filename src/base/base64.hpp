@@ -1,0 +1,11 @@
+// Bytes as text that URIs and web pages hold (RFC 4648).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lichtmc {
+
+std::string base64(std::string_view bytes);
+
+}  // namespace lichtmc

@@ -1,0 +1,150 @@
+#include "gltf/builder.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/base64.hpp"
+#include "lichtmc/error.hpp"
+#include "lichtmc/version.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr int array_buffer = 34962;
+constexpr int element_array_buffer = 34963;
+constexpr int float_type = 5126;
+constexpr int unsigned_int_type = 5125;
+
+// A text's length up to the next multiple of 4.
+void pad(std::string& text, char with) {
+  text.resize((text.size() + 3) / 4 * 4, with);
+}
+
+void append_word(std::string& bytes, std::size_t value) {
+  for (std::size_t k = 0; k < 4; ++k) bytes += static_cast<char>(value >> (8 * k) & 0xFFU);
+}
+
+// Names may hold bytes that are no UTF-8; they are replaced, not refused.
+std::string dump(const GltfBuilder::Json& json, int indent) {
+  return json.dump(indent, ' ', false, GltfBuilder::Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+GltfBuilder::GltfBuilder() {
+  json["asset"] = {{"version", "2.0"}, {"generator", "lichtmc " + std::string(version())}};
+  json["scene"] = 0;
+  json["scenes"] = Json::array({{{"nodes", Json::array()}}});
+}
+
+std::size_t GltfBuilder::add_view(const void* data, std::size_t bytes) {
+  const std::size_t offset = buffer_.size();
+  buffer_.append(static_cast<const char*>(data), bytes);
+  pad(buffer_, '\0');  // what follows is aligned
+  json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes}});
+  return json["bufferViews"].size() - 1;
+}
+
+std::size_t GltfBuilder::add_accessor(const void* data, std::size_t bytes, Json accessor, int target) {
+  const std::size_t view = add_view(data, bytes);
+  json["bufferViews"][view]["target"] = target;
+  accessor["bufferView"] = view;
+  json["accessors"].push_back(std::move(accessor));
+  return json["accessors"].size() - 1;
+}
+
+std::size_t GltfBuilder::add_positions(const std::vector<std::array<float, 3>>& positions) {
+  const std::size_t number = add_vectors(positions);
+  std::array<float, 3> low = positions.front();
+  std::array<float, 3> high = positions.front();
+  for (const auto& p : positions) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], p[c]);
+      high[c] = std::max(high[c], p[c]);
+    }
+  }
+  json["accessors"][number]["min"] = low;
+  json["accessors"][number]["max"] = high;
+  return number;
+}
+
+std::size_t GltfBuilder::add_vectors(const std::vector<std::array<float, 2>>& vectors) {
+  return add_accessor(vectors.data(), vectors.size() * sizeof vectors.front(),
+                      {{"componentType", float_type}, {"count", vectors.size()}, {"type", "VEC2"}}, array_buffer);
+}
+
+std::size_t GltfBuilder::add_vectors(const std::vector<std::array<float, 3>>& vectors) {
+  return add_accessor(vectors.data(), vectors.size() * sizeof vectors.front(),
+                      {{"componentType", float_type}, {"count", vectors.size()}, {"type", "VEC3"}}, array_buffer);
+}
+
+std::size_t GltfBuilder::add_indices(const std::vector<std::uint32_t>& indices) {
+  return add_accessor(indices.data(), indices.size() * sizeof indices.front(),
+                      {{"componentType", unsigned_int_type}, {"count", indices.size()}, {"type", "SCALAR"}},
+                      element_array_buffer);
+}
+
+std::size_t GltfBuilder::add_png(const std::string& name, std::string_view png) {
+  const std::size_t view = add_view(png.data(), png.size());
+  json["images"].push_back({{"name", name}, {"mimeType", "image/png"}, {"bufferView", view}});
+  return json["images"].size() - 1;
+}
+
+std::size_t GltfBuilder::add_node(Json node) {
+  Json& list = json["scenes"][0]["nodes"];
+  list.push_back(json["nodes"].size());
+  json["nodes"].push_back(std::move(node));
+  return json["nodes"].size() - 1;
+}
+
+void GltfBuilder::use_extension(const std::string& name) {
+  Json& used = json["extensionsUsed"];
+  if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+}
+
+void GltfBuilder::finish() {
+  if (!buffer_.empty()) json["buffers"] = Json::array({{{"byteLength", buffer_.size()}}});
+  // The specification allows no empty lists.
+  if (json["scenes"][0]["nodes"].empty()) json["scenes"][0].erase("nodes");
+}
+
+std::string GltfBuilder::binary() {
+  finish();
+  std::string text = dump(json, -1);
+  pad(text, ' ');
+  const std::size_t total = 12 + 8 + text.size() + (buffer_.empty() ? 0 : 8 + buffer_.size());
+  if (total > std::numeric_limits<std::uint32_t>::max())
+    throw RuntimeError("The room is too large for a .glb file (over 4 GiB). Split it.");
+  std::string bytes = "glTF";
+  append_word(bytes, 2);
+  append_word(bytes, total);
+  append_word(bytes, text.size());
+  bytes += "JSON" + text;
+  if (buffer_.empty()) return bytes;
+  append_word(bytes, buffer_.size());
+  bytes += std::string("BIN\0", 4) + buffer_;
+  return bytes;
+}
+
+std::string GltfBuilder::text() {
+  finish();
+  if (!buffer_.empty()) json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(buffer_);
+  return dump(json, 1) + "\n";
+}
+
+GltfBuilder::Json placed_node(const std::string& name, const glm::dvec3& position_m) {
+  GltfBuilder::Json node{{"translation", {position_m.x, position_m.y, position_m.z}}};
+  if (!name.empty()) node["name"] = name;
+  return node;
+}
+
+std::vector<std::array<float, 3>> as_floats(const std::vector<glm::dvec3>& points) {
+  std::vector<std::array<float, 3>> floats;
+  floats.reserve(points.size());
+  for (const glm::dvec3& p : points)
+    floats.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  return floats;
+}
+
+}  // namespace lichtmc

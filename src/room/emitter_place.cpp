@@ -1,0 +1,36 @@
+#include "room/emitter_place.hpp"
+
+#include <variant>
+
+#include <glm/geometric.hpp>
+
+namespace lichtmc {
+
+namespace {
+
+glm::dvec3 middle_of(const Surface& surface) {
+  glm::dvec3 sum(0.0);
+  double area = 0.0;
+  for (const glm::uvec3& t : surface.triangles) {
+    const glm::dvec3 a = surface.positions[t.x];
+    const glm::dvec3 b = surface.positions[t.y];
+    const glm::dvec3 c = surface.positions[t.z];
+    const double own = glm::length(glm::cross(b - a, c - a));
+    sum += own * (a + b + c) / 3.0;
+    area += own;
+  }
+  return area > 0.0 ? sum / area : glm::dvec3(0.0);
+}
+
+}  // namespace
+
+glm::dvec3 place_of(const Room& room, const Emitter& emitter) {
+  return std::visit(
+      [&](const auto& shape) {
+        if constexpr (requires { shape.position; }) return shape.position;
+        if constexpr (requires { shape.surface; }) return middle_of(room.surfaces[shape.surface]);
+      },
+      emitter.shape);
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,99 @@
+#include "view/camera.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+namespace lichtmc {
+
+namespace {
+
+constexpr double elevation = 40.0 * std::numbers::pi / 180.0;   // above the horizon: floor and walls in equal parts
+constexpr double half_field = 14.0 * std::numbers::pi / 180.0;  // of view, along the longer side: little distortion
+constexpr double margin = 0.02;                                 // of the picture, on each side
+
+std::array<glm::dvec3, 8> corners_of(const Bounds& box) {
+  std::array<glm::dvec3, 8> corners;
+  for (std::size_t k = 0; k < 8; ++k) {
+    corners[k] = {(k & 1U) != 0 ? box.high.x : box.low.x, (k & 2U) != 0 ? box.high.y : box.low.y,
+                  (k & 4U) != 0 ? box.high.z : box.low.z};
+  }
+  return corners;
+}
+
+}  // namespace
+
+Camera Camera::from_corner(const Bounds& box, double azimuth, std::size_t width, std::size_t height) {
+  Camera camera;
+  const glm::dvec3 back(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                        std::cos(azimuth) * std::cos(elevation));
+  camera.forward_ = -back;
+  camera.right_ = {std::cos(azimuth), 0.0, -std::sin(azimuth)};
+  camera.down_ = glm::cross(camera.forward_, camera.right_);
+  const auto w = static_cast<double>(width);
+  const auto h = static_cast<double>(height);
+  camera.scale_ = 0.5 * std::max(w, h) / std::tan(half_field);
+  camera.middle_x_ = 0.5 * w;
+  camera.middle_y_ = 0.5 * h;
+
+  // The eye goes back until all corners are in view; sideways and up until the outermost touch opposite margins alike.
+  // Each step halves what is left of the error, as the box is far off compared with its size.
+  const glm::dvec3 centre = 0.5 * (box.low + box.high);
+  const double size = std::max(glm::length(box.high - box.low), std::numeric_limits<double>::min());
+  double distance = size / std::tan(half_field);
+  glm::dvec2 shift(0.0);
+  for (int k = 0; k < 30; ++k) {
+    camera.eye_ = centre - distance * camera.forward_ + shift.x * camera.right_ + shift.y * camera.down_;
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high = -low;
+    for (const glm::dvec3& corner : corners_of(box)) {
+      const glm::dvec4 at = camera.to_pixel() * glm::dvec4(corner, 1.0);
+      const glm::dvec2 place((at.x / at.w - 0.5 * w) / w, (at.y / at.w - 0.5 * h) / h);
+      low = glm::min(low, place);
+      high = glm::max(high, place);
+    }
+    const glm::dvec2 middle = 0.5 * (low + high);
+    shift += middle * glm::dvec2(w, h) * distance / camera.scale_;
+    const glm::dvec2 half = 0.5 * (high - low);
+    distance *= std::max(half.x, half.y) / (0.5 - margin);
+  }
+  return camera;
+}
+
+Camera Camera::from_above(const Bounds& box, std::size_t width, std::size_t height) {
+  Camera camera;
+  camera.perspective_ = false;
+  const glm::dvec3 size = box.high - box.low;
+  const auto w = static_cast<double>(width);
+  const auto h = static_cast<double>(height);
+  camera.scale_ = (1.0 - 2.0 * margin) * std::min(w / size.x, h / size.z);
+  camera.middle_x_ = 0.5 * w;
+  camera.middle_y_ = 0.5 * h;
+  camera.eye_ = 0.5 * (box.low + box.high);
+  camera.eye_.y = box.high.y + 0.1 * std::max({size.x, size.y, size.z});
+  return camera;
+}
+
+Ray Camera::ray(double x, double y) const {
+  const glm::dvec3 aside = (x - middle_x_) / scale_ * right_ + (y - middle_y_) / scale_ * down_;
+  if (!perspective_) return {eye_ + aside, forward_};
+  return {eye_, glm::normalize(forward_ + aside)};
+}
+
+glm::dmat4 Camera::to_pixel() const {
+  // Rows of the matrix: x, y, depth and w of a place; GLM keeps columns.
+  const auto row = [this](const glm::dvec3& axis, double factor) {
+    return glm::dvec4(factor * axis, -factor * glm::dot(axis, eye_));
+  };
+  const glm::dvec4 depth = row(forward_, 1.0);
+  const glm::dvec4 w = perspective_ ? depth : glm::dvec4(0.0, 0.0, 0.0, 1.0);
+  const glm::dvec4 x = row(right_, scale_) + middle_x_ * w;
+  const glm::dvec4 y = row(down_, scale_) + middle_y_ * w;
+  return glm::transpose(glm::dmat4(x, y, depth, w));
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,388 @@
+// Surfaces laid flat: each large flat piece in its own plane, curved surfaces as their tile maps.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "lichtmc/error.hpp"
+#include "lichtmc/picture.hpp"
+#include "room/nearest_tile.hpp"
+#include "view/colours.hpp"
+#include "view/flat_pieces.hpp"
+#include "view/isolines.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr double least_share = 0.02;       // of the room's surface that a plan is worth
+constexpr std::size_t field_side = 240;    // points along the longer side of the field that isolines are drawn from
+constexpr double noise_of_a_step = 6.0;    // steps between isolines are at least so many standard errors of the field
+constexpr double shortest_line_px = 36.0;  // shorter ones are specks
+
+// A piece that gets a plan, seen from one side.
+struct Subject {
+  std::size_t map = 0;
+  FlatPiece piece;  // no triangles: the tile map as a whole
+  bool from_behind = false;
+};
+
+struct Axes {
+  glm::dvec3 across{1.0, 0.0, 0.0};  // length 1
+  glm::dvec3 down{0.0, 0.0, 1.0};
+};
+
+// How to hold a piece whose normal points to the eye.
+Axes axes_for(const glm::dvec3& normal) {
+  constexpr double steep = 0.7;
+  Axes axes;
+  if (std::abs(normal.y) > steep) {
+    // As from above, floor and ceiling alike, so that places in one picture are places in the other.
+    const glm::dvec3 x(1.0, 0.0, 0.0);
+    axes.across = glm::normalize(x - glm::dot(x, normal) * normal);
+    axes.down = glm::cross(axes.across, normal);
+    if (axes.down.z < 0.0) axes.down = -axes.down;
+    return axes;
+  }
+  const glm::dvec3 up(0.0, 1.0, 0.0);
+  axes.down = -glm::normalize(up - glm::dot(up, normal) * normal);
+  axes.across = glm::cross(normal, axes.down);  // to the right of who looks at it
+  return axes;
+}
+
+// What plans are drawn of.
+class Subjects {
+ public:
+  Subjects(const Room& room, const Result& result, const LitSides& lit) : room_(&room), result_(&result), lit_(&lit) {
+    double area = 0.0;
+    for (const Surface& surface : room.surfaces) area += surface_area(surface);
+    for (std::size_t m = 0; m < result.tiling.maps.size(); ++m) add(m, least_share * area);
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Subject& a, const Subject& b) { return a.piece.area_m2 > b.piece.area_m2; });
+  }
+
+  std::vector<Subject> list;
+
+ private:
+  void add(std::size_t m, double least_m2) {
+    const TileMap& map = result_->tiling.maps[m];
+    const Surface& surface = room_->surfaces[map.surface];
+    const double area = result_->surfaces[m].area_m2;
+    if (area < least_m2) return;
+    double flat = 0.0;
+    for (FlatPiece& piece : flat_pieces(surface, least_m2)) {
+      flat += piece.area_m2;
+      const auto [front, back] = lit_areas(map.surface, piece);
+      if (surface.sides == Sides::both) {
+        if ((map.side == Side::front ? front : back) > 0.0)
+          list.push_back({m, std::move(piece), map.side == Side::back});
+      } else if (front > 0.0 || back > 0.0) {
+        list.push_back({m, std::move(piece), back > front});
+      }
+    }
+    if (flat >= 0.5 * area) return;
+    Subject whole{m, {}, false};
+    whole.piece.area_m2 = area;
+    list.push_back(std::move(whole));
+  }
+
+  // Area whose front, and whose back, gets light, in m².
+  std::pair<double, double> lit_areas(std::size_t surface, const FlatPiece& piece) const {
+    double front = 0.0;
+    double back = 0.0;
+    for (const std::uint32_t n : piece.triangles) {
+      const SideLight& side = (*lit_)[surface][n];
+      const Surface& own = room_->surfaces[surface];
+      const glm::dvec3 a = own.positions[own.triangles[n].x];
+      const double area =
+          0.5 * glm::length(glm::cross(own.positions[own.triangles[n].y] - a, own.positions[own.triangles[n].z] - a));
+      front += side.front ? area : 0.0;
+      back += side.back ? area : 0.0;
+    }
+    return {front, back};
+  }
+
+  const Room* room_;
+  const Result* result_;
+  const LitSides* lit_;
+};
+
+Picture empty_picture(double width, double height) {
+  Picture picture;
+  picture.width = static_cast<std::size_t>(std::max(1.0, std::round(width)));
+  picture.height = static_cast<std::size_t>(std::max(1.0, std::round(height)));
+  picture.colour.resize(picture.width * picture.height);
+  picture.irradiance.resize(picture.width * picture.height, std::numeric_limits<float>::quiet_NaN());
+  return picture;
+}
+
+class PlanDrawer {
+ public:
+  PlanDrawer(const Room& room, const Result& result, const ColourScale& scale, double longest)
+      : room_(&room), result_(&result), scale_(&scale), longest_(longest) {}
+
+  SurfacePlan draw(const Subject& subject) {
+    SurfacePlan plan;
+    plan.map = subject.map;
+    plan.area_m2 = subject.piece.area_m2;
+    tile_of_cell_ = nearest_tiles(result_->tiling.maps[subject.map]);
+    seen_.clear();
+    if (subject.piece.triangles.empty()) {
+      draw_map(plan);
+      plan.why_no_isolines = "Its tile map: a surface that is curved, or of many pieces, has no isolines.";
+    } else {
+      draw_piece(subject, plan);
+      add_isolines(plan);
+    }
+    return plan;
+  }
+
+ private:
+  // A place of the picture, in pixels, and of the grid, in cells.
+  struct Corner {
+    glm::dvec2 pixel{0.0};
+    glm::dvec2 cell{0.0};
+  };
+
+  void draw_piece(const Subject& subject, SurfacePlan& plan);
+  void draw_map(SurfacePlan& plan);
+  void fill(const std::array<Corner, 3>& triangle, SurfacePlan& plan);
+  void set_pixel(SurfacePlan& plan, std::size_t pixel, std::uint32_t tile);
+  void add_isolines(SurfacePlan& plan) const;
+  Field field_of(const SurfacePlan& plan, double step) const;
+
+  const Room* room_;
+  const Result* result_;
+  const ColourScale* scale_;
+  double longest_;
+  std::vector<std::uint32_t> tile_of_cell_;
+  std::vector<std::uint32_t> seen_;  // tile of each pixel
+};
+
+void PlanDrawer::set_pixel(SurfacePlan& plan, std::size_t pixel, std::uint32_t tile) {
+  if (tile == no_tile) return;
+  const double irradiance = result_->tiles[tile].irradiance;
+  const Colour colour = colour_of(*scale_, irradiance);
+  plan.picture.colour[pixel] = glm::vec4(light_of(colour), 1.0F);
+  plan.picture.irradiance[pixel] = static_cast<float>(irradiance);
+  seen_[pixel] = tile;
+}
+
+// Pixels whose middle lies in the triangle take the tile there.
+void PlanDrawer::fill(const std::array<Corner, 3>& t, SurfacePlan& plan) {
+  const TileMap& map = result_->tiling.maps[plan.map];
+  const glm::dvec2 b = t[1].pixel - t[0].pixel;
+  const glm::dvec2 c = t[2].pixel - t[0].pixel;
+  const double area = b.x * c.y - b.y * c.x;
+  if (area == 0.0) return;
+  const glm::dvec2 low = glm::min(t[0].pixel, glm::min(t[1].pixel, t[2].pixel));
+  const glm::dvec2 high = glm::max(t[0].pixel, glm::max(t[1].pixel, t[2].pixel));
+  const auto clip = [](double value, std::size_t most) {
+    return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(most)));
+  };
+  for (std::size_t y = clip(std::floor(low.y), plan.picture.height); y < clip(std::ceil(high.y), plan.picture.height);
+       ++y) {
+    for (std::size_t x = clip(std::floor(low.x), plan.picture.width); x < clip(std::ceil(high.x), plan.picture.width);
+         ++x) {
+      const glm::dvec2 p = glm::dvec2(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5) - t[0].pixel;
+      const double s = (p.x * c.y - p.y * c.x) / area;
+      const double r = (b.x * p.y - b.y * p.x) / area;
+      constexpr double rim = -1e-9;  // a pixel on the edge between two triangles belongs to either
+      if (s < rim || r < rim || s + r > 1.0 - rim) continue;
+      const glm::dvec2 cell = t[0].cell + s * (t[1].cell - t[0].cell) + r * (t[2].cell - t[0].cell);
+      const auto column = std::min(static_cast<std::size_t>(std::max(cell.x, 0.0)), std::size_t{map.columns} - 1);
+      const auto row = std::min(static_cast<std::size_t>(std::max(cell.y, 0.0)), std::size_t{map.rows} - 1);
+      set_pixel(plan, y * plan.picture.width + x, tile_of_cell_[row * map.columns + column]);
+    }
+  }
+}
+
+void PlanDrawer::draw_piece(const Subject& subject, SurfacePlan& plan) {
+  const TileMap& map = result_->tiling.maps[subject.map];
+  const Surface& surface = room_->surfaces[map.surface];
+  const Axes axes = axes_for(subject.from_behind ? -subject.piece.normal : subject.piece.normal);
+  glm::dvec2 low(std::numeric_limits<double>::infinity());
+  glm::dvec2 high = -low;
+  double depth = 0.0;
+  const glm::dvec3 normal = subject.piece.normal;
+  const auto flat = [&](const glm::dvec3& p) { return glm::dvec2(glm::dot(p, axes.across), glm::dot(p, axes.down)); };
+  for (const std::uint32_t n : subject.piece.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3& p = surface.positions[surface.triangles[n][k]];
+      low = glm::min(low, flat(p));
+      high = glm::max(high, flat(p));
+      depth = glm::dot(p, normal);
+    }
+  }
+  const double metre = longest_ / std::max(high.x - low.x, high.y - low.y);  // pixels
+  plan.picture = empty_picture(metre * (high.x - low.x), metre * (high.y - low.y));
+  seen_.assign(plan.picture.colour.size(), no_tile);
+  plan.corner = low.x * axes.across + low.y * axes.down + depth * normal;
+  plan.across = axes.across / metre;
+  plan.down = axes.down / metre;
+  for (const std::uint32_t n : subject.piece.triangles) {
+    std::array<Corner, 3> triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec3& p = surface.positions[surface.triangles[n][static_cast<int>(k)]];
+      triangle[k] = {metre * (flat(p) - low), result_->tiling.cells[map.surface][n][k]};
+    }
+    fill(triangle, plan);
+  }
+  double power = 0.0;
+  double area = 0.0;
+  std::vector<bool> counted(result_->tiles.size());
+  plan.min_irradiance = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t tile : seen_) {
+    if (tile == no_tile || counted[tile]) continue;
+    counted[tile] = true;
+    const TileResult& found = result_->tiles[tile];
+    power += found.irradiance * result_->tiling.tiles[tile].area_m2;
+    area += result_->tiling.tiles[tile].area_m2;
+    plan.min_irradiance = std::min(plan.min_irradiance, found.irradiance);
+    plan.max_irradiance = std::max(plan.max_irradiance, found.irradiance);
+  }
+  if (!(area > 0.0)) plan.min_irradiance = 0.0;
+  plan.mean_irradiance = area > 0.0 ? power / area : 0.0;
+}
+
+// Row 0 is the top row, as in the tile map's image.
+void PlanDrawer::draw_map(SurfacePlan& plan) {
+  const TileMap& map = result_->tiling.maps[plan.map];
+  plan.flat = false;
+  const double cell = std::max(1.0, std::floor(longest_ / std::max(map.columns, map.rows)));
+  const double shrink = std::min(1.0, longest_ / std::max(map.columns, map.rows));
+  plan.picture = empty_picture(cell * shrink * map.columns, cell * shrink * map.rows);
+  seen_.assign(plan.picture.colour.size(), no_tile);
+  for (std::size_t y = 0; y < plan.picture.height; ++y) {
+    for (std::size_t x = 0; x < plan.picture.width; ++x) {
+      const std::size_t column = x * map.columns / plan.picture.width;
+      const std::size_t row = y * map.rows / plan.picture.height;
+      set_pixel(plan, y * plan.picture.width + x, map.tile_of_cell[row * map.columns + column]);
+    }
+  }
+  const SurfaceResult& surface = result_->surfaces[plan.map];
+  plan.mean_irradiance = surface.mean_irradiance;
+  plan.min_irradiance = surface.min_irradiance;
+  plan.max_irradiance = surface.max_irradiance;
+}
+
+// The tiles' irradiance at points `step` pixels apart.
+Field PlanDrawer::field_of(const SurfacePlan& plan, double step) const {
+  Field field;
+  field.columns = static_cast<std::size_t>(std::ceil(static_cast<double>(plan.picture.width) / step));
+  field.rows = static_cast<std::size_t>(std::ceil(static_cast<double>(plan.picture.height) / step));
+  const auto pixel_at = [&](std::size_t k, std::size_t most) {
+    return std::min(static_cast<std::size_t>((static_cast<double>(k) + 0.5) * step), most - 1);
+  };
+  for (std::size_t y = 0; y < field.rows; ++y) {
+    for (std::size_t x = 0; x < field.columns; ++x) {
+      const std::size_t pixel = pixel_at(y, plan.picture.height) * plan.picture.width + pixel_at(x, plan.picture.width);
+      const bool there = seen_[pixel] != no_tile;
+      field.values.push_back(there ? result_->tiles[seen_[pixel]].irradiance : 0.0);
+      field.weight.push_back(there ? 1.0 : 0.0);
+    }
+  }
+  return field;
+}
+
+// A field's values on the surface: least and greatest, but for a hundredth at either end, and the median.
+struct Range {
+  double low = 0.0;
+  double middle = 0.0;
+  double high = 0.0;
+};
+
+Range range_of(const Field& field) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < field.values.size(); ++k) {
+    if (field.weight[k] > 0.0) values.push_back(field.values[k]);
+  }
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return {values[n / 100], values[n / 2], values[n - 1 - n / 100]};
+}
+
+double length_of(const Isoline& line) {
+  double length = 0.0;
+  for (std::size_t k = 1; k < line.points.size(); ++k) length += glm::length(line.points[k] - line.points[k - 1]);
+  return length;
+}
+
+void PlanDrawer::add_isolines(SurfacePlan& plan) const {
+  const double metre = 1.0 / glm::length(plan.across);  // pixels
+  const auto longer = static_cast<double>(std::max(plan.picture.width, plan.picture.height));
+  const auto shorter = static_cast<double>(std::min(plan.picture.width, plan.picture.height));
+  const double step = std::max(1.0, longer / field_side);  // pixels between points of the field
+
+  // Error and edge of a tile here, as root of the mean square over the piece.
+  double variance = 0.0;
+  double tile_area = 0.0;
+  double count = 0.0;
+  for (const std::uint32_t tile : seen_) {
+    if (tile == no_tile) continue;
+    variance += std::pow(result_->tiles[tile].standard_error, 2);
+    tile_area += result_->tiling.tiles[tile].area_m2;
+    count += 1.0;
+  }
+  if (count == 0.0) {
+    plan.why_no_isolines = "No isolines: the surface is too narrow for them.";
+    return;
+  }
+  const double error = std::sqrt(variance / count);
+  const double edge = std::sqrt(tile_area / count);  // m
+  if (!std::isfinite(error)) {
+    plan.why_no_isolines = "No isolines: the errors of the tiles are not known. Simulate more photons.";
+    return;
+  }
+  const Field field = field_of(plan, step);
+  // Averaged over a Gaussian of radius r, tiles of edge h with an error σ have the error σ·h/(2√π·r).
+  const double one = error * edge / (2.0 * std::sqrt(std::numbers::pi));
+  const double most_radius = std::max(0.1 * shorter / metre, 0.5 * edge);  // m
+  const Range coarse = range_of(smoothed(field, std::clamp(most_radius * metre / step, 0.5, 1e3)));
+  const double wanted_step = (coarse.high - coarse.low) / 6.0;
+  const double radius = std::clamp(noise_of_a_step * one / std::max(wanted_step, 1e-300), 0.6 * edge, most_radius);
+  if (one / radius > 0.5 * wanted_step) {
+    plan.why_no_isolines =
+        "No isolines: the differences over this surface are no larger than their errors. They appear with more "
+        "photons.";
+    return;
+  }
+  plan.smoothing_m = radius;
+  const Field smooth = smoothed(field, std::max(0.5, radius * metre / step));
+  const Range range = range_of(smooth);
+  // A bright spot on a dark wall: even steps would all lie in the spot.
+  const bool logarithmic = range.high > 8.0 * range.middle;
+  for (const double level : round_levels(range.low, range.high, logarithmic)) {
+    for (Isoline& line : lines_of(smooth, level)) {
+      for (glm::dvec2& point : line.points) point = (point + 0.5) * step;
+      if (length_of(line) >= shortest_line_px) plan.isolines.push_back(std::move(line));
+    }
+  }
+  if (plan.isolines.empty()) plan.why_no_isolines = "No isolines: the light is even here.";
+}
+
+}  // namespace
+
+std::vector<SurfacePlan> draw_plans(const Room& room, const Result& result, const LitSides& lit,
+                                    const ColourScale& scale, std::size_t most, std::size_t longest) {
+  if (longest < 16 || longest > 4096)
+    throw InputError("The longer side of a plan is " + std::to_string(longest) +
+                     " pixels (allowed: 16 to 4096). Ask for another size.");
+  std::vector<SurfacePlan> plans;
+  PlanDrawer drawer(room, result, scale, static_cast<double>(longest));
+  for (const Subject& subject : Subjects(room, result, lit).list) {
+    if (plans.size() == most) break;
+    plans.push_back(drawer.draw(subject));
+  }
+  return plans;
+}
+
+}  // namespace lichtmc

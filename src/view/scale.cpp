@@ -1,0 +1,94 @@
+// Which irradiance gets which colour.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/message.hpp"
+#include "lichtmc/error.hpp"
+#include "lichtmc/picture.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// Irradiance that a share of the lit area stays below. By area, so that slivers at rims, where a single photon makes a
+// huge irradiance, do not set the scale.
+double quantile(std::vector<std::pair<double, double>>& lit, double share) {
+  double area = 0.0;
+  for (const auto& [irradiance, own] : lit) area += own;
+  double below = 0.0;
+  for (const auto& [irradiance, own] : lit) {
+    below += own;
+    if (below >= share * area) return irradiance;
+  }
+  return lit.back().first;
+}
+
+// The next of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten.
+double round_up(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    if (value <= step * decade * (1.0 + 1e-12)) return step * decade;
+  }
+  return 10.0 * decade;
+}
+
+// The one before, or the value itself.
+double round_down(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  double below = decade;
+  for (const double step : {1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    if (step * decade <= value) below = step * decade;
+  }
+  return below;
+}
+
+// Where the brightest places are so many times as bright as the middle, linear colours would leave half of the room
+// in the lowest tenth of the scale.
+constexpr double contrast_for_logarithm = 10.0;
+// A logarithmic scale spans at most so much; what is darker has the bottom colour.
+constexpr double most_decades = 3.0;
+// Shares of the lit area that are brighter than the scale's top, and darker than the bottom of a logarithmic one.
+constexpr double above_top = 0.02;
+constexpr double below_bottom = 0.05;
+
+}  // namespace
+
+double ColourScale::share(double irradiance) const {
+  const double place =
+      logarithmic ? std::log(irradiance / low) / std::log(high / low) : (irradiance - low) / (high - low);
+  return place > 0.0 ? std::min(place, 1.0) : 0.0;
+}
+
+ColourScale choose_scale(const Result& result, const ScaleOptions& options) {
+  if (options.high && !(*options.high > 0.0 && std::isfinite(*options.high))) {
+    throw InputError("The top of the colour scale is " + to_text(*options.high) + " " +
+                     std::string(irradiance_unit(result.quantity)) +
+                     " (allowed: a number above 0). Give --scale-max such a number, or leave it out.");
+  }
+  std::vector<std::pair<double, double>> lit;
+  for (std::size_t t = 0; t < result.tiles.size(); ++t) {
+    if (result.tiles[t].irradiance > 0.0) lit.emplace_back(result.tiles[t].irradiance, result.tiling.tiles[t].area_m2);
+  }
+  // Where only receivers were measured the scale is theirs.
+  if (lit.empty()) {
+    for (const ReceiverResult& receiver : result.receiver_results) {
+      if (receiver.irradiance > 0.0) lit.emplace_back(receiver.irradiance, 1.0);
+    }
+  }
+  std::sort(lit.begin(), lit.end());
+  ColourScale scale;
+  scale.colours = options.colours;
+  const double top = lit.empty() ? 1.0 : quantile(lit, 1.0 - above_top);
+  scale.high = options.high.value_or(round_up(top));
+  const bool contrast = !lit.empty() && top > contrast_for_logarithm * quantile(lit, 0.5);
+  scale.logarithmic = options.type == ScaleType::logarithmic || (options.type == ScaleType::automatic && contrast);
+  if (scale.logarithmic) {
+    const double least = scale.high / std::pow(10.0, most_decades);
+    const double dark = lit.empty() ? least : round_down(quantile(lit, below_bottom));
+    scale.low = std::clamp(dark, least, 0.1 * scale.high);
+  }
+  return scale;
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,131 @@
+#include "walk/path_walk.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <glm/vec3.hpp>
+
+#include "room/bounds.hpp"
+#include "walk/estimators.hpp"
+#include "walk/kernel.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// Where a ray that starts in a box, or next to it, leaves it.
+glm::dvec3 exit_from(const Bounds& box, const glm::dvec3& start, const glm::dvec3& direction) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    if (direction[k] == 0.0) continue;
+    const double wall = direction[k] > 0.0 ? box.high[k] : box.low[k];
+    nearest = std::min(nearest, std::max(0.0, (wall - start[k]) / direction[k]));
+  }
+  return start + (nearest < std::numeric_limits<double>::infinity() ? nearest : 0.0) * direction;
+}
+
+// What photons are for whose ways are to be seen, see kernel.hpp.
+class PathGoal {
+ public:
+  PathGoal(const Room& room, const Scene& scene, const Stream& stream, std::uint64_t first)
+      : scene_(&scene), stream_(stream), first_(first), box_(bounds_of(room)) {}
+
+  std::vector<PhotonPath> take() { return std::move(paths_); }
+
+  void start(Wave& wave, std::uint32_t n) {
+    paths_.resize(n);
+    wave.rays.size = n;
+    scene_->launcher->launch_all(stream_, first_, n, wave.rays, wave.photon.data());
+    scene_->tracer->depart(wave.rays);
+    for (std::size_t i = 0; i < n; ++i) {
+      PhotonPath& path = paths_[wave.photon[i]];
+      path.history = first_ + wave.photon[i];
+      PathPoint& point = path.points.emplace_back();
+      point.place = scene_->tracer->world_point(glm::dvec3(wave.rays.start(i)));
+      const std::uint32_t facet = wave.rays.facet[i];
+      if (facet != no_facet) point.surface = scene_->surface_of[facet];
+    }
+  }
+  void histories(Wave& wave) const {
+    for (std::size_t i = 0; i < wave.rays.size; ++i) wave.history[i] = first_ + wave.photon[i];
+  }
+  Misses misses() const { return scene_->misses; }
+  TraceCount& traced() { return traced_; }
+  Ends& ends() { return ends_; }
+
+  void escape(const Wave& wave, std::size_t i) {
+    PhotonPath& path = paths_[wave.photon[i]];
+    if (scene_->misses == Misses::retrace) {
+      path.end = PathEnd::lost;
+      return;
+    }
+    path.end = PathEnd::escaped;
+    const glm::dvec3 start = scene_->tracer->world_point(glm::dvec3(wave.rays.start(i)));
+    const glm::dvec3 direction = scene_->tracer->world_vector(glm::dvec3(wave.rays.direction(i)));
+    path.points.push_back({exit_from(box_, start, direction), no_surface, wave.weight[i]});
+  }
+  void part(const Wave& /*wave*/) const {}
+  void land(const Wave& wave) {
+    const Rays& rays = wave.rays;
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      const glm::dvec3 end = glm::dvec3(rays.start(i)) + double{rays.length[i]} * glm::dvec3(rays.direction(i));
+      paths_[wave.photon[i]].points.push_back(
+          {scene_->tracer->world_point(end), scene_->surface_of[rays.facet[i]], wave.weight[i]});
+    }
+  }
+  void score(const Wave& /*wave*/) const {}
+
+  static constexpr bool watches_absorption = true;
+  static constexpr bool in_lanes = false;
+  void absorb(const Wave& wave, std::size_t i, double /*reflectance*/) {
+    paths_[wave.photon[i]].end = PathEnd::absorbed;
+  }
+  void reflect(const Wave& /*wave*/, std::uint32_t /*flight*/) const {}
+  void cut_off(const Wave& wave, std::size_t i) { paths_[wave.photon[i]].end = PathEnd::cut_off; }
+  static float* cosines() { return nullptr; }
+  // land() asks for the flight that is over, which flying on does not need.
+  static void move(Wave& wave, std::size_t from, std::size_t to) {
+    Rays& rays = wave.rays;
+    rays.set_start(to, rays.start(from));
+    rays.set_direction(to, rays.direction(from));
+    rays.length[to] = rays.length[from];
+  }
+
+ private:
+  const Scene* scene_;
+  Stream stream_;
+  std::uint64_t first_;
+  Bounds box_;
+  std::vector<PhotonPath> paths_;
+  TraceCount traced_;
+  Ends ends_;
+};
+
+template <class Policy>
+void fly(const Scene& scene, const Stream& stream, std::uint32_t most_flights, std::uint32_t n, PathGoal& goal) {
+  const auto go_on = [] { return false; };
+  if (scene.has_maps()) {
+    Kernel<Policy, MappedReflectance, PathGoal>(scene, stream, most_flights).fly(n, goal, go_on);
+  } else {
+    Kernel<Policy, SurfaceReflectance, PathGoal>(scene, stream, most_flights).fly(n, goal, go_on);
+  }
+}
+
+}  // namespace
+
+std::vector<PhotonPath> walk_paths(const Room& room, const Scene& scene, const Settings& settings,
+                                   std::uint32_t most_flights, std::uint64_t first, std::uint32_t n) {
+  const Stream stream(settings.seed);
+  PathGoal goal(room, scene, stream, first);
+  if (settings.estimator != Estimator::weight) {
+    // Collision and absorption differ in what they score, not in how photons fly.
+    fly<CollisionPolicy>(scene, stream, most_flights, n, goal);
+  } else if (settings.max_bounces) {
+    fly<TruncatedWeightPolicy>(scene, stream, most_flights, n, goal);
+  } else {
+    fly<RouletteWeightPolicy>(scene, stream, most_flights, n, goal);
+  }
+  return goal.take();
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,18 @@
+// The forward walk with every flight written down.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lichtmc/paths.hpp"
+#include "lichtmc/settings.hpp"
+#include "walk/scene.hpp"
+
+namespace lichtmc {
+
+// Histories first … first + n − 1 (1 ≤ n ≤ batch_histories), ended after `most_flights` (≥ 1) at the latest. The room
+// is the scene's.
+std::vector<PhotonPath> walk_paths(const Room& room, const Scene& scene, const Settings& settings,
+                                   std::uint32_t most_flights, std::uint64_t first, std::uint32_t n);
+
+}  // namespace lichtmc
