@@ -16,6 +16,7 @@
 #include "lichtmc/receivers.hpp"
 #include "lichtmc/simulate.hpp"
 #include "light_spec.hpp"
+#include "outcome.hpp"
 #include "progress_line.hpp"
 #include "quantities.hpp"
 #include "receiver_table.hpp"
@@ -38,6 +39,10 @@ struct RunOptions {
   std::optional<std::string> direct;
   std::string tiles = "forward";
   std::optional<std::string> receivers, grid, grid_spacing, only;
+  bool report = true;
+  std::optional<std::string> pictures, paths, scale_max;
+  std::string scale_type = "auto";
+  std::string colour_map = "viridis";
   bool quiet = false;
 };
 
@@ -127,111 +132,52 @@ Settings parse_settings(const RunOptions& options) {
   return settings;
 }
 
-std::string percent(double share) {
-  if (!std::isfinite(share)) return "unknown";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100.0 * share);
-  return text;
+ScaleType parse_scale_type(const std::string& text) {
+  if (text == "auto") return ScaleType::automatic;
+  if (text == "linear") return ScaleType::linear;
+  if (text == "log") return ScaleType::logarithmic;
+  throw InputError("The type of scale '" + text +
+                   "' is not known (allowed: auto, linear, log). Give one of these to --scale-type.");
 }
 
-std::string figure(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+ColourMap parse_colour_map(const std::string& text) {
+  if (text == "viridis") return ColourMap::viridis;
+  if (text == "inferno") return ColourMap::inferno;
+  throw InputError("The colour map '" + text +
+                   "' is not known (allowed: viridis, inferno). Give one of these to --colormap.");
 }
 
-const char* describe(StopReason reason) {
-  switch (reason) {
-    case StopReason::photons:
-      return "all photons simulated";
-    case StopReason::target_error:
-      return "target error reached";
-    case StopReason::max_time:
-      return "time is over";
-    case StopReason::interrupt:
-      return "interrupted";
+ReportOptions parse_report(const RunOptions& options, const std::string& command_line) {
+  ReportOptions report;
+  report.command = command_line;
+  report.scale.type = parse_scale_type(options.scale_type);
+  report.scale.colours = parse_colour_map(options.colour_map);
+  if (options.scale_max) {
+    report.scale.high = parse_number(*options.scale_max, "--scale-max");
+    if (!(*report.scale.high > 0.0))
+      throw InputError(
+          "The top of the colour scale is " + *options.scale_max +
+          " (allowed: a number above 0, in lx or W/m^2). Give --scale-max such a number, or leave it out.");
   }
-  return "";
+  if (options.pictures && *options.pictures != "exr")
+    throw InputError("The form of pictures '" + *options.pictures +
+                     "' is not known (allowed: exr). Give it to --pictures, or leave it out for SVG and PNG.");
+  report.exr_pictures = options.pictures.has_value();
+  constexpr std::uint64_t most_paths = 10'000;
+  if (options.paths) report.paths = parse_count(*options.paths, "--paths");
+  if (report.paths > most_paths)
+    throw InputError("The number of photon paths is " + *options.paths +
+                     " (allowed: 1 to 10000). Give --paths a smaller number.");
+  const bool asked = options.scale_max || options.pictures || options.paths;
+  if (!options.report && asked)
+    throw InputError("--scale-max, --pictures and --paths are about the report (--no-report is given). Leave one out.");
+  report.threads = parse_threads(options.threads);
+  return report;
 }
 
-// A stop rule that was not met is said, with what it would take.
-void warn_of_missed_target(const Settings& settings, StopReason stopped_by, double error, double histories,
-                           double to_target, double seconds, const char* remedy) {
-  if (!settings.target_error || stopped_by == StopReason::target_error) return;
-  std::cerr << "The target error of " << percent(*settings.target_error) << " was not reached: it is " << percent(error)
-            << '.';
-  // What the errors on the way foretell; before the first of them was known, that they fall with the square root.
-  if (!std::isfinite(to_target)) to_target = histories * std::pow(error / *settings.target_error, 2);
-  if (std::isfinite(to_target)) {
-    std::cerr << " It would take about " << short_count(to_target) << " photons ("
-              << short_time(to_target / histories * seconds) << " here)" << remedy << '.';
-  }
-  std::cerr << '\n';
-}
-
-// One of those that matter most, and where the others are.
-void print_ignored(const std::vector<Ignored>& ignored) {
-  if (ignored.empty()) return;
-  const auto matters = [](const Ignored& thing) { return thing.effect == Effect::figures; };
-  const auto first = std::find_if(ignored.begin(), ignored.end(), matters);
-  const auto count = std::count_if(ignored.begin(), ignored.end(), matters);
-  std::cerr << "Not modelled: " << ignored.size() << (ignored.size() == 1 ? " thing" : " things") << " in the room, "
-            << count
-            << " of which may change figures; for example: " << (first == ignored.end() ? ignored.front() : *first).what
-            << " The list is in summary.json under \"ignored\".\n";
-}
-
-// Where the power went: only photons from the emitters tell.
-void print_balance(const Result& result) {
-  const std::string unit(power_unit(result.quantity));
-  const Balance& balance = result.balance;
-  std::cerr << "Emitted " << figure(balance.emitted) << ' ' << unit << ": absorbed " << figure(balance.absorbed)
-            << ", left the room " << figure(balance.escaped);
-  if (balance.residual != 0.0) std::cerr << ", residual " << figure(balance.residual);
-  std::cerr << ", lost " << figure(balance.lost) << ".\n";
-}
-
-void print_tiles(const Result& result) {
-  const bool forward = result.settings.tiles == TileWalk::forward;
-  std::cerr << short_count(static_cast<double>(result.histories))
-            << (forward ? " photons, " : " walks back from the tiles, ")
-            << short_count(static_cast<double>(result.impacts)) << " impacts in " << figure(result.seconds) << " s ("
-            << describe(result.stopped_by) << "; engine " << to_string(result.engine) << ", estimator "
-            << to_string(result.estimator) << (direct_is_apart(result) ? ", direct light integrated" : "") << ").\n";
-  if (forward) print_balance(result);
-  std::cerr << result.tiles.size() << " tiles, relative standard error " << percent(result.rms_relative_error)
-            << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of those that got light)" : ")");
-  if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " got none";
-  std::cerr << ".\n";
-  warn_of_missed_target(result.settings, result.stopped_by, result.rms_relative_error,
-                        static_cast<double>(result.histories), result.histories_to_target, result.seconds,
-                        ", or larger tiles");
-}
-
-void print_receivers(const Result& result) {
-  const BackwardResult& backward = result.backward;
-  const auto histories = static_cast<double>(backward.histories);
-  std::cerr << result.receiver_results.size() << (result.receiver_results.size() == 1 ? " receiver, " : " receivers, ")
-            << short_count(histories) << " walks back from them in " << figure(backward.seconds) << " s ("
-            << describe(backward.stopped_by) << "), " << short_count(static_cast<double>(backward.shadow_rays))
-            << " shadow rays; relative standard error " << percent(backward.rms_relative_error) << " (rms).\n";
-  warn_of_missed_target(result.settings, backward.stopped_by, backward.rms_relative_error, histories,
-                        backward.histories_to_target, backward.seconds, "");
-}
-
-void print_outcome(const Result& result, const std::filesystem::path& folder) {
-  if (!result.tiles.empty()) print_tiles(result);
-  if (!result.receiver_results.empty()) print_receivers(result);
-  for (const std::string& choice : result.choices) std::cerr << choice << '\n';
-  for (const std::string& warning : result.warnings) std::cerr << "Warning: " << warning << '\n';
-  print_ignored(result.ignored);
-  std::cerr << "Results are in " << folder.string()
-            << (result.tiles.empty() ? ": " : ": surfaces.csv (one row per surface), tiles.csv, tiles/*.exr, ")
-            << (result.receiver_results.empty() ? "" : "receivers.csv, ") << "summary.json.\n";
-}
-
-void run(const RunOptions& options) {
+void run(const RunOptions& options, const std::string& command_line) {
   const Settings settings = parse_settings(options);
+  ReportOptions report = parse_report(options, command_line);
   Room room = read_room(options.reading);
   add_receivers(room, options);
   check_room(room);
@@ -251,7 +197,12 @@ void run(const RunOptions& options) {
     result = simulate(room, settings, control);
   }
   write_results(room, result, folder);
-  if (!options.quiet) print_outcome(result, folder);
+  if (options.report) {
+    StepLine line(show);
+    report.progress = [&line](std::string_view what) { line.tell(what); };
+    write_report(room, result, folder, report);
+  }
+  if (!options.quiet) print_outcome(result, folder, options.report);
 }
 
 void add_options(CLI::App& command, RunOptions& options) {
@@ -337,13 +288,37 @@ void add_options(CLI::App& command, RunOptions& options) {
       ->type_name("WAY")
       ->group(points);
 
+  const std::string looks = "The report: report.html, room_lit.glb and pictures/";
+  command.add_flag("--report,!--no-report", options.report, "Write it [yes]")->group(looks);
+  command
+      .add_option("--scale-max", options.scale_max,
+                  "What the top colour stands for, in lx or W/m^2 [chosen from the tiles]")
+      ->type_name("E")
+      ->group(looks);
+  command
+      .add_option("--scale-type", options.scale_type,
+                  "linear, log (three decades), or auto: log where a few places are far brighter than the rest")
+      ->type_name("TYPE")
+      ->capture_default_str()
+      ->group(looks);
+  command.add_option("--colormap", options.colour_map, "viridis or inferno")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->group(looks);
+  command.add_option("--paths", options.paths, "Show the paths of the first N photons, up to 10000 [none]")
+      ->type_name("N")
+      ->group(looks);
+  command.add_option("--pictures", options.pictures, "exr: the pictures as OpenEXR too")
+      ->type_name("FORM")
+      ->group(looks);
+
   add_room_options(command, options.reading);
   command.add_flag("--quiet", options.quiet, "No progress, no summary; only errors");
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& program) {
+void add_run_command(CLI::App& program, const std::string& command_line) {
   CLI::App* command =
       program.add_subcommand("run", "Simulate a room: irradiance of every tile, with its standard error");
   auto options = std::make_shared<RunOptions>();
@@ -360,7 +335,7 @@ void add_run_command(CLI::App& program) {
       "  lichtmc run office.glb --grid 0.85 --only backward --target-error 2%      desk height, nothing else\n"
       "  lichtmc run hall.glb --light point:5,3,5:8000lm --max-reflectance 0.9 -o out/hall\n"
       "Ctrl-C ends a run early and keeps what was simulated; a second Ctrl-C ends the program at once.");
-  command->callback([options] { run(*options); });
+  command->callback([options, command_line] { run(*options, command_line); });
 }
 
 }  // namespace lichtmc::app

@@ -29,6 +29,23 @@ void check_command(CLI::App& program, int argc, char** argv) {
                             "). See lichtmc --help.");
 }
 
+// What was typed, such that a shell reads it as the same words.
+std::string command_line(int argc, char** argv) {
+  std::string line = "lichtmc";
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=%+@";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+      line += ' ' + word;
+      continue;
+    }
+    line += " '";
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
 int run_program(int argc, char** argv) {
   int status = 0;
   CLI::App program{
@@ -42,7 +59,8 @@ int run_program(int argc, char** argv) {
       "Start with:  lichtmc check room.glb, then lichtmc run room.glb\n"
       "More on a command:  lichtmc COMMAND --help\n"
       "Exit status: 0 done; 1 the run failed; 2 the command line or an input is wrong.");
-  lichtmc::app::add_run_command(program);
+  lichtmc::app::add_run_command(program, command_line(argc, argv));
+  lichtmc::app::add_paths_command(program);
   lichtmc::app::add_study_command(program);
   lichtmc::app::add_cuboid_command(program);
   lichtmc::app::add_check_command(program, status);

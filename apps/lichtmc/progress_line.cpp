@@ -110,4 +110,23 @@ void ProgressLine::update(const Progress& progress) {
             << std::flush;
 }
 
+StepLine::StepLine(ProgressLine::Show show)
+    : show_(show), terminal_(isatty(STDERR_FILENO) != 0), began_(std::chrono::steady_clock::now()) {}
+
+StepLine::~StepLine() {
+  if (drawn_ && terminal_) std::cerr << "\r\x1b[K" << std::flush;
+}
+
+void StepLine::tell(std::string_view what) {
+  constexpr std::chrono::seconds soon{2};
+  if (show_ == ProgressLine::Show::no) return;
+  if (!terminal_ && std::chrono::steady_clock::now() - began_ < soon) return;
+  drawn_ = true;
+  if (terminal_) {
+    std::cerr << '\r' << what << " …\x1b[K" << std::flush;
+  } else {
+    std::cerr << what << std::endl;
+  }
+}
+
 }  // namespace lichtmc::app

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 #include "lichtmc/settings.hpp"
 #include "lichtmc/simulate.hpp"
@@ -32,6 +33,24 @@ class ProgressLine {
   bool drawn_ = false;
   Settings settings_;
   std::chrono::steady_clock::time_point last_;
+};
+
+// Steps of some seconds each, by name: written over each other on a terminal; elsewhere a line for each that begins
+// two seconds or more after the first.
+class StepLine {
+ public:
+  explicit StepLine(ProgressLine::Show show);
+  ~StepLine();
+  StepLine(const StepLine&) = delete;
+  StepLine& operator=(const StepLine&) = delete;
+
+  void tell(std::string_view what);
+
+ private:
+  ProgressLine::Show show_;
+  bool terminal_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point began_;
 };
 
 // "12.3M", "4.56k": a count in three digits.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "base/message.hpp"
+#include "output/svg.hpp"
 
 namespace lichtmc {
 
@@ -22,34 +22,8 @@ constexpr double bottom = 500.0;
 // Colours that people with any colour vision tell apart (M. Okabe, K. Ito, Color Universal Design, 2008); each comes
 // again with dashes.
 constexpr std::array<const char*, 7> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                             "#E69F00", "#56B4E9", "#000000"};
+                                             "#E69F00", "#56B4E9", "#999999"};
 constexpr std::array<const char*, 3> dashes{"", "6 4", "2 3"};
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
-std::string fixed(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
 
 // Values → places along an axis.
 class Axis {
@@ -94,22 +68,7 @@ class Axis {
   double to_;
 };
 
-std::string text_at(double x, double y, const std::string& text, const std::string& more = "") {
-  return "<text x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\"" + more + ">" + escaped(text) + "</text>\n";
-}
-
-std::string line(double x1, double y1, double x2, double y2, const std::string& style) {
-  return "<line x1=\"" + fixed(x1) + "\" y1=\"" + fixed(y1) + "\" x2=\"" + fixed(x2) + "\" y2=\"" + fixed(y2) + "\" " +
-         style + "/>\n";
-}
-
-std::string head(double picture_height, const std::string& title) {
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + fixed(width) + " " + fixed(picture_height) +
-         "\" font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
-         text_at(left, 28.0, title, " font-size=\"17\"");
-}
-
-constexpr const char* grid_style = "stroke=\"#ddd\"";
+constexpr const char* grid_style = "class=\"rule\"";
 
 std::string style_of(std::size_t series) {
   const std::string dash = dashes.at(series / colours.size() % dashes.size());
@@ -127,17 +86,17 @@ void widen(double value, Scale scale, double& low, double& high) {
 std::string grid(const Axis& x, const Axis& y, const LineChart& chart) {
   std::string svg;
   for (const double tick : x.ticks()) {
-    svg += line(x.at(tick), top, x.at(tick), bottom, grid_style);
-    svg += text_at(x.at(tick), bottom + 18.0, short_number(tick), " text-anchor=\"middle\"");
+    svg += svg_line(x.at(tick), top, x.at(tick), bottom, grid_style);
+    svg += svg_text(x.at(tick), bottom + 18.0, short_number(tick), " text-anchor=\"middle\"");
   }
   for (const double tick : y.ticks()) {
-    svg += line(left, y.at(tick), right, y.at(tick), grid_style);
-    svg += text_at(left - 6.0, y.at(tick) + 4.0, short_number(tick), " text-anchor=\"end\"");
+    svg += svg_line(left, y.at(tick), right, y.at(tick), grid_style);
+    svg += svg_text(left - 6.0, y.at(tick) + 4.0, short_number(tick), " text-anchor=\"end\"");
   }
-  svg += text_at(0.5 * (left + right), height - 16.0, chart.x_label, " text-anchor=\"middle\"");
+  svg += svg_text(0.5 * (left + right), height - 16.0, chart.x_label, " text-anchor=\"middle\"");
   const double middle = 0.5 * (top + bottom);
-  svg += text_at(18.0, middle, chart.y_label,
-                 " text-anchor=\"middle\" transform=\"rotate(-90 18 " + fixed(middle) + ")\"");
+  svg += svg_text(18.0, middle, chart.y_label,
+                  " text-anchor=\"middle\" transform=\"rotate(-90 18 " + fixed(middle) + ")\"");
   return svg;
 }
 
@@ -154,7 +113,7 @@ std::string to_svg(const LineChart& chart) {
   }
   const Axis x(chart.x_scale, x_low, x_high, left, right);
   const Axis y(chart.y_scale, y_low, y_high, bottom, top);
-  std::string svg = head(height, chart.title) + grid(x, y, chart);
+  std::string svg = svg_head(width, height, chart.title, left) + grid(x, y, chart);
   for (std::size_t k = 0; k < chart.series.size(); ++k) {
     std::string places;
     std::string dots;
@@ -166,8 +125,8 @@ std::string to_svg(const LineChart& chart) {
     }
     svg += "<polyline points=\"" + places + "\" " + style_of(k) + "/>\n" + dots;
     const double row = top + 12.0 + 20.0 * static_cast<double>(k);
-    svg += line(right + 14.0, row - 4.0, right + 44.0, row - 4.0, style_of(k));
-    svg += text_at(right + 50.0, row, chart.series[k].name, " font-size=\"12\"");
+    svg += svg_line(right + 14.0, row - 4.0, right + 44.0, row - 4.0, style_of(k));
+    svg += svg_text(right + 50.0, row, chart.series[k].name, " font-size=\"12\"");
   }
   return svg + "</svg>\n";
 }
@@ -183,21 +142,21 @@ std::string bars_to_svg(const std::string& title, const std::string& label, std:
   // The shortest bar is still a bar.
   const Axis axis(Scale::logarithmic, 0.5 * low, high, names_end, bars_end);
   const double end = top + row_height * static_cast<double>(bars.size());
-  std::string svg = head(end + 60.0, title);
+  std::string svg = svg_head(width, end + 60.0, title, left);
   for (const double tick : axis.ticks()) {
-    svg += line(axis.at(tick), top - 4.0, axis.at(tick), end, grid_style);
-    svg += text_at(axis.at(tick), end + 18.0, short_number(tick), " text-anchor=\"middle\"");
+    svg += svg_line(axis.at(tick), top - 4.0, axis.at(tick), end, grid_style);
+    svg += svg_text(axis.at(tick), end + 18.0, short_number(tick), " text-anchor=\"middle\"");
   }
   for (std::size_t k = 0; k < bars.size(); ++k) {
     if (!axis.shows(bars[k].value)) continue;
     const double y = top + row_height * static_cast<double>(k);
     const double x = axis.at(bars[k].value);
-    svg += text_at(names_end - 8.0, y + 16.0, bars[k].name, " text-anchor=\"end\" font-size=\"12\"");
+    svg += svg_text(names_end - 8.0, y + 16.0, bars[k].name, " text-anchor=\"end\" font-size=\"12\"");
     svg += "<rect x=\"" + fixed(names_end) + "\" y=\"" + fixed(y + 3.0) + "\" width=\"" + fixed(x - names_end) +
            "\" height=\"18\" fill=\"" + colours.front() + "\"/>\n";
-    svg += text_at(x + 6.0, y + 16.0, short_number(bars[k].value), " font-size=\"12\"");
+    svg += svg_text(x + 6.0, y + 16.0, short_number(bars[k].value), " font-size=\"12\"");
   }
-  svg += text_at(0.5 * (names_end + bars_end), end + 44.0, label, " text-anchor=\"middle\"");
+  svg += svg_text(0.5 * (names_end + bars_end), end + 44.0, label, " text-anchor=\"middle\"");
   return svg + "</svg>\n";
 }
 

@@ -97,4 +97,21 @@ std::string surfaces_csv(const Result& result) {
   return table;
 }
 
+std::string paths_csv(const Room& room, const std::vector<PhotonPath>& paths) {
+  std::string text = "photon,flight,x,y,z,surface,weight,event\n";
+  for (const PhotonPath& path : paths) {
+    for (std::size_t k = 0; k < path.points.size(); ++k) {
+      const PathPoint& point = path.points[k];
+      const std::string_view event = k + 1 == path.points.size() ? to_string(path.end)
+                                     : k == 0                    ? "emitted"
+                                                                 : "reflected";
+      text += std::to_string(path.history) + ',' + std::to_string(k) + ',' + to_text(point.place.x) + ',' +
+              to_text(point.place.y) + ',' + to_text(point.place.z) + ',' +
+              (point.surface == no_surface ? "" : csv_field(room.surfaces[point.surface].name)) + ',' +
+              to_text(point.weight) + ',' + std::string(event) + '\n';
+    }
+  }
+  return text;
+}
+
 }  // namespace lichtmc

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/atomic_file.hpp"
+#include "lichtmc/paths.hpp"
 #include "lichtmc/result.hpp"
 
 namespace lichtmc {
@@ -23,6 +24,12 @@ std::string surfaces_csv(const Result& result);
 
 // A text as a field: in quotes, its own quotes doubled, where it holds a comma, a quote or a line break.
 std::string csv_field(std::string_view text);
+
+// photon,flight,x,y,z,surface,weight,event
+// A row for the start of each path and for the end of each flight: flight 0 is the start; x, y, z in m; surface: its
+// name, empty in the open; weight: that the photon came with; event: "emitted", "reflected", or what became of the
+// photon in the end.
+std::string paths_csv(const Room& room, const std::vector<PhotonPath>& paths);
 
 // receiver,name,x,y,z,nx,ny,nz,irradiance,direct,indirect,standard_error,gain,gain_db,unit
 // One row per receiver: position (m) and the direction that it looks to; irradiance = direct + indirect with its

@@ -5,45 +5,21 @@
 #include <cstdint>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include <ImathVec.h>
-#include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>
-#include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfIntAttribute.h>
-#include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
 
-#include "lichtmc/error.hpp"
 #include "lichtmc/version.hpp"
+#include "output/exr.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-// Collects what OpenEXR writes. It seeks back to fill in its table of offsets.
-class ByteStream final : public Imf::OStream {
- public:
-  ByteStream() : Imf::OStream("tile map") {}
-
-  void write(const char c[], int n) override {
-    const std::size_t end = position_ + static_cast<std::size_t>(n);
-    if (bytes_.size() < end) bytes_.resize(end);
-    std::copy(c, c + n, bytes_.begin() + static_cast<std::ptrdiff_t>(position_));
-    position_ = end;
-  }
-  uint64_t tellp() override { return position_; }
-  void seekp(uint64_t position) override { position_ = position; }
-
-  std::string take() { return std::move(bytes_); }
-
- private:
-  std::string bytes_;
-  std::size_t position_ = 0;
-};
 
 struct Pixels {
   explicit Pixels(std::size_t cells) : irradiance(cells), standard_error(cells), area(cells), direct(cells) {}
@@ -67,7 +43,6 @@ Pixels pixels_of(const Result& result, const TileMap& map) {
 Imf::Header header_of(const Result& result, std::size_t m) {
   const TileMap& map = result.tiling.maps[m];
   Imf::Header header(static_cast<int>(map.columns), static_cast<int>(map.rows));
-  header.compression() = Imf::ZIP_COMPRESSION;
   const auto text = [&header](const char* name, std::string_view value) {
     header.insert(name, Imf::StringAttribute(std::string(value)));
   };
@@ -85,9 +60,6 @@ Imf::Header header_of(const Result& result, std::size_t m) {
   header.insert("uv_max", Imf::V2dAttribute({map.uv_max.x, map.uv_max.y}));
   header.insert("tile_count", Imf::IntAttribute(static_cast<int>(result.surfaces[m].tiles)));
   header.insert("tile_edge_m", Imf::FloatAttribute(static_cast<float>(result.settings.tile_edge_m)));
-  for (const char* channel : {"Y", "standard_error", "area"})
-    header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
-  if (direct_is_apart(result)) header.channels().insert("direct", Imf::Channel(Imf::FLOAT));
   return header;
 }
 
@@ -128,46 +100,37 @@ std::string safe_stem(std::string_view name) {
 
 std::string tile_image(const Result& result, std::size_t m) {
   const TileMap& map = result.tiling.maps[m];
-  try {
-    Pixels pixels = pixels_of(result, map);
-    ByteStream stream;
-    {
-      Imf::OutputFile file(stream, header_of(result, m));
-      Imf::FrameBuffer frame;
-      const auto slice = [&](const char* name, std::vector<float>& channel) {
-        frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(channel.data()), sizeof(float),
-                                      sizeof(float) * map.columns));
-      };
-      slice("Y", pixels.irradiance);
-      slice("standard_error", pixels.standard_error);
-      slice("area", pixels.area);
-      if (direct_is_apart(result)) slice("direct", pixels.direct);
-      file.setFrameBuffer(frame);
-      file.writePixels(static_cast<int>(map.rows));
-    }
-    return stream.take();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw RuntimeError("Cannot make the image of tile map '" + map.name + "' (" + error.what() +
-                       "). Use larger tiles.");
+  Pixels pixels = pixels_of(result, map);
+  std::vector<ExrChannel> channels;
+  channels.push_back({"Y", std::move(pixels.irradiance)});
+  channels.push_back({"standard_error", std::move(pixels.standard_error)});
+  channels.push_back({"area", std::move(pixels.area)});
+  if (direct_is_apart(result)) channels.push_back({"direct", std::move(pixels.direct)});
+  return exr_file(header_of(result, m), std::move(channels), "the image of tile map '" + map.name + "'");
+}
+
+std::vector<std::string> file_stems(const std::vector<std::string>& names) {
+  std::vector<std::string> stems;
+  std::set<std::string> taken;
+  const auto folded = [](std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+  };
+  for (const std::string& name : names) {
+    const std::string stem = safe_stem(name);
+    std::string unique = stem;
+    for (int n = 2; !taken.insert(folded(unique)).second; ++n) unique = stem + "_" + std::to_string(n);
+    stems.push_back(std::move(unique));
   }
+  return stems;
 }
 
 std::vector<std::string> tile_image_names(const Tiling& tiling) {
   std::vector<std::string> names;
-  std::set<std::string> taken;
-  for (const TileMap& map : tiling.maps) {
-    const std::string stem = safe_stem(map.name);
-    const auto folded = [](std::string text) {
-      std::transform(text.begin(), text.end(), text.begin(),
-                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-      return text;
-    };
-    std::string name = stem;
-    for (int n = 2; !taken.insert(folded(name)).second; ++n) name = stem + "_" + std::to_string(n);
-    names.push_back(name + ".exr");
-  }
+  for (const TileMap& map : tiling.maps) names.push_back(map.name);
+  names = file_stems(names);
+  for (std::string& name : names) name += ".exr";
   return names;
 }
 

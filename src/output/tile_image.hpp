@@ -16,8 +16,11 @@ namespace lichtmc {
 // tile_edge_m, lichtmc_version, software, comments. Throws RuntimeError where OpenEXR or the memory refuses.
 std::string tile_image(const Result& result, std::size_t map);
 
-// File names for the tile maps of a result, in UTF-8: a map's name with what file systems dislike turned into '_', cut
-// to 120 bytes, and ".exr"; no two alike, whatever the case of their ASCII letters.
+// Names as parts of file names, in UTF-8: what file systems dislike turned into '_', cut to 120 bytes; no two alike,
+// whatever the case of their ASCII letters.
+std::vector<std::string> file_stems(const std::vector<std::string>& names);
+
+// File names for the tile maps of a result: the maps' names as file_stems() gives them, with ".exr".
 std::vector<std::string> tile_image_names(const Tiling& tiling);
 
 }  // namespace lichtmc

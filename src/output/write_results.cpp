@@ -1,4 +1,3 @@
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/output.hpp"
+#include "output/folder.hpp"
 #include "output/summary.hpp"
 #include "output/tables.hpp"
 #include "output/tile_image.hpp"
@@ -21,52 +21,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The system's words inside a sentence: "permission denied".
-std::string reason_of(const std::error_code& error) {
-  std::string text = error.message();
-  if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
-  return text;
-}
-
 [[noreturn]] void refuse_folder(const fs::path& folder, const std::string& reason) {
   throw InputError("Cannot write into the output folder " + lichtmc::in_quotes(folder.string()) + " (" + reason +
                    "). Choose another folder with --output.");
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw RuntimeError("Cannot make the folder " + lichtmc::in_quotes(folder.string()) + " (" + reason_of(error) +
-                       "). Choose another folder with --output.");
-}
-
-// Maps of an earlier run that this one has not written again. Other files are left alone.
-void remove_foreign_maps(const fs::path& folder, const std::set<std::string>& ours) {
-  std::error_code error;
-  std::vector<fs::path> foreign;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    std::error_code unknown;
-    const bool map = entry->path().extension() == ".exr" && entry->is_regular_file(unknown);
-    if (map && ours.count(entry->path().filename().string()) == 0) foreign.push_back(entry->path());
-  }
-  if (error)
-    throw RuntimeError("Cannot list the folder " + lichtmc::in_quotes(folder.string()) + " (" + reason_of(error) +
-                       "). Choose another folder with --output.");
-  for (const fs::path& file : foreign) {
-    fs::remove(file, error);
-    if (error)
-      throw RuntimeError("Cannot remove the old tile map " + lichtmc::in_quotes(file.string()) + " (" +
-                         reason_of(error) + "). Remove it yourself.");
-  }
-}
-
-void remove_old(const fs::path& file) {
-  std::error_code error;
-  fs::remove(file, error);
-  if (error)
-    throw RuntimeError("Cannot replace " + lichtmc::in_quotes(file.string()) + " (" + reason_of(error) +
-                       "). Choose another folder with --output.");
 }
 
 // Whether a file can be made, filled and removed there, or why not. Permissions alone do not tell: disks are full, or
@@ -91,23 +48,30 @@ void prepare_output(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error) refuse_folder(folder, reason_of(error));
   if (const std::error_code fault = try_to_write(folder)) refuse_folder(folder, reason_of(fault));
-  const fs::path maps = folder / "tiles";
-  if (!fs::exists(maps, error)) return;
-  if (!fs::is_directory(maps, error)) refuse_folder(folder, "'tiles' in it is no folder");
-  if (const std::error_code fault = try_to_write(maps)) refuse_folder(maps, reason_of(fault));
+  for (const char* name : {"tiles", "pictures"}) {
+    const fs::path inner = folder / name;
+    if (!fs::exists(inner, error)) continue;
+    if (!fs::is_directory(inner, error)) refuse_folder(folder, in_quotes(name) + " in it is no folder");
+    if (const std::error_code fault = try_to_write(inner)) refuse_folder(inner, reason_of(fault));
+  }
 }
 
 void write_results(const Room& room, const Result& result, const fs::path& folder) {
   make_folder(folder / "tiles");
   // A summary speaks for all files beside it: none while they change.
   remove_old(folder / "summary.json");
+  remove_report(folder);
 
   // What this run has not computed is not left over from another.
   std::vector<std::string> names;
   if (!result.tiles.empty()) names = tile_image_names(result.tiling);
   for (std::size_t m = 0; m < names.size(); ++m)
     write_file_atomically(folder / "tiles" / names[m], tile_image(result, m));
-  remove_foreign_maps(folder / "tiles", {names.begin(), names.end()});
+  // Maps of an earlier run that this one has not written again. Other files are left alone.
+  const std::set<std::string> ours(names.begin(), names.end());
+  remove_old_files(folder / "tiles", [&](const fs::path& file) {
+    return file.extension() == ".exr" && ours.count(file.filename().string()) == 0;
+  });
   if (!result.tiles.empty()) {
     write_file_atomically(folder / "tiles.csv", [&](const Sink& sink) { write_tiles_csv(result, sink); });
     write_file_atomically(folder / "surfaces.csv", surfaces_csv(result));

@@ -1,0 +1,164 @@
+// A report: pictures, the lit room and the page that shows them.
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <future>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/atomic_file.hpp"
+#include "lichtmc/error.hpp"
+#include "lichtmc/lit_room.hpp"
+#include "lichtmc/output.hpp"
+#include "lichtmc/paths.hpp"
+#include "output/folder.hpp"
+#include "output/picture_svg.hpp"
+#include "output/report.hpp"
+#include "output/tables.hpp"
+#include "output/tile_image.hpp"
+
+namespace lichtmc {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t picture_width = 1200;  // pixels: sharp on a page, and on paper at 18 cm
+constexpr std::size_t picture_height = 820;
+constexpr std::uint64_t most_paths = 10'000;
+
+class Reporting {
+ public:
+  Reporting(const Room& room, const Result& result, const fs::path& folder, const ReportOptions& options)
+      : room_(&room), result_(&result), folder_(&folder), options_(&options) {
+    content_.room = &room;
+    content_.result = &result;
+    content_.command = options.command;
+  }
+
+  void write() {
+    if (!result_->tiles.empty()) {
+      content_.scale = choose_scale(*result_, options_->scale);
+      make_folder(*folder_ / "pictures");
+      draw();
+    }
+    tell("Looking the room over");
+    content_.inspection = inspect(*room_, result_->settings.tile_edge_m);
+    tell("Writing report.html");
+    write_file_atomically(*folder_ / "report.html", report_html(content_));
+  }
+
+ private:
+  void tell(std::string_view what) const {
+    if (options_->progress) options_->progress(what);
+  }
+
+  // A picture with its pixels as a file, encoded once.
+  struct Drawn {
+    std::string name;
+    const Picture* picture = nullptr;
+    std::string png;
+    std::string svg;
+  };
+
+  void write_picture(const std::string& stem, const Drawn& drawn) const {
+    const fs::path pictures = *folder_ / "pictures";
+    write_file_atomically(pictures / (stem + ".png"), drawn.png);
+    write_file_atomically(pictures / (stem + ".svg"), drawn.svg);
+    if (options_->exr_pictures) write_file_atomically(pictures / (stem + ".exr"), exr_of(*drawn.picture, *result_));
+  }
+
+  Drawn room_picture(const std::string& name, const Picture& picture, View view) const {
+    Drawn drawn{name, &picture, png_of(picture), {}};
+    drawn.svg = room_svg(*room_, *result_, picture, drawn.png, content_.scale, view);
+    return drawn;
+  }
+
+  void draw() {
+    tell("Drawing the room");
+    const RoomPainter painter(*room_, *result_, options_->threads);
+    const Picture room = painter.draw(View::corner, content_.scale, picture_width, picture_height);
+    const Picture above = painter.draw(View::above, content_.scale, picture_width, picture_height);
+    // The room's own pictures come first, so that a surface called "room" gets another file.
+    std::vector<Drawn> all{room_picture("room", room, View::corner), room_picture("above", above, View::above)};
+    content_.room_picture = all[0].svg;
+    content_.above_picture = all[1].svg;
+
+    tell("Drawing its surfaces");
+    content_.plans = draw_plans(*room_, *result_, painter.lit_sides(), content_.scale);
+    const std::vector<std::string> names = plan_names(*result_, content_.plans);
+    // Encoding takes longer than drawing: each on a thread of its own, a dozen at most.
+    std::vector<std::future<Drawn>> drawings;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      drawings.push_back(std::async(std::launch::async, [this, &names, k] {
+        const SurfacePlan& plan = content_.plans[k];
+        Drawn drawn{names[k], &plan.picture, png_of(plan.picture), {}};
+        drawn.svg = plan_svg(*result_, plan, drawn.png, content_.scale, names[k]);
+        return drawn;
+      }));
+    }
+    for (std::future<Drawn>& drawing : drawings) {
+      all.push_back(drawing.get());
+      content_.plan_pictures.push_back(all.back().svg);
+    }
+    const std::vector<PhotonPath> paths = trace();
+
+    tell("Writing pictures");
+    std::vector<std::string> stems{"paths"};
+    for (const Drawn& drawn : all) stems.push_back(drawn.name);
+    stems = file_stems(stems);
+    if (!content_.paths_picture.empty())
+      write_file_atomically(*folder_ / "pictures" / (stems[0] + ".svg"), content_.paths_picture);
+    for (std::size_t k = 0; k < all.size(); ++k) write_picture(stems[k + 1], all[k]);
+    content_.lit_room = lit_room_glb(*room_, *result_, painter.lit_sides(), content_.scale, paths);
+    write_file_atomically(*folder_ / "room_lit.glb", content_.lit_room);
+  }
+
+  // The first photons of the run, if they are to be seen.
+  std::vector<PhotonPath> trace() {
+    if (options_->paths == 0) return {};
+    Settings settings = result_->settings;
+    settings.estimator = result_->estimator;
+    std::vector<PhotonPath> paths = trace_paths(*room_, settings, options_->paths);
+    content_.paths_picture = paths_svg(*room_, paths);
+    return paths;
+  }
+
+  const Room* room_;
+  const Result* result_;
+  const fs::path* folder_;
+  const ReportOptions* options_;
+  ReportContent content_;
+};
+
+}  // namespace
+
+// Pictures are known by their SVG's first line; what else lies in the folder is not ours.
+void remove_report(const fs::path& folder) {
+  remove_old(folder / "report.html");
+  remove_old(folder / "room_lit.glb");
+  remove_old_files(folder / "pictures", [](const fs::path& file) {
+    const std::string extension = file.extension().string();
+    if (extension != ".svg" && extension != ".png" && extension != ".exr") return false;
+    std::ifstream svg(fs::path(file).replace_extension(".svg"));
+    std::string line;
+    return std::getline(svg, line) && line.find(" class=\"lichtmc\"") != std::string::npos;
+  });
+}
+
+void write_paths(const Room& room, const std::vector<PhotonPath>& paths, const fs::path& folder) {
+  write_file_atomically(folder / "paths.csv", paths_csv(room, paths));
+  write_file_atomically(folder / "paths.svg", paths_svg(room, paths));
+  write_file_atomically(folder / "paths.glb", paths_glb(paths));
+}
+
+void write_report(const Room& room, const Result& result, const fs::path& folder, const ReportOptions& options) {
+  if (options.paths > most_paths)
+    throw InputError("The number of photon paths is " + std::to_string(options.paths) +
+                     " (allowed: 0 to 10000). Give --paths a smaller number.");
+  remove_report(folder);
+  Reporting(room, result, folder, options).write();
+}
+
+}  // namespace lichtmc
