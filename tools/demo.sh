@@ -6,4 +6,4 @@ tools/install-deps.sh
 cmake --preset release
 cmake --build --preset release
 build/release/bin/lichtmc run scenes/living_room.glb -o out/living_room "$@"
-echo "Illuminance of every surface: $PWD/out/living_room/surfaces.csv"
+echo "The report: $PWD/out/living_room/report.html"

@@ -1,22 +1,23 @@
 #!/usr/bin/env bash
-# Checks with Node.js: every glTF file that the project ships or writes against the Khronos validator. Installs what it
-# needs (Node.js from Debian's packages, the validator from npm into build/web) and builds the program.
+# Checks with Node.js and a browser: every glTF file that the project ships or writes against the Khronos validator;
+# lit rooms in three.js; reports, opened as a person would. Installs what it needs (Node.js and Chromium from Debian's
+# packages, the rest from npm into build/web) and builds the program.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-install_node() {
-  command -v node >/dev/null && command -v npm >/dev/null && return
+install_packages() {
+  command -v node >/dev/null && command -v npm >/dev/null && command -v chromium >/dev/null && return
   local as_root=()
   if [ "$(id -u)" -ne 0 ]; then
     command -v sudo >/dev/null || {
-      echo "test-web.sh: Node.js and npm are missing. Run it as root, or install sudo." >&2
+      echo "test-web.sh: Node.js, npm or Chromium is missing. Run it as root, or install sudo." >&2
       return 1
     }
     as_root=(sudo)
   fi
-  echo "Installing nodejs npm" >&2
+  echo "Installing nodejs npm chromium" >&2
   "${as_root[@]}" apt-get update -qq
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends nodejs npm
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends nodejs npm chromium
 }
 
 # The versions are those of tools/web/package-lock.json. Nothing is fetched where that has been done: the copy of the
@@ -29,7 +30,7 @@ install_web_packages() {
   cp tools/web/package-lock.json build/web/installed.json
 }
 
-install_node
+install_packages
 install_web_packages
 tools/install-deps.sh
 cmake --preset release
@@ -41,4 +42,30 @@ for file in "${written[@]}"; do
   build/release/bin/lichtmc cuboid --size 4 3 5 --reflectance 0.5 --light point:2,2.5,2.5:1000lm -o "$file"
 done
 
-node tools/web/validate.mjs build/web scenes/*.gltf scenes/*.glb "${written[@]}"
+simulated=(cube_paper.gltf living_room.glb l_room.gltf integrating_sphere.glb)
+results=()
+for room in "${simulated[@]}"; do
+  results+=("build/web/out/${room%.*}")
+  build/release/bin/lichtmc run "scenes/$room" --photons 2e5 --paths 20 --quiet -o "${results[-1]}"
+done
+# 100 000 tiles; the other colours and the other scale.
+build/release/bin/lichtmc run scenes/cube_paper.gltf --tile 0.00775 --scale-type log --colormap inferno --quiet \
+  -o build/web/out/many_tiles
+results+=(build/web/out/many_tiles)
+build/release/bin/lichtmc paths scenes/living_room.glb --quiet -o build/web/out/paths
+lit=("${results[@]/%//room_lit.glb}")
+
+status=0
+counts=build/web/counts.txt
+: >"$counts"
+# Each says how many passed and failed in its last line.
+check() {
+  local log=build/web/check.log
+  if ! "$@" 2>&1 | tee "$log"; then status=1; fi
+  tail -1 "$log" >>"$counts"
+}
+check node tools/web/validate.mjs build/web scenes/*.gltf scenes/*.glb "${written[@]}" "${lit[@]}" build/web/out/paths/paths.glb
+check node tools/web/check_lit_room.mjs build/web "${lit[@]}"
+check node tools/web/check_report.mjs build/web "${results[@]}"
+awk '{ passed += $1; failed += $3 } END { printf "%d passed, %d failed\n", passed, failed }' "$counts"
+exit "$status"

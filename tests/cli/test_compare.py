@@ -10,7 +10,7 @@ CUBE = SCENES / "cube_paper.gltf"
 class Compare(ProgramTest):
     def result(self, name, *options):
         out = self.folder / name
-        done = lichtmc("run", CUBE, "-o", out, "--photons", "200k", "--tile", "0.25", "--quiet", *options)
+        done = lichtmc("run", CUBE, "-o", out, "--photons", "200k", "--tile", "0.25", "--quiet", "--no-report", *options)
         self.assertEqual(done.returncode, 0, done.stderr)
         return out
 
@@ -44,7 +44,7 @@ class Compare(ProgramTest):
     def test_ways_that_do_not_go_together(self):
         for options, word in ((("--tiles", "backward", "--direct", "sampled"), "--direct"),
                               (("--tiles", "sideways"), "sideways"), (("--direct", "guessed"), "guessed")):
-            done = lichtmc("run", CUBE, "-o", self.folder / "x", *options)
+            done = lichtmc("run", CUBE, "-o", self.folder / "x", "--no-report", *options)
             self.assertEqual(done.returncode, 2)
             self.assertIn(word, done.stderr)
 

@@ -25,7 +25,7 @@ def digest(path):
 class Run(ProgramTest):
     def run_room(self, *options, room=CUBE):
         out = self.folder / "out"
-        done = lichtmc("run", room, "-o", out, *options)
+        done = lichtmc("run", room, "-o", out, "--no-report", *options)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout, "")
         with open(out / "tiles.csv", newline="") as file:
@@ -56,6 +56,46 @@ class Run(ProgramTest):
         self.assertIn("100k photons", said)
         self.assertIn(str(out), said)
 
+    def test_report(self):
+        out = self.folder / "out"
+        command = ["run", CUBE, "-o", out, "--photons", "20k", "--paths", "7", "--pictures", "exr", "--scale-max", "2.5", "--colormap", "inferno"]
+        done = lichtmc(*command)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(str(out / "report.html"), done.stderr)
+        page = (out / "report.html").read_text()
+        self.assertIn(f"lichtmc run {CUBE} -o {out} --photons 20k --paths 7", page)
+        self.assertIn("7 photon paths", page)
+        self.assertIn('data-high="2.5"', page)
+        self.assertIn('data-colours="inferno"', page)
+        self.assertEqual((out / "room_lit.glb").read_bytes()[:4], b"glTF")
+        pictures = {p.name for p in (out / "pictures").iterdir()}
+        self.assertLessEqual({"room.svg", "room.png", "room.exr", "above.svg", "floor.svg", "paths.svg"}, pictures)
+        # A run without a report does not leave the old one beside its figures.
+        self.assertEqual(lichtmc("run", CUBE, "-o", out, "--photons", "20k", "--no-report").returncode, 0)
+        self.assertFalse((out / "report.html").exists())
+        self.assertEqual(list((out / "pictures").iterdir()), [])
+
+    def test_report_options_are_checked(self):
+        out = self.folder / "out"
+        for options, says in ((["--scale-max", "0"], "number above 0"), (["--scale-type", "even"], "auto, linear, log"),
+                              (["--colormap", "jet"], "viridis, inferno"), (["--pictures", "bmp"], "exr"),
+                              (["--paths", "20000"], "10000"), (["--no-report", "--paths", "5"], "--no-report")):
+            self.refused("run", CUBE, "-o", out, *options, says=[says])
+        self.assertFalse(out.exists())
+
+    def test_paths(self):
+        out = self.folder / "paths"
+        done = lichtmc("paths", CUBE, "-o", out, "--photons", "20", "--seed", "3")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(p.name for p in out.iterdir()), ["paths.csv", "paths.glb", "paths.svg"])
+        with open(out / "paths.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(rows[0]), "photon,flight,x,y,z,surface,weight,event".split(","))
+        self.assertEqual(sum(row["event"] == "emitted" for row in rows), 20)
+        self.assertEqual(sum(row["event"] == "absorbed" for row in rows), 20)
+        self.assertEqual({row["photon"] for row in rows}, {str(k) for k in range(20)})
+        self.refused("paths", CUBE, "-o", out, "--photons", "20k", says=["10000"])
+
     def test_receivers_of_a_table_and_a_grid(self):
         table = self.folder / "points.csv"
         table.write_text("x,y,z,nx,ny,nz,name\n# desk\n0.5,0.2,0.5,0,1,0,\"desk, left\"\n\n0.1,0.5,0.5,1,0,0\n")
@@ -76,7 +116,7 @@ class Run(ProgramTest):
         self.assertIn("18 receivers", said)
 
     def test_only_one_way(self):
-        done = lichtmc("run", CUBE, "-o", self.folder / "out", "--photons", "10k", "--grid", "0.5", "--only", "backward")
+        done = lichtmc("run", CUBE, "-o", self.folder / "out", "--photons", "10k", "--grid", "0.5", "--only", "backward", "--no-report")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()), ["receivers.csv", "summary.json", "tiles"])
         out, summary, _, _ = self.run_room("--photons", "10k", "--grid", "0.5", "--only", "forward")
@@ -150,11 +190,11 @@ class Run(ProgramTest):
         self.assertNotIn("Warning", said)
 
     def test_quiet(self):
-        done = lichtmc("run", CUBE, "-o", self.folder / "out", "--photons", "2000", "--quiet")
+        done = lichtmc("run", CUBE, "-o", self.folder / "out", "--photons", "2000", "--quiet", "--no-report")
         self.assertEqual((done.stdout, done.stderr), ("", ""))
 
     def test_default_output_folder(self):
-        self.assertEqual(lichtmc("run", CUBE, "--photons", "2000", cwd=self.folder).returncode, 0)
+        self.assertEqual(lichtmc("run", CUBE, "--photons", "2000", "--no-report", cwd=self.folder).returncode, 0)
         self.assertTrue((self.folder / "cube_paper.out" / "summary.json").exists())
 
     def test_interrupt_keeps_what_was_simulated(self):

@@ -47,7 +47,7 @@ class Study(ProgramTest):
 class Auto(ProgramTest):
     def test_says_which_and_why(self):
         out = self.folder / "out"
-        done = lichtmc("run", CUBE, "-o", out, "--estimator", "auto", "--photons", "300k", "--tile", "0.25")
+        done = lichtmc("run", CUBE, "-o", out, "--estimator", "auto", "--photons", "300k", "--tile", "0.25", "--no-report")
         self.assertEqual(done.returncode, 0, done.stderr)
         summary = json.loads((out / "summary.json").read_text())
         self.assertIn(summary["estimator"], ("weight", "collision", "absorption"))
@@ -56,7 +56,7 @@ class Auto(ProgramTest):
         self.assertIn(summary["choices"][0], done.stdout + done.stderr)
         # The same as with this estimator from the start.
         fixed = self.folder / "fixed"
-        done = lichtmc("run", CUBE, "-o", fixed, "--estimator", summary["estimator"], "--photons", "300k", "--tile", "0.25")
+        done = lichtmc("run", CUBE, "-o", fixed, "--estimator", summary["estimator"], "--photons", "300k", "--tile", "0.25", "--no-report")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((out / "surfaces.csv").read_text(), (fixed / "surfaces.csv").read_text())
         self.assertEqual(json.loads((fixed / "summary.json").read_text())["choices"], [])

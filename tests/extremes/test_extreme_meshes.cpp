@@ -19,16 +19,9 @@ Result walk_in(const Room& room, double tile_edge_m = 0.1, std::uint64_t seed = 
   return simulate(room, settings_of(Estimator::collision, Engine::embree, photons, seed, tile_edge_m));
 }
 
-std::size_t index_of(const Room& room, std::string_view name) {
-  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
-    if (room.surfaces[k].name == name) return k;
-  }
-  throw std::logic_error("no surface " + std::string(name));
-}
-
 // Takes a surface's triangles and UVs away.
 Surface& cleared(Room& room, std::string_view name) {
-  Surface& surface = room.surfaces[index_of(room, name)];
+  Surface& surface = room.surfaces[surface_number(room, name)];
   surface.positions.clear();
   surface.uvs.clear();
   surface.triangles.clear();
@@ -132,7 +125,7 @@ TEST_CASE("extreme: a triangle that is there twice takes no light twice") {
   const Room plain = unit_cube(0.6, paper_emitter());
   for (const bool turned : {false, true}) {
     Room room = plain;
-    Surface& floor = room.surfaces[index_of(room, "floor")];
+    Surface& floor = room.surfaces[surface_number(room, "floor")];
     const glm::uvec3 first = floor.triangles[0];
     floor.triangles.push_back(turned ? glm::uvec3(first.x, first.z, first.y) : first);
     const Result twice = walk_in(room, 0.1, 2);
@@ -149,7 +142,7 @@ TEST_CASE("extreme: a triangle that is there twice takes no light twice") {
 TEST_CASE("extreme: a second floor in the first one's place, turned over, with another reflectance") {
   // Which of the two a photon meets is not defined; that each lands on one of them is.
   Room room = unit_cube(0.6, paper_emitter());
-  Surface second = room.surfaces[index_of(room, "floor")];
+  Surface second = room.surfaces[surface_number(room, "floor")];
   second.name = "second";
   second.reflectance = 0.2;
   for (glm::uvec3& triangle : second.triangles) std::swap(triangle.y, triangle.z);
@@ -166,7 +159,7 @@ TEST_CASE("extreme: a second floor in the first one's place, turned over, with a
 TEST_CASE("extreme: triangles without area change not a digit") {
   const Room plain = unit_cube(0.6, paper_emitter());
   Room room = plain;
-  Surface& floor = room.surfaces[index_of(room, "floor")];
+  Surface& floor = room.surfaces[surface_number(room, "floor")];
   const auto first = static_cast<std::uint32_t>(floor.positions.size());
   for (const double x : {0.25, 0.5, 0.75}) {
     floor.positions.emplace_back(x, 0.0, 0.5);

@@ -167,10 +167,7 @@ TEST_CASE("extreme: round the corner of an L no light goes straight") {
   Room room = read_gltf(std::string(LICHTMC_SCENES) + "/l_room.gltf");
   for (Surface& surface : room.surfaces) surface.reflectance = 0.0;
   room.receivers.clear();
-  std::size_t end = room.surfaces.size();
-  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
-    if (room.surfaces[k].name == "end_wall_z2") end = k;
-  }
+  const std::size_t end = surface_number(room, "end_wall_z2");
   REQUIRE(end < room.surfaces.size());
   room.emitters = {surface_emitter(end, 1.0)};
   CHECK(power_on(walk_in(room), "end_wall_x2") == 0.0);

@@ -134,9 +134,7 @@ TEST_CASE("extreme: a room of 1 m × 1 m between walls a micrometre apart") {
     check_shares({{lit.incident, lit.incident_standard_error, 1.0 / (1.0 - rho), 0.0}});
     // From one wall to the other: all but 2·10⁻⁶ of the light, which is what the four slits get.
     room = make_cuboid({gap, 1.0, 1.0}, uniform_reflectance(0.0));
-    for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
-      if (room.surfaces[k].name == "wall_x0") room.emitters.push_back(surface_emitter(k, 1.0));
-    }
+    room.emitters.push_back(surface_emitter(surface_number(room, "wall_x0"), 1.0));
     const Result across = walk_in(room, engine, 0.25);
     CHECK(power_on(across, "wall_x0") == 0.0);
     // 2·10⁵ · 2·10⁻⁶: 0.4 photons in the slits; more than 8 have a probability below 10⁻⁹.

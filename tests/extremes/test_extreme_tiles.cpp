@@ -19,10 +19,7 @@ Result walk_in(const Room& room, Engine engine, double tile_edge_m) {
 }
 
 Surface& floor_of(Room& room) {
-  for (Surface& surface : room.surfaces) {
-    if (surface.name == "floor") return surface;
-  }
-  throw std::logic_error("no floor");
+  return room.surfaces[surface_number(room, "floor")];
 }
 
 // A cube whose floor has these texture coordinates for its places (x, z).

@@ -16,6 +16,7 @@ BELOW = {
     "walk": ["base", "chance", "room", "tracer"],
     "run": ["base", "chance", "room", "tracer", "walk"],
     "inspect": ["base", "chance", "room", "tracer", "walk", "run"],
+    "view": ["base", "chance", "room", "tracer", "walk", "run"],
     "gltf": ["base", "chance", "room"],
     "output": ["base", "chance", "room"],
 }
@@ -25,9 +26,10 @@ PUBLIC = {
     "room": "room", "cuboid": "room", "mend": "room", "tiles": "room",
     "settings": "room",  # plain data that every floor may read
     "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
-    "gltf": "gltf", "output": "output", "compare": "output",
+    "paths": "walk", "picture": "view",
+    "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output",
 }
-WINGS_SEE_RESULTS = {"output": ["result", "inspect", "study"], "gltf": []}
+WINGS_SEE_RESULTS = {"output": ["result", "inspect", "study", "picture", "paths", "lit_room"], "gltf": ["result", "picture", "paths"]}
 # Libraries that one file or folder alone may name.
 LIBRARIES = {
     r"embree\d?/": ["src/tracer/embree.hpp"],
@@ -36,7 +38,7 @@ LIBRARIES = {
     r"CLI/": ["apps/"],
     r"draco/": ["src/gltf/"],
     r"meshoptimizer": ["src/gltf/"],
-    r"stb/": ["src/gltf/", "src/output/"],
+    r"stb/": ["src/base/", "src/gltf/"],
     r"hwy/": ["src/chance/", "src/walk/"],
     r"libfccp": ["src/output/"],
 }

@@ -32,16 +32,13 @@ Emitter paper_emitter() {
 }
 
 Room without_surface(Room room, const std::string& name) {
-  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
-    if (room.surfaces[k].name != name) continue;
-    room.surfaces.erase(room.surfaces.begin() + static_cast<std::ptrdiff_t>(k));
-    for (Emitter& emitter : room.emitters) {
-      auto* surface = std::get_if<SurfaceEmitter>(&emitter.shape);
-      if (surface != nullptr && surface->surface > k) --surface->surface;
-    }
-    return room;
+  const std::size_t k = surface_number(room, name);
+  room.surfaces.erase(room.surfaces.begin() + static_cast<std::ptrdiff_t>(k));
+  for (Emitter& emitter : room.emitters) {
+    auto* surface = std::get_if<SurfaceEmitter>(&emitter.shape);
+    if (surface != nullptr && surface->surface > k) --surface->surface;
   }
-  throw std::logic_error("no surface " + name);
+  return room;
 }
 
 Settings settings_of(Estimator estimator, Engine engine, double photons, std::uint64_t seed, double tile_edge_m) {
@@ -53,6 +50,13 @@ Settings settings_of(Estimator estimator, Engine engine, double photons, std::ui
   settings.tile_edge_m = tile_edge_m;
   settings.ways = Ways::forward;
   return settings;
+}
+
+std::size_t surface_number(const Room& room, std::string_view name) {
+  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
+    if (room.surfaces[k].name == name) return k;
+  }
+  throw std::logic_error("no surface " + std::string(name));
 }
 
 const SurfaceResult& surface_named(const Result& result, std::string_view name) {

@@ -30,6 +30,9 @@ Room without_surface(Room room, const std::string& name);
 // Settings for tests of the forward walk: threads and reports do not matter, the seed does.
 Settings settings_of(Estimator estimator, Engine engine, double photons, std::uint64_t seed, double tile_edge_m = 0.1);
 
+// The number of a room's surface.
+std::size_t surface_number(const Room& room, std::string_view name);
+
 const SurfaceResult& surface_named(const Result& result, std::string_view name);
 
 // Irradiance of the tiles of one map against an expectation for each tile. Hits follow Poisson's law, which is not near

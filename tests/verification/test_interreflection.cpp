@@ -197,10 +197,7 @@ TEST_CASE("L-room: end walls round the corner do not see each other") {
   // sight that grazes the re-entrant edge.
   Room room = read_gltf(std::string(LICHTMC_SCENES) + "/l_room.gltf");
   for (Surface& surface : room.surfaces) surface.reflectance = 0.0;
-  std::size_t end = room.surfaces.size();
-  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
-    if (room.surfaces[k].name == "end_wall_z2") end = k;
-  }
+  const std::size_t end = surface_number(room, "end_wall_z2");
   REQUIRE(end < room.surfaces.size());
   room.emitters = {surface_emitter(end, 1000.0)};
   const Result result = simulate(room, settings_of(Estimator::collision, Engine::embree, 4e6, 55));

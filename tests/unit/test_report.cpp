@@ -1,0 +1,149 @@
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "lichtmc/error.hpp"
+#include "lichtmc/lichtmc.hpp"
+#include "output/svg.hpp"
+#include "support/catch.hpp"
+#include "support/rooms.hpp"
+#include "support/small_result.hpp"
+
+using namespace lichtmc;
+using namespace lichtmc::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::set<std::string> files_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+// A cube with names that would break a page, and receivers.
+Room difficult_room() {
+  Room room = unit_cube(0.5, paper_emitter());
+  room.source = "a <b> & \"c\".glb";
+  room.surfaces[0].name = "<script>alert(1)</script>";
+  room.surfaces[1].name = "room";
+  room.receivers.push_back({"here & there", {0.5, 0.2, 0.5}});
+  return room;
+}
+
+Result simulate_it(const Room& room) {
+  Settings settings = settings_of(Estimator::collision, Engine::automatic, 5e4, 1, 0.25);
+  settings.ways = Ways::all;
+  return simulate(room, settings);
+}
+
+}  // namespace
+
+TEST_CASE("report: it is one page with pictures, tables and the command, and every name is text") {
+  const Room room = difficult_room();
+  const Folder folder;
+  ReportOptions options;
+  options.command = "lichtmc run 'a <b>.glb'";
+  options.paths = 5;
+  options.exr_pictures = true;
+  std::vector<std::string> steps;
+  options.progress = [&steps](std::string_view what) { steps.emplace_back(what); };
+  write_report(room, simulate_it(room), folder.path(), options);
+  CHECK(steps.size() >= 3);
+  CHECK(files_in(folder.path()) == std::set<std::string>{"pictures", "report.html", "room_lit.glb"});
+  const std::set<std::string> pictures = files_in(folder.path() / "pictures");
+  // Two of the room and six walls, three forms each; the paths as SVG alone.
+  CHECK(pictures.size() == 25);
+  for (const char* name : {"room.svg", "room.png", "room.exr", "above.svg", "paths.svg", "room_2.svg"}) {
+    INFO(name);
+    CHECK(pictures.count(name) == 1);
+  }
+  const std::string page = text_of(folder.path() / "report.html");
+  CHECK(page.starts_with("<!DOCTYPE html>"));
+  CHECK(page.find("<script>alert(1)") == std::string::npos);
+  CHECK(page.find("&lt;script&gt;alert(1)&lt;/script&gt;") != std::string::npos);
+  CHECK(page.find("lichtmc run 'a &lt;b&gt;.glb'") != std::string::npos);
+  CHECK(page.find("here &amp; there") != std::string::npos);
+  for (const char* id :
+       {"id=\"surfaces\"", "id=\"receivers\"", "id=\"view3d\"", "id=\"room-lit\"", "id=\"picture-paths\""})
+    CHECK(page.find(id) != std::string::npos);
+  // Nothing is fetched: no address but those that name XML's vocabulary.
+  for (std::size_t at = page.find("http"); at != std::string::npos; at = page.find("http", at + 1))
+    CHECK(page.substr(at, 26) == "http://www.w3.org/2000/svg");
+}
+
+TEST_CASE("report: results of receivers alone have a page without pictures") {
+  const Room room = difficult_room();
+  Settings settings = settings_of(Estimator::collision, Engine::automatic, 5e3, 1, 0.25);
+  settings.ways = Ways::backward;
+  const Folder folder;
+  write_report(room, simulate(room, settings), folder.path());
+  CHECK(files_in(folder.path()) == std::set<std::string>{"report.html"});
+  CHECK(text_of(folder.path() / "report.html").find("id=\"receivers\"") != std::string::npos);
+}
+
+TEST_CASE("report: an older one is removed, what else lies in its folder is not") {
+  const Room room = unit_cube(0.5, paper_emitter());
+  const Result result = simulate_it(room);
+  const Folder folder;
+  write_report(room, result, folder.path());
+  std::ofstream(folder.path() / "pictures" / "mine.png") << "mine";
+  std::ofstream(folder.path() / "pictures" / "mine.svg") << "<svg>\n";
+  write_results(room, result, folder.path());
+  CHECK(files_in(folder.path() / "pictures") == std::set<std::string>{"mine.png", "mine.svg"});
+  CHECK_FALSE(fs::exists(folder.path() / "report.html"));
+  CHECK_FALSE(fs::exists(folder.path() / "room_lit.glb"));
+}
+
+TEST_CASE("report: a thousand times as many paths as can be seen are refused") {
+  const Room room = unit_cube(0.5, paper_emitter());
+  const Folder folder;
+  ReportOptions options;
+  options.paths = 10'001;
+  CHECK_THROWS_AS(write_report(room, simulate_it(room), folder.path(), options), InputError);
+}
+
+TEST_CASE("lit room: it has every triangle of the room where it is, and the irradiance as numbers") {
+  const Room room = read_gltf(std::string(LICHTMC_SCENES) + "/living_room.glb");
+  const Result result = simulate(room, settings_of(Estimator::collision, Engine::automatic, 5e4, 1, 0.25));
+  const RoomPainter painter(room, result);
+  const Folder folder;
+  const fs::path file = folder.path() / "room_lit.glb";
+  const std::string bytes = lit_room_glb(room, result, painter.lit_sides(), choose_scale(result));
+  std::ofstream(file, std::ios::binary) << bytes;
+  const Room lit = read_gltf(file);
+  double area = 0.0;
+  double lit_area = 0.0;
+  for (const Surface& surface : room.surfaces) area += surface_area(surface);
+  for (const Surface& surface : lit.surfaces) lit_area += surface_area(surface);
+  // Triangles of two-sided surfaces that get light on both sides are there once for each.
+  CHECK(lit_area >= area * (1.0 - 1e-6));
+  CHECK(lit_area <= 1.3 * area);
+  CHECK(bytes.find("KHR_materials_unlit") != std::string::npos);
+  CHECK(bytes.find("\"standard_error\":") != std::string::npos);
+  // The floor's irradiance, row by row, as it lies in the file.
+  const SurfaceResult& floor = surface_named(result, "floor");
+  std::vector<float> values;
+  for (std::size_t m = 0; m < result.surfaces.size(); ++m) {
+    if (result.surfaces[m].name != "floor") continue;
+    for (const std::uint32_t tile : result.tiling.maps[m].tile_of_cell)
+      values.push_back(static_cast<float>(result.tiles[tile].irradiance));
+  }
+  REQUIRE(values.size() == floor.tiles);
+  CHECK(bytes.find(std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float))) !=
+        std::string::npos);
+}
+
+TEST_CASE("svg: text is escaped, and control characters that XML does not allow are replaced") {
+  CHECK(escaped("a<b>&\"c\x01\t") == "a&lt;b&gt;&amp;&quot;c?\t");
+}
