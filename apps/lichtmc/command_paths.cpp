@@ -29,9 +29,9 @@ void run(const PathsCommand& command) {
   settings.seed = parse_seed(command.seed, "--seed");
   const std::uint64_t count = parse_count(command.photons, "--photons");
   constexpr std::uint64_t most = 10'000;
-  if (count > most)
+  if (count < 1 || count > most)
     throw InputError("The number of photons is " + command.photons +
-                     " (allowed: 1 to 10000). Give --photons a smaller number.");
+                     " (allowed: 1 to 10000). Give --photons such a number.");
   const Room room = read_room(command.reading);
   check_room(room);
   const std::filesystem::path folder = command.output.empty()
