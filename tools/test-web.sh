@@ -5,19 +5,24 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+# Each program's package has its name, but node's. What is there already, from wherever, is left as it is.
 install_packages() {
-  command -v node >/dev/null && command -v npm >/dev/null && command -v chromium >/dev/null && return
+  local missing=()
+  command -v node >/dev/null || missing+=(nodejs)
+  command -v npm >/dev/null || missing+=(npm)
+  command -v chromium >/dev/null || missing+=(chromium)
+  [ ${#missing[@]} -eq 0 ] && return
   local as_root=()
   if [ "$(id -u)" -ne 0 ]; then
     command -v sudo >/dev/null || {
-      echo "test-web.sh: Node.js, npm or Chromium is missing. Run it as root, or install sudo." >&2
+      echo "test-web.sh: these packages are missing: ${missing[*]}. Run it as root, or install sudo." >&2
       return 1
     }
     as_root=(sudo)
   fi
-  echo "Installing nodejs npm chromium" >&2
+  echo "Installing ${missing[*]}" >&2
   "${as_root[@]}" apt-get update -qq
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends nodejs npm chromium
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
 
 # The versions are those of tools/web/package-lock.json. Nothing is fetched where that has been done: the copy of the
