@@ -15,6 +15,20 @@ endif()
 find_package(draco REQUIRED)
 find_package(hwy REQUIRED)
 find_package(meshoptimizer REQUIRED)
+# HDF5 and xxHash come without CMake packages that both releases have.
+if(NOT TARGET lichtmc_hdf5)
+  find_library(LICHTMC_HDF5_LIBRARY NAMES hdf5_serial hdf5 REQUIRED)
+  find_path(LICHTMC_HDF5_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
+  find_library(LICHTMC_XXHASH_LIBRARY xxhash REQUIRED)
+  find_path(LICHTMC_XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
+  mark_as_advanced(LICHTMC_HDF5_LIBRARY LICHTMC_HDF5_INCLUDE_DIR LICHTMC_XXHASH_LIBRARY LICHTMC_XXHASH_INCLUDE_DIR)
+  add_library(lichtmc_hdf5 UNKNOWN IMPORTED)
+  set_target_properties(lichtmc_hdf5 PROPERTIES IMPORTED_LOCATION ${LICHTMC_HDF5_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${LICHTMC_HDF5_INCLUDE_DIR})
+  add_library(lichtmc_xxhash UNKNOWN IMPORTED)
+  set_target_properties(lichtmc_xxhash PROPERTIES IMPORTED_LOCATION ${LICHTMC_XXHASH_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${LICHTMC_XXHASH_INCLUDE_DIR})
+endif()
 # stb comes without a CMake package.
 if(NOT TARGET stb::stb)
   find_library(LICHTMC_STB_LIBRARY stb REQUIRED)

@@ -12,6 +12,7 @@ packages=(
   libmeshoptimizer-dev                       # compressed meshes
   libstb-dev                                 # pictures
   libopenexr-dev                             # tile maps as images
+  libhdf5-dev libxxhash-dev                  # states of runs, their checksums
   libhwy-dev                                 # random numbers in lanes
   libfccp-dev                                # tables read back
   libcli11-dev                               # the command line

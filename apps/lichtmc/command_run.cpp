@@ -1,328 +1,40 @@
 // lichtmc run: the main job, irradiance of every tile of a room.
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "commands.hpp"
-#include "interrupt.hpp"
-#include "lichtmc/error.hpp"
-#include "lichtmc/output.hpp"
-#include "lichtmc/receivers.hpp"
-#include "lichtmc/simulate.hpp"
 #include "light_spec.hpp"
-#include "outcome.hpp"
-#include "progress_line.hpp"
-#include "quantities.hpp"
-#include "receiver_table.hpp"
-#include "room_options.hpp"
+#include "run_job.hpp"
+#include "run_options.hpp"
 
 namespace lichtmc::app {
 
 namespace {
 
-struct RunOptions {
-  RoomOptions reading;
-  std::string output;
-  std::string estimator = "collision";
-  std::optional<std::string> photons;
-  std::optional<std::string> target_error, max_time, max_bounces;
-  std::string tile = "0.1";
-  std::string seed = "1";
-  std::optional<int> threads;
-  std::string engine = "auto";
-  std::optional<std::string> direct;
-  std::string tiles = "forward";
-  std::optional<std::string> receivers, grid, grid_spacing, only;
-  bool report = true;
-  std::optional<std::string> pictures, paths, scale_max;
-  std::string scale_type = "auto";
-  std::string colour_map = "viridis";
-  bool quiet = false;
-};
-
-Estimator parse_estimator(const std::string& text) {
-  if (text == "weight" || text == "1") return Estimator::weight;
-  if (text == "collision" || text == "2") return Estimator::collision;
-  if (text == "absorption" || text == "3") return Estimator::absorption;
-  if (text == "auto") return Estimator::automatic;
-  throw InputError(
-      "The estimator '" + text +
-      "' is not known (allowed: weight, collision, absorption, or 1, 2, 3; auto). Give one of these to --estimator.");
-}
-
-Engine parse_engine(const std::string& text) {
-  if (text == "auto") return Engine::automatic;
-  if (text == "cuboid") return Engine::cuboid;
-  if (text == "embree") return Engine::embree;
-  if (text == "embree-fast") return Engine::embree_fast;
-  throw InputError("The engine '" + text +
-                   "' is not known (allowed: auto, cuboid, embree, embree-fast). Give one of these to --engine.");
-}
-
-Ways parse_ways(const std::string& text) {
-  if (text == "forward") return Ways::forward;
-  if (text == "backward") return Ways::backward;
-  throw InputError(
-      "The way '" + text +
-      "' is not known (allowed: forward, backward). Give one of these to --only, or leave it out for both.");
-}
-
-TileWalk parse_tiles(const std::string& text) {
-  if (text == "forward") return TileWalk::forward;
-  if (text == "backward") return TileWalk::backward;
-  throw InputError("The way '" + text +
-                   "' to measure tiles is not known (allowed: forward, backward). Give one of these to --tiles.");
-}
-
-Direct parse_direct(const std::string& text, TileWalk tiles) {
-  if (text == "sampled" && tiles == TileWalk::backward) {
-    throw InputError(
-        "Walks from the tiles do not count direct light (--direct sampled with --tiles backward; allowed: analytic). "
-        "Leave out --direct.");
-  }
-  if (text == "sampled") return Direct::sampled;
-  if (text == "analytic") return Direct::analytic;
-  throw InputError("The way '" + text +
-                   "' to find direct light is not known (allowed: sampled, analytic). Give one of these to --direct.");
-}
-
-// Receivers of the command line beside those of the room.
-void add_receivers(Room& room, const RunOptions& options) {
-  std::vector<Receiver> more;
-  if (options.receivers) more = read_receivers(*options.receivers);
-  room.receivers.insert(room.receivers.end(), more.begin(), more.end());
-  if (options.grid_spacing && !options.grid)
-    throw InputError("--grid-spacing is given without --grid. Give --grid the height of the grid, for example 0.85.");
-  if (!options.grid) return;
-  more = receiver_grid(room, parse_number(*options.grid, "--grid"),
-                       parse_number(options.grid_spacing.value_or("0.5"), "--grid-spacing"));
-  room.receivers.insert(room.receivers.end(), more.begin(), more.end());
-}
-
-Settings parse_settings(const RunOptions& options) {
-  Settings settings;
-  settings.estimator = parse_estimator(options.estimator);
-  // Another stop rule alone decides by itself.
-  constexpr std::uint64_t no_limit = std::uint64_t{1} << 62;
-  if (options.target_error || options.max_time) settings.photons = no_limit;
-  if (options.photons) settings.photons = parse_count(*options.photons, "--photons");
-  if (options.target_error) settings.target_error = parse_share(*options.target_error, "--target-error");
-  if (options.max_time) settings.max_seconds = parse_seconds(*options.max_time, "--max-time");
-  if (options.max_bounces) {
-    constexpr std::uint64_t most = 4'000'000'000;
-    const std::uint64_t bounces = parse_count(*options.max_bounces, "--max-bounces");
-    if (bounces > most)
-      throw InputError("The number of bounces is " + *options.max_bounces +
-                       " (allowed: 1 to 4e9). Give --max-bounces a smaller number.");
-    settings.max_bounces = static_cast<std::uint32_t>(bounces);
-  }
-  settings.tile_edge_m = parse_number(options.tile, "--tile");
-  settings.seed = parse_seed(options.seed, "--seed");
-  settings.threads = parse_threads(options.threads);
-  settings.engine = parse_engine(options.engine);
-  if (options.only) settings.ways = parse_ways(*options.only);
-  settings.tiles = parse_tiles(options.tiles);
-  if (options.direct) settings.direct = parse_direct(*options.direct, settings.tiles);
-  return settings;
-}
-
-ScaleType parse_scale_type(const std::string& text) {
-  if (text == "auto") return ScaleType::automatic;
-  if (text == "linear") return ScaleType::linear;
-  if (text == "log") return ScaleType::logarithmic;
-  throw InputError("The type of scale '" + text +
-                   "' is not known (allowed: auto, linear, log). Give one of these to --scale-type.");
-}
-
-ColourMap parse_colour_map(const std::string& text) {
-  if (text == "viridis") return ColourMap::viridis;
-  if (text == "inferno") return ColourMap::inferno;
-  throw InputError("The colour map '" + text +
-                   "' is not known (allowed: viridis, inferno). Give one of these to --colormap.");
-}
-
-ReportOptions parse_report(const RunOptions& options, const std::string& command_line) {
-  ReportOptions report;
-  report.command = command_line;
-  report.scale.type = parse_scale_type(options.scale_type);
-  report.scale.colours = parse_colour_map(options.colour_map);
-  if (options.scale_max) {
-    report.scale.high = parse_number(*options.scale_max, "--scale-max");
-    if (!(*report.scale.high > 0.0))
-      throw InputError(
-          "The top of the colour scale is " + *options.scale_max +
-          " (allowed: a number above 0, in lx or W/m^2). Give --scale-max such a number, or leave it out.");
-  }
-  if (options.pictures && *options.pictures != "exr")
-    throw InputError("The form of pictures '" + *options.pictures +
-                     "' is not known (allowed: exr). Give it to --pictures, or leave it out for SVG and PNG.");
-  report.exr_pictures = options.pictures.has_value();
-  constexpr std::uint64_t most_paths = 10'000;
-  if (options.paths) report.paths = parse_count(*options.paths, "--paths");
-  if (report.paths > most_paths)
-    throw InputError("The number of photon paths is " + *options.paths +
-                     " (allowed: 1 to 10000). Give --paths a smaller number.");
-  const bool asked = options.scale_max || options.pictures || options.paths;
-  if (!options.report && asked)
-    throw InputError("--scale-max, --pictures and --paths are about the report (--no-report is given). Leave one out.");
-  report.threads = parse_threads(options.threads);
-  return report;
-}
-
-void run(const RunOptions& options, const std::string& command_line) {
+void run(const RunOptions& options, const Started& started) {
   const Settings settings = parse_settings(options);
-  ReportOptions report = parse_report(options, command_line);
-  Room room = read_room(options.reading);
-  add_receivers(room, options);
-  check_room(room);
-  const std::filesystem::path folder = options.output.empty()
-                                           ? std::filesystem::path(options.reading.file).stem().concat(".out")
-                                           : std::filesystem::path(options.output);
-  prepare_output(folder);
-
-  const auto show = options.quiet ? ProgressLine::Show::no : ProgressLine::Show::yes;
-  const InterruptWatch interrupt;
-  Result result;
-  {
-    ProgressLine line(show, settings);
-    Control control;
-    control.stop = interrupt.token();
-    control.progress = [&line](const Progress& progress) { line.update(progress); };
-    result = simulate(room, settings, control);
-  }
-  write_results(room, result, folder);
-  if (options.report) {
-    StepLine line(show);
-    report.progress = [&line](std::string_view what) { line.tell(what); };
-    write_report(room, result, folder, report);
-  }
-  if (!options.quiet) print_outcome(result, folder, options.report);
-}
-
-void add_options(CLI::App& command, RunOptions& options) {
-  add_room_argument(command, options.reading);
-  command.add_option("-o,--output", options.output, "Folder for the results [name of ROOM with .out]")
-      ->type_name("DIR");
-
-  const std::string accuracy = "How long to simulate (the first rule to be met ends the run)";
-  command
-      .add_option("--photons", options.photons,
-                  "Number of light packets: 1000000, 1e6, 10M, 2G [1e6, or no limit where another rule is given]")
-      ->type_name("N")
-      ->group(accuracy);
-  command
-      .add_option("--target-error", options.target_error,
-                  "Stop at this relative standard error of the tiles (area-weighted rms): 1% or 0.01")
-      ->type_name("P")
-      ->group(accuracy);
-  command.add_option("--max-time", options.max_time, "Stop after this time: 60s, 5min, 2h")
-      ->type_name("T")
-      ->group(accuracy);
-
-  const std::string method = "How to simulate";
-  command.add_option("--tile", options.tile, "Edge of a tile in metres")
-      ->type_name("M")
-      ->capture_default_str()
-      ->group(method);
-  command
-      .add_option("--estimator", options.estimator,
-                  "weight, collision or absorption (or 1, 2, 3): same mean, other errors; collision suits most rooms. "
-                  "auto: the "
-                  "best of them, by a short pilot of each")
-      ->type_name("NAME")
-      ->capture_default_str()
-      ->group(method);
-  command
-      .add_option("--direct", options.direct,
-                  "Light straight from the lamps: sampled by the photons, or analytic, integrated over each tile")
-      ->type_name("HOW")
-      ->default_str("sampled")
-      ->group(method);
-  command
-      .add_option(
-          "--tiles", options.tiles,
-          "forward: photons from the lamps are counted on the tiles; backward: walks from random points of each "
-          "tile back to the light")
-      ->type_name("WAY")
-      ->capture_default_str()
-      ->group(method);
-  command
-      .add_option("--max-bounces", options.max_bounces,
-                  "With --estimator weight: cut histories off after N flights [roulette, unbiased]")
-      ->type_name("N")
-      ->group(method);
-  command.add_option("--seed", options.seed, "Selects the random numbers: the same seed gives the same digits")
-      ->type_name("S")
-      ->capture_default_str()
-      ->group(method);
-  command.add_option("--threads", options.threads, "Number of threads [one per processor]")
-      ->type_name("N")
-      ->group(method);
-  command
-      .add_option("--engine", options.engine,
-                  "How flights are traced: auto, cuboid (closed form, empty cuboids only), embree, or embree-fast (may "
-                  "lose a photon in many millions at edges)")
-      ->type_name("NAME")
-      ->capture_default_str()
-      ->group(method);
-
-  const std::string points = "Points to measure at, besides the tiles";
-  command
-      .add_option("--receivers", options.receivers,
-                  "Table of receivers, x,y,z,nx,ny,nz[,name] in metres, one row each; - for stdin")
-      ->type_name("FILE.csv")
-      ->group(points);
-  command.add_option("--grid", options.grid, "A grid of points that look up, this many metres above the floor")
-      ->type_name("H")
-      ->group(points);
-  command.add_option("--grid-spacing", options.grid_spacing, "Distance between points of the grid in metres [0.5]")
-      ->type_name("M")
-      ->group(points);
-  command.add_option("--only", options.only, "forward: tiles only; backward: receivers only")
-      ->type_name("WAY")
-      ->group(points);
-
-  const std::string looks = "The report: report.html, room_lit.glb and pictures/";
-  command.add_flag("--report,!--no-report", options.report, "Write it [yes]")->group(looks);
-  command
-      .add_option("--scale-max", options.scale_max,
-                  "What the top colour stands for, in lx or W/m^2 [chosen from the tiles]")
-      ->type_name("E")
-      ->group(looks);
-  command
-      .add_option("--scale-type", options.scale_type,
-                  "linear, log (three decades), or auto: log where a few places are far brighter than the rest")
-      ->type_name("TYPE")
-      ->capture_default_str()
-      ->group(looks);
-  command.add_option("--colormap", options.colour_map, "viridis or inferno")
-      ->type_name("NAME")
-      ->capture_default_str()
-      ->group(looks);
-  command.add_option("--paths", options.paths, "Show the paths of the first N photons, up to 10000 [none]")
-      ->type_name("N")
-      ->group(looks);
-  command.add_option("--pictures", options.pictures, "exr: the pictures as OpenEXR too")
-      ->type_name("FORM")
-      ->group(looks);
-
-  add_room_options(command, options.reading);
-  command.add_flag("--quiet", options.quiet, "No progress, no summary; only errors");
+  RunJob job;
+  job.settings = settings;
+  job.report = parse_report(options.looks, options.threads, started.command_line);
+  job.with_report = wants_report(options.looks);
+  job.checkpoint_seconds = parse_checkpoint(options.checkpoint);
+  job.note = note_of(started.arguments);
+  job.quiet = options.quiet;
+  job.folder = options.output.empty() ? std::filesystem::path(options.reading.file).stem().concat(".out")
+                                      : std::filesystem::path(options.output);
+  job.team = started.team;
+  job.room = read_run_room(options);
+  carry_out(job, [&](const Control& control) { return simulate(job.room, settings, control); });
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& program, const std::string& command_line) {
+void add_run_command(CLI::App& program, const Started& started) {
   CLI::App* command =
       program.add_subcommand("run", "Simulate a room: irradiance of every tile, with its standard error");
   auto options = std::make_shared<RunOptions>();
-  add_options(*command, *options);
+  add_run_options(*command, *options);
   command->footer(
       std::string(
           "Light packets (photons) fly from the lamps until they are absorbed or leave through an opening. Results: "
@@ -335,7 +47,7 @@ void add_run_command(CLI::App& program, const std::string& command_line) {
       "  lichtmc run office.glb --grid 0.85 --only backward --target-error 2%      desk height, nothing else\n"
       "  lichtmc run hall.glb --light point:5,3,5:8000lm --max-reflectance 0.9 -o out/hall\n"
       "Ctrl-C ends a run early and keeps what was simulated; a second Ctrl-C ends the program at once.");
-  command->callback([options, command_line] { run(*options, command_line); });
+  command->callback([options, &started] { run(*options, started); });
 }
 
 }  // namespace lichtmc::app

@@ -3,12 +3,24 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "lichtmc/team.hpp"
+
 namespace lichtmc::app {
 
-void add_run_command(CLI::App& program, const std::string& command_line);
+// How the program was started. It outlives the commands.
+struct Started {
+  std::string command_line;            // such that a shell reads it as the same words
+  std::vector<std::string> arguments;  // the words behind the command's name
+  Team* team = nullptr;                // the processes that it shares a run with
+};
+
+void add_run_command(CLI::App& program, const Started& started);
+void add_resume_command(CLI::App& program, const Started& started);
+void add_merge_command(CLI::App& program, const Started& started);
 void add_cuboid_command(CLI::App& program);
 void add_paths_command(CLI::App& program);
 void add_study_command(CLI::App& program);

@@ -1,4 +1,5 @@
 // The program lichtmc: reads the command line, runs a command, and turns errors into messages and exit status.
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -46,7 +47,7 @@ std::string command_line(int argc, char** argv) {
   return line;
 }
 
-int run_program(int argc, char** argv) {
+int run_program(int argc, char** argv, lichtmc::Team* team) {
   int status = 0;
   CLI::App program{
       "How much light arrives where in a room, and how sure is that number: lichtmc follows light packets from the\n"
@@ -59,7 +60,13 @@ int run_program(int argc, char** argv) {
       "Start with:  lichtmc check room.glb, then lichtmc run room.glb\n"
       "More on a command:  lichtmc COMMAND --help\n"
       "Exit status: 0 done; 1 the run failed; 2 the command line or an input is wrong.");
-  lichtmc::app::add_run_command(program, command_line(argc, argv));
+  lichtmc::app::Started started;
+  started.command_line = command_line(argc, argv);
+  if (argc > 2) started.arguments.assign(argv + 2, argv + argc);
+  started.team = team;
+  lichtmc::app::add_run_command(program, started);
+  lichtmc::app::add_resume_command(program, started);
+  lichtmc::app::add_merge_command(program, started);
   lichtmc::app::add_paths_command(program);
   lichtmc::app::add_study_command(program);
   lichtmc::app::add_cuboid_command(program);
@@ -77,8 +84,9 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow further is a failed write, with a message
   try {
-    return run_program(argc, argv);
+    return run_program(argc, argv, nullptr);
   } catch (const CLI::ParseError& error) {
     return fail(std::string(error.what()) + "\nSee lichtmc --help, or lichtmc COMMAND --help.", exit_wrong_input);
   } catch (const lichtmc::InputError& error) {

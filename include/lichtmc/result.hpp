@@ -9,6 +9,7 @@
 
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
+#include "lichtmc/state.hpp"
 #include "lichtmc/tiles.hpp"
 
 namespace lichtmc {
@@ -129,6 +130,7 @@ struct Result {
   BackwardResult backward;
   std::vector<Ignored> ignored;     // Room::ignored, and what of the room this run did not use
   std::vector<std::string> mended;  // Room::mended
+  State state;                      // to go on from, or to merge with others
   std::vector<std::string>
       warnings;  // what may make the figures mean something else than is thought, a sentence or two each
 };

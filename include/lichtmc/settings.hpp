@@ -42,10 +42,12 @@ enum class TileWalk {
   backward,  // walks from random points of each tile back to the light; the direct light is integrated
 };
 
-// "weight", "collision", "absorption", "auto"; "auto", "cuboid", "embree", "embree-fast"; "sampled", "analytic";
+// "weight", "collision", "absorption", "auto"; "auto", "cuboid", "embree", "embree-fast"; "all", "forward",
+// "backward"; "sampled", "analytic";
 // "forward", "backward".
 std::string_view to_string(Estimator estimator);
 std::string_view to_string(Engine engine);
+std::string_view to_string(Ways ways);
 std::string_view to_string(Direct direct);
 std::string_view to_string(TileWalk tiles);
 
@@ -53,6 +55,7 @@ std::string_view to_string(TileWalk tiles);
 struct Settings {
   Estimator estimator = Estimator::collision;
   std::uint64_t photons = 1'000'000;  // histories, ≥ 1: so many for the tiles; and so many, shared, for the receivers
+  std::uint64_t first_history = 0;         // simulate those from this one on: a multiple of State::batch
   std::optional<double> target_error;  // stop when the rms_relative_error of the walk is at most this, > 0
   std::optional<double>
       max_seconds;  // stop after this wall-clock time, > 0; where both ways are walked, half of it each

@@ -9,6 +9,8 @@
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
+#include "lichtmc/state.hpp"
+#include "lichtmc/team.hpp"
 
 namespace lichtmc {
 
@@ -37,18 +39,39 @@ struct Control {
   std::function<void(const Progress&)> progress;
   // Ends the run early; the result then holds what was simulated so far (StopReason::interrupt).
   std::stop_token stop;
+  // Called every checkpoint_seconds (≥ 0) with what was counted so far, for write_state(), from the thread that called
+  // simulate(); the walk waits meanwhile. Seldomer where that would take more than a hundredth of the time. Not called
+  // while direct light is integrated or an estimator is being chosen. An exception from it ends the run.
+  std::function<void(const State&)> checkpoint;
+  double checkpoint_seconds = 60.0;
+  // Members that share the run, or null. All get the result; callbacks are called by the first alone. A stop is heard
+  // by the first, and within a second or so.
+  Team* team = nullptr;
 };
 
 // Follows Settings::photons light packets through a room and returns the irradiance of every tile; and where the room
 // has receivers, as many walks from them back to the light, and returns the irradiance at each.
 //
-// The same room, settings and seed give the same tile results, bit for bit, for any number of threads (where a stop
-// rule of time or an interrupt ends the run: for the same number of histories). The function keeps no state: several
+// The same room, settings and seed give the same tile results, bit for bit, for any number of threads and members of a
+// team (where a stop rule of time or an interrupt ends the run: for the same number of histories). The function keeps no state: several
 // simulations may run at once in one process.
 //
 // Throws InputError where the room or a setting is not sound: see check_room(); ρ = 1 with the absorption estimator; a
 // closed room in which nothing absorbs; a receiver that lies on an emitter; Ways::backward without receivers;
 // Engine::cuboid for a room that is no cuboid. Throws RuntimeError where memory or the tracing device fails.
 Result simulate(const Room& room, const Settings& settings = {}, const Control& control = {});
+
+// Goes on with a run of the same room until the first of the stop rules of `rules` is met: photons, counted from the
+// run's first; target_error; max_seconds, of this session. Its threads count too; everything else is as the state has
+// it. The result is, to the last digit, that of one run under these rules (where they are looser than those that the
+// state has ended by: that of the state). A run whose estimator was chosen keeps its choice.
+//
+// Throws as simulate() does, and InputError where the room is not the state's, where versions differ, or where the
+// state has gaps.
+Result resume(const Room& room, State state, const Settings& rules, const Control& control = {});
+
+// The result of what a state holds, of one run or of several that were merged. Throws as resume() does; gaps do not
+// matter.
+Result result_of(const Room& room, State state, const Control& control = {});
 
 }  // namespace lichtmc

@@ -35,6 +35,8 @@ class TemporaryFile {
     if (waiting_.size() >= enough) flush();
   }
 
+  const std::filesystem::path& path() const { return path_; }
+
   void become_target() {
     flush();
     if (::fsync(descriptor_) != 0) fail();
@@ -80,6 +82,13 @@ void write_file_atomically(const std::filesystem::path& file, const std::functio
 
 void write_file_atomically(const std::filesystem::path& file, std::string_view bytes) {
   write_file_atomically(file, [bytes](const Sink& sink) { sink(bytes); });
+}
+
+void make_file_atomically(const std::filesystem::path& file,
+                          const std::function<void(const std::filesystem::path& temporary)>& make) {
+  TemporaryFile temporary(file);
+  make(temporary.path());
+  temporary.become_target();
 }
 
 }  // namespace lichtmc

@@ -1,49 +1,193 @@
 #include "run/crew.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "chance/moments.hpp"
+#include "run/team_work.hpp"
 
 namespace lichtmc {
+
+namespace {
+
+// A team meets some times a second: to hear of a stop soon, and to wait for the slowest little.
+constexpr double round_seconds = 0.25;
+
+// May be written to: a copy only where somebody else holds it.
+std::shared_ptr<Totals> own(std::shared_ptr<const Totals> totals) {
+  if (totals.use_count() > 1) return std::make_shared<Totals>(*totals);
+  return std::const_pointer_cast<Totals>(std::move(totals));
+}
+
+}  // namespace
 
 Crew::Crew(const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch, unsigned threads)
     : scene_(&scene),
       hits_(score_law(settings.estimator, scene.has_maps()).hits),
+      team_(control.team),
       watch_(&watch),
-      reporter_(control, watch, Progress::Stage::tiles, settings.photons) {
+      reporter_(control, watch, Progress::Stage::tiles, settings.photons),
+      range_{settings.first_history, settings.first_history},
+      round_(std::uint64_t{4} * threads * size_of(team_)),
+      whole_(std::make_shared<Totals>(scene.first_tile.back(), scene.first_tile.size() - 1, hits_)) {
   for (unsigned k = 0; k < threads; ++k) {
-    workers_.push_back(std::make_unique<Worker>(Worker{Tally(scene.first_tile, hits_), make_walk(scene, settings)}));
+    workers_.push_back({make_walk(scene, settings), std::nullopt});
+    workers_.back().tally.emplace(scene.first_tile, hits_);
   }
 }
 
-void Crew::simulate_up_to(std::uint64_t end) {
-  next_ = done_;
-  watch_->run_on_threads(static_cast<unsigned>(workers_.size()), [&](unsigned k) { work(*workers_[k], end); });
-  done_ = end;
+void Crew::go_on_from(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals) {
+  whole_ = own(std::move(totals));
+  before_ = std::move(ranges);
+  range_ = before_.back();
+  before_.pop_back();
+  reporter_.set_before(histories());
 }
 
-void Crew::work(Worker& worker, std::uint64_t end) {
-  std::uint64_t told = worker.tally.counts().impacts;
+std::uint64_t Crew::histories() const {
+  std::uint64_t sum = range_.last - range_.first + ends_;
+  for (const HistoryRange& range : before_) sum += range.last - range.first;
+  return sum;
+}
+
+void Crew::simulate_up_to(std::uint64_t count) {
+  const std::uint64_t rest = count % batch_histories;
+  const std::uint64_t end = range_.first + (count - rest);
+  // An earlier session may have ended within a batch: its whole batches are what counts.
+  range_.last -= (range_.last - range_.first) % batch_histories;
+  while (range_.last < end && !watch_->reason()) {
+    team_ == nullptr ? work_alone(end) : work_in_team(end);
+    if (watch_->reason() || logbook_ == nullptr) continue;
+    bool due = logbook_->due();
+    share(team_, due);
+    if (due) checkpoint();
+  }
+  if (rest == 0 || watch_->reason() || ends_ > 0) return;
+  collect();
+  simulate_part({end, end + rest});
+}
+
+void Crew::simulate_ends() {
+  collect();
+  const std::uint64_t rest = (range_.last - range_.first) % batch_histories;
+  if (rest == 0) return;
+  range_.last -= rest;
+  simulate_part({range_.last, range_.last + rest});
+}
+
+// Every member of a team does so for itself: a batch takes less time than to send it.
+void Crew::simulate_part(HistoryRange range) {
+  Worker& worker = workers_.front();
+  const auto n = static_cast<std::uint32_t>(range.last - range.first);
+  worker.abandoned |= !worker.walk->simulate_batch(range.first, n, *worker.tally, [this] { return watch_->should_stop(); });
+  ends_ = n;
+  reporter_.add(n, worker.tally->counts().impacts);
+}
+
+// Threads come back early when a checkpoint is due. What they have taken they finish.
+void Crew::work_alone(std::uint64_t end) {
+  next_ = range_.last;
+  watch_->run_on_threads(static_cast<unsigned>(workers_.size()), [&](unsigned k) { work(workers_[k], end, true); });
+  range_.last = std::min(next_.load(), end);
+}
+
+// A round: every member simulates its part of the batches whatever happens, so that there is no gap.
+void Crew::work_in_team(std::uint64_t end) {
+  const double began = watch_->seconds();
+  const std::uint64_t batches = std::min(round_, (end - range_.last) / batch_histories);
+  const Part part = part_of(team_, batches);
+  next_ = range_.last + part.first * batch_histories;
+  const std::uint64_t my_end = range_.last + part.last * batch_histories;
+  watch_->run_on_threads(static_cast<unsigned>(workers_.size()), [&](unsigned k) { work(workers_[k], my_end, false); });
+  range_.last += batches * batch_histories;
+  // Nobody runs ahead: all wait for the slowest here.
+  std::uint64_t impacts = round_impacts_.exchange(0);
+  team_->add(std::span(&impacts, 1));
+  reporter_.add(batches * batch_histories, impacts);
+  watch_->agree();
+  // The next takes the time that it should, but grows no more than twofold.
+  const double took = watch_->seconds() - began;
+  const std::uint64_t fewest = std::uint64_t{2} * workers_.size() * size_of(team_);
+  const double better = static_cast<double>(round_) * std::min(2.0, round_seconds / std::max(took, 1e-6));
+  round_ = std::max(fewest, static_cast<std::uint64_t>(better));
+  share(team_, round_);
+}
+
+void Crew::work(Worker& worker, std::uint64_t end, bool may_pause) {
+  std::uint64_t told = worker.tally->counts().impacts;
   const auto tell = [&](std::uint64_t histories) {
-    reporter_.add(histories, worker.tally.counts().impacts - told);
-    told = worker.tally.counts().impacts;
+    const std::uint64_t impacts = worker.tally->counts().impacts - told;
+    told += impacts;
+    if (team_ == nullptr) {
+      reporter_.add(histories, impacts);
+    } else {
+      round_impacts_ += impacts;
+    }
   };
-  while (!watch_->should_stop()) {
+  while (!watch_->should_stop() && !(may_pause && logbook_ != nullptr && logbook_->due())) {
     const std::uint64_t first = next_.fetch_add(batch_histories);
     if (first >= end) break;
-    const auto n = static_cast<std::uint32_t>(std::min<std::uint64_t>(batch_histories, end - first));
-    worker.walk->simulate_batch(first, n, worker.tally, [&] {
+    worker.abandoned |= !worker.walk->simulate_batch(first, batch_histories, *worker.tally, [&] {
       tell(0);
       return watch_->should_stop();
     });
-    tell(n);
+    tell(batch_histories);
   }
 }
 
-Totals Crew::totals() const {
-  Totals sum(scene_->first_tile.back(), scene_->first_tile.size() - 1, hits_);
-  for (const auto& worker : workers_) worker->tally.add_to(sum);
-  return sum;
+bool Crew::abandoned() const {
+  return std::any_of(workers_.begin(), workers_.end(), [](const Worker& worker) { return worker.abandoned; });
+}
+
+// Whole batches go from the threads' tallies to the sum. What was abandoned stays behind: nothing follows it.
+void Crew::collect() {
+  if (ends_ > 0 || abandoned()) return;
+  whole_ = own(std::move(whole_));
+  const auto hand_over = [this](Totals& sum) {
+    for (Worker& worker : workers_) {
+      worker.tally->add_to(sum);
+      worker.tally.reset();  // before the next takes as much memory
+      worker.tally.emplace(scene_->first_tile, hits_);
+    }
+  };
+  if (team_ == nullptr) return hand_over(*whole_);
+  Totals of_team(whole_->tiles.size(), whole_->maps.size(), hits_);
+  hand_over(of_team);
+  add_up(team_, of_team);
+  whole_->add(of_team);
+}
+
+const Totals& Crew::totals() {
+  collect();
+  if (ends_ == 0 && !abandoned()) return *whole_;
+  if (sum_ == nullptr) {
+    sum_ = std::make_unique<Totals>(*whole_);
+    for (const Worker& worker : workers_) worker.tally->add_to(*sum_);
+  }
+  return *sum_;
+}
+
+Counted Crew::state() {
+  collect();
+  Counted counted;
+  counted.ranges = before_;
+  HistoryRange range = range_;
+  // Where the last step was abandoned, what was collected before it: the sum counts its histories.
+  if (abandoned()) range.last = range.first + whole_->histories;
+  range.last += ends_;
+  counted.ranges.push_back(range);
+  counted.totals = whole_;
+  return counted;
+}
+
+void Crew::checkpoint() {
+  logbook_->checkpoint([this](StateData& data) {
+    const Counted counted = state();
+    data.photons->ranges = counted.ranges;
+    data.photons->totals = counted.totals;
+    data.photons->seconds = watch_->seconds();
+  });
+  logbook_->data().photons->totals.reset();  // or it would be copied before the next batch is added
 }
 
 }  // namespace lichtmc

@@ -4,11 +4,14 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lichtmc/settings.hpp"
 #include "lichtmc/simulate.hpp"
+#include "run/logbook.hpp"
 #include "run/reporter.hpp"
+#include "run/state_data.hpp"
 #include "run/stop_watch.hpp"
 #include "walk/scene.hpp"
 #include "walk/tally.hpp"
@@ -18,16 +21,32 @@ namespace lichtmc {
 
 class Crew {
  public:
-  // `threads` ≥ 1. All must outlive the crew.
+  // `threads` ≥ 1. All must outlive the crew. Where Control::team is not null, the crews of all its members work
+  // together: every call is then one of the whole team.
   Crew(const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch, unsigned threads);
 
-  // Simulates the histories from where the last call ended up to `end`, or until the watch says stop; a batch begun is
-  // finished. The histories done are always the first ones, without a gap. Rethrows what a thread or the callback
-  // threw.
-  void simulate_up_to(std::uint64_t end);
+  // Goes on from what an earlier session has counted. Before anything is simulated.
+  void go_on_from(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals);
 
-  // What the threads have counted so far, added up. Exact integers: the same for any number of threads.
-  Totals totals() const;
+  // Shows the state there when it is time; none until then. It must outlive the crew.
+  void keep(Logbook& logbook) { logbook_ = &logbook; }
+
+  // Simulates the histories from where the last call ended up to the `count`th, or until the watch says stop; a batch
+  // begun is finished. The histories done are always the first ones, without a gap. A count that is not one of whole
+  // batches ends the work. Rethrows what a thread or the callback threw.
+  void simulate_up_to(std::uint64_t count);
+
+  // Of what an earlier session has counted, the ends of ranges within a batch, which states do not hold. Ends the work.
+  void simulate_ends();
+
+  // What was counted so far. Exact integers: the same for any number of threads, members and sessions.
+  const Totals& totals();
+
+  // What of that a later session can go on from: whole batches.
+  Counted state();
+
+  // Histories that were simulated so far.
+  std::uint64_t histories() const;
 
   // Shown by the progress callback from now on, see Reporter.
   void set_error(double rms_relative_error, double histories_to_target) {
@@ -37,19 +56,34 @@ class Crew {
 
  private:
   struct Worker {
-    Tally tally;
     std::unique_ptr<Walk> walk;
+    std::optional<Tally> tally;  // of what was not collected yet
+    bool abandoned = false;      // a batch of it, because of a stop: it counts for the result, not for the state
   };
 
-  void work(Worker& worker, std::uint64_t end);
+  void work_alone(std::uint64_t end);
+  void work_in_team(std::uint64_t end);
+  void work(Worker& worker, std::uint64_t end, bool may_pause);
+  void simulate_part(HistoryRange range);
+  bool abandoned() const;
+  void collect();
+  void checkpoint();
 
   const Scene* scene_;
   Hits hits_;
+  Team* team_;
   StopWatch* watch_;
+  Logbook* logbook_ = nullptr;
   Reporter reporter_;
-  std::vector<std::unique_ptr<Worker>> workers_;
-  std::atomic<std::uint64_t> next_{0};  // first history that no thread has taken; beyond the end once all are
-  std::uint64_t done_ = 0;              // histories that earlier calls have simulated
+  std::vector<Worker> workers_;
+  std::vector<HistoryRange> before_;    // earlier ranges than the one that grows
+  HistoryRange range_;                  // that grows, by whole batches
+  std::atomic<std::uint64_t> next_{0};  // first history that no thread of this process has taken
+  std::uint64_t round_ = 0;             // batches in a round of the team
+  std::atomic<std::uint64_t> round_impacts_{0};  // of this member
+  std::shared_ptr<Totals> whole_;       // whole batches that were collected
+  std::uint64_t ends_ = 0;              // histories of batches that are not whole; they are in the first worker's tally
+  std::unique_ptr<Totals> sum_;         // of all, once the work has ended with more than whole batches
 };
 
 }  // namespace lichtmc

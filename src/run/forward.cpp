@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "run/pilot.hpp"
 #include "run/scores.hpp"
 #include "run/surface_results.hpp"
+#include "run/team_work.hpp"
 #include "run/tile_light.hpp"
 
 namespace lichtmc {
@@ -44,7 +46,7 @@ double known_of(const TileResult& tile) {
 }
 
 Pilot outcome(const Contender& contender) {
-  const Totals totals = contender.crew->totals();
+  const Totals& totals = contender.crew->totals();
   Pilot pilot;
   pilot.estimator = contender.settings.estimator;
   pilot.flights = static_cast<double>(totals.traced.rays);
@@ -72,58 +74,87 @@ Choice choose_for_tiles(std::vector<Pilot>& pilots, const Contender& contender, 
 }
 
 // Leaves the contender that does best; it goes on from where its pilot has ended.
-void keep_best(std::vector<Contender>& contenders, std::uint64_t photons, const StopWatch& watch, Result& result) {
-  if (contenders.size() == 1) return;
-  std::vector<Pilot> pilots;
-  for (Contender& contender : contenders) {
-    contender.crew->set_stage(Progress::Stage::pilot);
-    contender.crew->simulate_up_to(std::min(pilot_histories(photons, contender.settings.estimator), photons));
-    pilots.push_back(outcome(contender));
-    if (watch.reason()) break;
+void keep_best(std::vector<Contender>& contenders, std::uint64_t photons, const StopWatch& watch, Team* team,
+               Logbook& logbook, Result& result) {
+  Counted& log = logbook.data().photons.emplace();
+  if (contenders.size() > 1) {
+    std::vector<Pilot> pilots;
+    for (Contender& contender : contenders) {
+      contender.crew->set_stage(Progress::Stage::pilot);
+      contender.crew->simulate_up_to(std::min(pilot_histories(photons, contender.settings.estimator), photons));
+      pilots.push_back(outcome(contender));
+      if (watch.reason()) break;
+    }
+    Choice choice;
+    if (pilots.size() < contenders.size() || pilots.back().values.empty()) {
+      choice.reason = "The estimator '" + std::string(to_string(pilots.front().estimator)) +
+                      "' was taken for the tiles: the run ended before the others were tried.";
+    } else {
+      choice = choose_for_tiles(pilots, contenders.front(), result.tiling);
+    }
+    share(team, choice.best);
+    log.choice = choice.reason;
+    std::swap(contenders.front(), contenders[choice.best]);
+    contenders.erase(contenders.begin() + 1, contenders.end());
+    contenders.front().crew->set_stage(Progress::Stage::tiles);
+    log.pilot = contenders.front().crew->histories();
   }
-  Choice choice;
-  if (pilots.size() < contenders.size() || pilots.back().values.empty()) {
-    choice.reason = "The estimator '" + std::string(to_string(pilots.front().estimator)) +
-                    "' was taken for the tiles: the run ended before the others were tried.";
-  } else {
-    choice = choose_for_tiles(pilots, contenders.front(), result.tiling);
-  }
-  result.choices.push_back(choice.reason);
-  std::swap(contenders.front(), contenders[choice.best]);
-  contenders.erase(contenders.begin() + 1, contenders.end());
-  contenders.front().crew->set_stage(Progress::Stage::tiles);
+  log.estimator = contenders.front().settings.estimator;
 }
 
-// Simulates until the first stop rule is met. Errors are looked at after numbers of histories that depend on nothing
-// but the settings and the tiles, so that the run ends at the same history for any number of threads.
-StopReason run_until_stopped(const Contender& contender, const StopWatch& watch, Result& result) {
-  constexpr std::uint64_t first_look =
-      32 * std::uint64_t{batch_histories};  // an error from 32 batches is known to 13 %
+// Numbers of histories after which errors are looked at. They depend on nothing but the settings, the tiles and the
+// pilot, so that a run ends at the same history for any number of threads, members and sessions.
+class Looks {
+ public:
+  Looks(const Settings& settings, std::size_t tiles, std::uint64_t pilot)
+      : settings_(&settings), look_(std::min(std::max(first(tiles), pilot), settings.photons)) {}
+
+  std::uint64_t now() const { return look_; }
+  // A quarter more each time, whole batches: at most a quarter is simulated in vain.
+  void advance() {
+    const std::uint64_t part = settings_->target_error ? 4 : 1;
+    const std::uint64_t more = std::max<std::uint64_t>(1, look_ / batch_histories / part) * batch_histories;
+    look_ = settings_->photons - look_ > more ? look_ + more : settings_->photons;
+  }
+  bool is_last() const { return look_ == settings_->photons; }
+
+ private:
+  std::uint64_t first(std::size_t tiles) const {
+    constexpr std::uint64_t first_look =
+        32 * std::uint64_t{batch_histories};  // an error from 32 batches is known to 13 %
+    // Where no target asks for them, looks only show how the error falls: none before tiles are hit, and few.
+    const std::uint64_t hits_each_quarter = (tiles / 4 / batch_histories + 1) * batch_histories;
+    return settings_->target_error ? first_look : std::max(first_look, hits_each_quarter);
+  }
+
+  const Settings* settings_;
+  std::uint64_t look_;
+};
+
+// Simulates until the first stop rule is met.
+StopReason run_until_stopped(const Contender& contender, const StopWatch& watch, Team* team, Counted& log,
+                             Result& result) {
   const Settings& settings = contender.settings;
   Crew& crew = *contender.crew;
-  const std::uint64_t done = crew.totals().histories;
-  // Where no target asks for them, looks only show how the error falls: none before tiles are hit, and few.
-  const std::uint64_t hits_each_quarter = (result.tiling.tiles.size() / 4 / batch_histories + 1) * batch_histories;
-  const std::uint64_t first = settings.target_error ? first_look : std::max(first_look, hits_each_quarter);
-  std::uint64_t look = std::min(std::max(first, done), settings.photons);
+  Looks looks(settings, result.tiling.tiles.size(), log.pilot);
+  // What an earlier session has simulated it has looked at.
+  while (looks.now() < crew.histories() && !looks.is_last()) looks.advance();
   Forecast forecast;
-  for (;;) {
-    crew.simulate_up_to(look);
+  for (;; looks.advance()) {
+    crew.simulate_up_to(looks.now());
     if (watch.reason()) return *watch.reason();
-    if (look == settings.photons && !settings.target_error) return StopReason::photons;
+    if (looks.is_last() && !settings.target_error) return StopReason::photons;
     const double error = rms_relative_error(result.tiling, contender.scores.tiles(crew.totals()));
-    result.convergence.push_back({look, watch.seconds(), error});
+    log.convergence.push_back({looks.now(), watch.seconds(), error});
     if (settings.target_error) {
-      forecast.look(look, error);
+      forecast.look(looks.now(), error);
       result.histories_to_target = forecast.histories_to(*settings.target_error);
-      if (error <= *settings.target_error) return StopReason::target_error;
+      bool reached = error <= *settings.target_error;
+      share(team, reached);
+      if (reached) return StopReason::target_error;
     }
     crew.set_error(error, result.histories_to_target);
-    if (look == settings.photons) return StopReason::photons;
-    // A quarter more each time, whole batches: at most a quarter is simulated in vain.
-    const std::uint64_t part = settings.target_error ? 4 : 1;
-    const std::uint64_t more = std::max<std::uint64_t>(1, look / batch_histories / part) * batch_histories;
-    look = settings.photons - look > more ? look + more : settings.photons;
+    if (looks.is_last()) return StopReason::photons;
   }
 }
 
@@ -142,7 +173,7 @@ void fill_in(Result& result, const Totals& totals, const Scores& scores) {
 }  // namespace
 
 void walk_from_emitters(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
-                        StopWatch& watch, Result& result) {
+                        StopWatch& watch, Logbook& logbook, Result& result) {
   std::vector<TileDirect> direct;
   if (settings.direct == Direct::analytic) {
     TraceCount count;
@@ -152,18 +183,45 @@ void walk_from_emitters(const Room& room, const Scene& scene, const Settings& se
     result.shadow_rays = count.shadow_rays;
     result.direct_seconds = watch.seconds();
   }
-  std::vector<Contender> contenders = contenders_for(room, scene, settings, control, watch, result, direct);
-  keep_best(contenders, settings.photons, watch, result);
+  std::optional<Counted>& log = logbook.data().photons;
+  Settings own = settings;
+  if (log) {
+    own.estimator = log->estimator;
+    own.photons = std::max(own.photons, log->size());
+  }
+  std::vector<Contender> contenders = contenders_for(room, scene, own, control, watch, result, direct);
+  if (log) {
+    if (log->totals->tiles.size() != result.tiling.tiles.size() || log->totals->maps.size() != result.tiling.maps.size())
+      throw InputError("The state has " + std::to_string(log->totals->tiles.size()) + " tiles, the room has " +
+                       std::to_string(result.tiling.tiles.size()) +
+                       " (allowed: as many). The state is not one of this room; run anew.");
+    contenders.front().crew->go_on_from(log->ranges, std::move(log->totals));
+  } else {
+    keep_best(contenders, settings.photons, watch, control.team, logbook, result);
+  }
   const Contender& chosen = contenders.front();
-  result.estimator = chosen.settings.estimator;
-  result.stopped_by = run_until_stopped(chosen, watch, result);
-  result.seconds = watch.seconds();
-  const Totals totals = chosen.crew->totals();
+  Crew& crew = *chosen.crew;
+  crew.keep(logbook);
+  if (logbook.only_read()) {
+    crew.simulate_ends();
+    result.stopped_by = StopReason::photons;
+  } else {
+    result.stopped_by = run_until_stopped(chosen, watch, control.team, *log, result);
+  }
+  const Totals& totals = crew.totals();
   if (totals.histories == 0) {
     throw RuntimeError(
         "The run was stopped before the first photon was simulated: there is no result. Give it more time.");
   }
+  result.seconds = watch.seconds();
+  result.estimator = log->estimator;
+  if (!log->choice.empty()) result.choices.push_back(log->choice);
   fill_in(result, totals, chosen.scores);
+  const Counted counted = crew.state();
+  log->ranges = counted.ranges;
+  log->totals = counted.totals;
+  log->seconds = result.seconds;
+  result.convergence = log->convergence;
 }
 
 }  // namespace lichtmc

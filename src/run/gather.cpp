@@ -5,12 +5,16 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
 #include "run/forecast.hpp"
 #include "run/pilot.hpp"
 #include "run/reporter.hpp"
+#include "run/team_work.hpp"
 
 namespace lichtmc {
 
@@ -25,105 +29,209 @@ constexpr std::uint64_t histories_at_a_time = 8192;
       "it more time.");
 }
 
+// Rounds of a part of a run, so that parts side by side have every round once.
+HistoryRange rounds_of(const Settings& settings, std::uint64_t together) {
+  const auto rounds = [together](std::uint64_t histories) {
+    return histories / together + (histories % together != 0 ? 1 : 0);
+  };
+  HistoryRange range{rounds(settings.first_history), rounds(settings.first_history + settings.photons)};
+  if (settings.first_history == 0) range.last = std::max<std::uint64_t>(2, range.last);
+  return range;
+}
+
 class Gathering {
  public:
+  // logbook: null for a pilot.
   Gathering(const GatherTask& task, const Settings& settings, const Control& control, StopWatch& watch,
-            unsigned threads)
+            unsigned threads, Logbook* logbook)
       : task_(task),
         settings_(settings),
         control_(control),
         watch_(watch),
         threads_(threads),
-        last_(last_round()),
-        reporter_(control, watch, task.stage, histories_of(last_)) {
-    found_.sums.resize(task.origins);
+        together_(task.origins * task.group),
+        range_(rounds_of(settings, together_)),
+        logbook_(logbook),
+        reporter_(control, watch, task.stage, histories_of(range_.last - range_.first)) {
+    found_.sums = std::make_shared<std::vector<ReceiverSums>>(task.origins);
     found_.group = task.group;
     found_.unit = task.unit;
     found_.estimator = settings.estimator;
   }
 
-  Gathered run() {
-    found_.direct = direct_light_of(task_.origins, task_.direct, control_, threads_, watch_, found_.count.traced);
-    found_.direct_seconds = watch_.seconds();
-    found_.stopped_by = simulate();
-    if (found_.rounds == 0) refuse_too_short();
-    return std::move(found_);
-  }
+  // Why the estimator was chosen.
+  void set_choice(const std::string& reason) { found_.choice = reason; }
+
+  Gathered run();
 
  private:
-  std::uint64_t last_round() const {
-    const std::uint64_t together = task_.origins * task_.group;
-    return std::max<std::uint64_t>(2, settings_.photons / together + (settings_.photons % together != 0));
-  }
   std::uint64_t histories_of(std::uint64_t rounds) const {
     constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-    const std::uint64_t together = task_.origins * task_.group;
-    return rounds > most / together ? most : rounds * together;
+    return rounds > most / together_ ? most : rounds * together_;
   }
+  void go_on_from(const BackwardState& before);
   StopReason simulate();
   void simulate_up_to(std::uint64_t rounds);
-  void take_rounds(std::uint64_t first, std::uint64_t last);
+  bool simulate_step(std::uint64_t rounds);
+  void take_rounds(std::uint64_t first, std::uint64_t last, std::vector<ReceiverSums>& step_sums,
+                   BackwardCount& step_count);
+  void write_down(BackwardState& log) const;
 
   const GatherTask& task_;
   const Settings& settings_;
   const Control& control_;
   StopWatch& watch_;
   unsigned threads_;
-  std::uint64_t last_;
+  std::uint64_t together_;  // walks in a round of all origins
+  HistoryRange range_;      // of rounds, that there are to simulate
+  Logbook* logbook_;
+  std::vector<HistoryRange> before_;  // earlier ranges than the one that grows
+  std::uint64_t rounds_before_ = 0;   // in them
   Reporter reporter_;
   Gathered found_;
+  std::uint64_t step_ = 2;  // rounds of the next step
   std::atomic<std::uint64_t> next_{0};
-  std::mutex mutex_;  // guards the sums and counts
+  std::mutex mutex_;  // guards the sums and counts of a step
 };
+
+Gathered Gathering::run() {
+  std::optional<BackwardState>* log = logbook_ == nullptr ? nullptr : &(logbook_->data().*task_.slot);
+  if (range_.first >= range_.last && (log == nullptr || !*log)) {
+    throw InputError("No walk back from " + task_.name + " belongs to these histories (allowed: at least " +
+                     std::to_string(together_) + " histories in a part, one round of all). Take greater parts, or --only forward.");
+  }
+  found_.direct = direct_light_of(task_.origins, task_.direct, control_, threads_, watch_, found_.count.traced);
+  found_.direct_seconds = watch_.seconds();
+  if (log != nullptr && *log) {
+    go_on_from(**log);
+  } else if (log != nullptr) {
+    log->emplace();
+  }
+  found_.stopped_by = logbook_ != nullptr && logbook_->only_read() ? StopReason::photons : simulate();
+  if (found_.rounds == 0) refuse_too_short();
+  if (log != nullptr) write_down(**log);
+  return std::move(found_);
+}
+
+void Gathering::go_on_from(const BackwardState& before) {
+  if (before.sums->size() != task_.origins || before.group != task_.group) {
+    throw InputError("The state has walks from " + std::to_string(before.sums->size()) + " origins, here are " +
+                     std::to_string(task_.origins) +
+                     " (allowed: as many). The state is not one of this room; run anew.");
+  }
+  found_.sums = before.sums.use_count() > 1 ? std::make_shared<std::vector<ReceiverSums>>(*before.sums)
+                                            : std::const_pointer_cast<std::vector<ReceiverSums>>(before.sums);
+  found_.count.traced.add(before.count.traced);
+  found_.count.impacts += before.count.impacts;
+  found_.choice = before.choice;
+  found_.convergence = before.convergence;
+  found_.rounds = before.size();
+  before_ = before.ranges;
+  range_.first = before_.back().first;
+  range_.last = std::max(range_.last, before_.back().last);
+  before_.pop_back();
+  for (const HistoryRange& range : before_) rounds_before_ += range.last - range.first;
+  reporter_.set_before(histories_of(found_.rounds));
+}
+
+void Gathering::write_down(BackwardState& log) const {
+  log.estimator = found_.estimator;
+  log.choice = found_.choice;
+  log.convergence = found_.convergence;
+  log.group = task_.group;
+  log.ranges = before_;
+  log.ranges.push_back({range_.first, range_.first + found_.rounds - rounds_before_});
+  log.count = found_.count;
+  log.sums = found_.sums;
+  log.seconds = watch_.seconds();
+}
 
 // As many rounds for every origin; the target error is looked at after numbers of them that depend on the settings
 // alone.
 StopReason Gathering::simulate() {
+  const std::uint64_t last = range_.last - range_.first;
   const std::uint64_t first_look = std::max(2U, 256 / task_.group);  // an error from 256 walks is known to 4 %
-  // Without a target error looks serve progress and the end by time: sums are whole at each.
-  std::uint64_t look = std::min(first_look, last_);
+  std::uint64_t look = std::min(first_look, last);
+  const auto advance = [&look, last] {
+    const std::uint64_t more = std::max<std::uint64_t>(1, look / 4);
+    look = last - look > more ? look + more : last;
+  };
+  // What an earlier session has simulated it has looked at.
+  while (look < found_.rounds && look < last) advance();
   Forecast forecast;
-  for (;;) {
+  for (;; advance()) {
     simulate_up_to(look);
     if (watch_.reason()) return *watch_.reason();
-    found_.rounds = look;
     const double error = task_.error(found_);
     forecast.look(histories_of(look), error);
     found_.convergence.push_back({histories_of(look), watch_.seconds(), error});
     if (settings_.target_error) found_.histories_to_target = forecast.histories_to(*settings_.target_error);
     reporter_.set_error(error, found_.histories_to_target);
-    if (settings_.target_error && error <= *settings_.target_error) return StopReason::target_error;
-    if (look == last_) return StopReason::photons;
-    const std::uint64_t more = std::max<std::uint64_t>(1, look / 4);
-    look = last_ - look > more ? look + more : last_;
+    bool reached = settings_.target_error && error <= *settings_.target_error;
+    share(control_.team, reached);
+    if (reached) return StopReason::target_error;
+    if (look == last) return StopReason::photons;
   }
 }
 
+// In steps of some tenths of a second, after each of which the sums are whole.
 void Gathering::simulate_up_to(std::uint64_t rounds) {
-  // What is simulated in part when a stop comes is thrown away: every origin has the same rounds.
-  const std::vector<ReceiverSums> before = found_.sums;
-  next_ = 0;
-  watch_.run_on_threads(threads_, [&](unsigned) { take_rounds(found_.rounds, rounds); });
-  if (watch_.reason()) found_.sums = before;
+  constexpr double step_seconds = 0.5;
+  while (found_.rounds < rounds) {
+    const double began = watch_.seconds();
+    const std::uint64_t step = std::min(step_, rounds - found_.rounds);
+    if (!simulate_step(found_.rounds + step)) return;
+    const double took = watch_.seconds() - began;
+    if (step == step_ || took > step_seconds)
+      step_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(static_cast<double>(step) * std::min(4.0, step_seconds / std::max(took, 1e-6))));
+    share(control_.team, step_);
+    watch_.agree();
+    bool due = logbook_ != nullptr && logbook_->due() && !watch_.reason();
+    share(control_.team, due);
+    if (due) {
+      logbook_->checkpoint([this](StateData& data) { write_down(*(data.*task_.slot)); });
+      (logbook_->data().*task_.slot)->sums.reset();  // or they would be copied before the next step is added
+    }
+    if (watch_.reason()) return;
+  }
 }
 
-void Gathering::take_rounds(std::uint64_t first, std::uint64_t last) {
+// What is simulated in part when a stop comes is thrown away: every origin has the same rounds. Whether it was whole.
+bool Gathering::simulate_step(std::uint64_t rounds) {
+  std::vector<ReceiverSums> sums(task_.origins);
+  BackwardCount count;
+  next_ = 0;
+  watch_.run_on_threads(threads_, [&](unsigned) { take_rounds(found_.rounds, rounds, sums, count); });
+  if (watch_.reason()) return false;
+  add_up(control_.team, sums);
+  add_up(control_.team, count);
+  if (found_.sums.use_count() > 1) found_.sums = std::make_shared<std::vector<ReceiverSums>>(*found_.sums);
+  for (std::size_t k = 0; k < sums.size(); ++k) (*found_.sums)[k].add(sums[k]);
+  found_.count.add(count);
+  found_.rounds = rounds;
+  return true;
+}
+
+void Gathering::take_rounds(std::uint64_t first, std::uint64_t last, std::vector<ReceiverSums>& step_sums,
+                            BackwardCount& step_count) {
   const std::unique_ptr<BackwardWalk> walk = task_.make_walk(settings_);
   const std::uint64_t rounds = last - first;
   // Many origins with few rounds, or one origin with some of its rounds.
   const std::uint64_t rounds_at_a_time = histories_at_a_time / task_.group;
   const std::uint64_t together = std::max<std::uint64_t>(1, rounds_at_a_time / rounds);
   const std::uint64_t parts = together > 1 ? 1 : (rounds + rounds_at_a_time - 1) / rounds_at_a_time;
-  const std::uint64_t pieces = (task_.origins + together - 1) / together * parts;
+  // A member of a team takes its part of the pieces.
+  const Part mine = part_of(control_.team, (task_.origins + together - 1) / together * parts);
+  const std::uint64_t skipped = range_.first - rounds_before_;  // rounds are numbered from the run's first
   std::vector<ReceiverSums> sums;
   while (!watch_.should_stop()) {
-    const std::uint64_t piece = next_.fetch_add(1);
-    if (piece >= pieces) break;
+    const std::uint64_t piece = mine.first + next_.fetch_add(1);
+    if (piece >= mine.last) break;
     BackwardWork work;
     work.first = piece / parts * together;
     work.last = std::min<std::uint64_t>(task_.origins, work.first + together);
-    work.first_sample = (first + rounds * (piece % parts) / parts) * task_.group;
-    work.last_sample = (first + rounds * (piece % parts + 1) / parts) * task_.group;
+    work.first_sample = (skipped + first + rounds * (piece % parts) / parts) * task_.group;
+    work.last_sample = (skipped + first + rounds * (piece % parts + 1) / parts) * task_.group;
     sums.assign(work.last - work.first, {});
     BackwardCount count;
     walk->simulate(work, sums, count, [this] {
@@ -132,10 +240,12 @@ void Gathering::take_rounds(std::uint64_t first, std::uint64_t last) {
     });
     {
       const std::lock_guard lock(mutex_);
-      for (std::size_t k = 0; k < sums.size(); ++k) found_.sums[work.first + k].add(sums[k]);
-      found_.count.add(count);
+      for (std::size_t k = 0; k < sums.size(); ++k) step_sums[work.first + k].add(sums[k]);
+      step_count.add(count);
     }
-    reporter_.add((work.last - work.first) * (work.last_sample - work.first_sample), count.traced.rays);
+    const std::uint64_t walks = (work.last - work.first) * (work.last_sample - work.first_sample);
+    const unsigned alike = size_of(control_.team);  // the others are as far as this member
+    reporter_.add(walks * alike, count.traced.rays * alike);
   }
 }
 
@@ -148,32 +258,39 @@ std::vector<DirectIrradiance> direct_light_of(std::size_t origins, const DirectO
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   Reporter reporter(control, watch, Progress::Stage::direct_light, origins);
+  const Part mine = part_of(control.team, origins);
+  next = mine.first;
+  BackwardCount traced_here;
   watch.run_on_threads(threads, [&](unsigned) {
     TraceCount count;
     while (!watch.should_stop()) {
       const std::size_t first = next.fetch_add(at_a_time);
-      if (first >= origins) break;
-      const std::size_t last = std::min(origins, first + at_a_time);
+      if (first >= mine.last) break;
+      const std::size_t last = std::min<std::size_t>(mine.last, first + at_a_time);
       for (std::size_t k = first; k < last; ++k) found[k] = direct(k, count);
       reporter.add(last - first, 0);
     }
     const std::lock_guard lock(mutex);
-    traced.add(count);
+    traced_here.traced.add(count);
   });
+  collect(control.team, found);
+  add_up(control.team, traced_here);
+  traced.add(traced_here.traced);
+  watch.agree();
   if (watch.reason()) refuse_too_short();
   return found;
 }
 
 double Gathered::indirect(std::size_t k) const {
-  return static_cast<double>(sums[k].sum) / static_cast<double>(rounds * group) * unit;
+  return static_cast<double>((*sums)[k].sum) / static_cast<double>(rounds * group) * unit;
 }
 
 // Rounds are independent: the variance of their mean from their own spread.
 double Gathered::indirect_error(std::size_t k) const {
   if (rounds < 2) return std::numeric_limits<double>::quiet_NaN();
   const auto n = static_cast<long double>(rounds);
-  const auto sum = static_cast<long double>(sums[k].sum);
-  const long double between = static_cast<long double>(sums[k].squares) - sum / n * sum;
+  const auto sum = static_cast<long double>((*sums)[k].sum);
+  const long double between = static_cast<long double>((*sums)[k].squares) - sum / n * sum;
   return static_cast<double>(std::sqrt(std::max(between, 0.0L) / (n - 1) / n)) / group * unit;
 }
 
@@ -183,56 +300,71 @@ Pilot outcome(const Gathered& found) {
   Pilot pilot;
   pilot.estimator = found.estimator;
   pilot.flights = static_cast<double>(found.count.traced.rays);
-  for (std::size_t k = 0; k < found.sums.size(); ++k) {
+  for (std::size_t k = 0; k < found.sums->size(); ++k) {
     pilot.values.push_back(found.direct[k].value + found.indirect(k));
     pilot.errors.push_back(found.indirect_error(k));
   }
   return pilot;
 }
 
-Gathered gather_with_best(GatherTask task, const Room& room, Settings settings, const Control& control,
-                          StopWatch& watch, unsigned threads) {
+// Pilots of all estimators; which did best, and why. What they have found is not used further, but where a stop comes:
+// then the last of them is all that there is.
+std::optional<Gathered> choose_by_pilots(const GatherTask& task, const Room& room, Settings& settings,
+                                         const Control& control, StopWatch& watch, unsigned threads,
+                                         std::string& reason) {
+  GatherTask short_task = task;
+  short_task.stage = Progress::Stage::pilot;
+  Settings short_run = settings;
+  short_run.target_error.reset();
+  std::vector<Pilot> pilots;
+  // Some walks from every origin, or there is nothing to compare.
+  constexpr std::uint64_t fewest_rounds = 8;
+  for (const Estimator estimator : candidates_for(room, settings)) {
+    short_run.estimator = estimator;
+    short_run.photons =
+        std::max(pilot_histories(settings.photons, estimator), fewest_rounds * task.origins * task.group);
+    Gathered found = Gathering(short_task, short_run, control, watch, threads, nullptr).run();
+    if (watch.reason()) {
+      found.choice = "The estimator '" + std::string(to_string(estimator)) + "' was taken for " + task.name +
+                     ": the run ended before all were tried.";
+      return found;
+    }
+    pilots.push_back(outcome(found));
+  }
+  Choice choice = choose_best(pilots, pooled_values(pilots), task.weights, task.name);
+  share(control.team, choice.best);
+  settings.estimator = pilots[choice.best].estimator;
+  reason = choice.reason;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Gathered gather(GatherTask task, const Room& room, Settings settings, const Control& control, StopWatch& watch,
+                unsigned threads, Logbook& logbook) {
+  const std::optional<BackwardState>& log = logbook.data().*task.slot;
+  if (log) settings.estimator = log->estimator;
+  if (settings.estimator != Estimator::automatic)
+    return Gathering(task, settings, control, watch, threads, &logbook).run();
+  // Direct light is the same for all.
   TraceCount traced;
   const std::vector<DirectIrradiance> direct =
       direct_light_of(task.origins, task.direct, control, threads, watch, traced);
   const double direct_seconds = watch.seconds();
   task.direct = [&direct](std::size_t k, TraceCount& /*count*/) { return direct[k]; };
-  GatherTask short_task = task;
-  short_task.stage = Progress::Stage::pilot;
-  Settings short_run = settings;
-  short_run.target_error.reset();
-  // Some walks from every origin, or there is nothing to compare.
-  constexpr std::uint64_t fewest_rounds = 8;
-  std::vector<Pilot> pilots;
-  for (const Estimator estimator : candidates_for(room, settings)) {
-    short_run.estimator = estimator;
-    short_run.photons =
-        std::max(pilot_histories(settings.photons, estimator), fewest_rounds * task.origins * task.group);
-    Gathered found = Gathering(short_task, short_run, control, watch, threads).run();
-    if (watch.reason()) {
-      found.choice = "The estimator '" + std::string(to_string(estimator)) + "' was taken for " + task.name +
-                     ": the run ended before all were tried.";
-      found.count.traced.add(traced);
-      return found;
-    }
-    pilots.push_back(outcome(found));
+  std::string reason;
+  std::optional<Gathered> cut_short = choose_by_pilots(task, room, settings, control, watch, threads, reason);
+  Gathered found;
+  if (cut_short) {
+    found = std::move(*cut_short);
+  } else {
+    Gathering gathering(task, settings, control, watch, threads, &logbook);
+    gathering.set_choice(reason);
+    found = gathering.run();
   }
-  const Choice choice = choose_best(pilots, pooled_values(pilots), task.weights, task.name);
-  settings.estimator = pilots[choice.best].estimator;
-  Gathered found = Gathering(task, settings, control, watch, threads).run();
-  found.choice = choice.reason;
   found.direct_seconds = direct_seconds;
   found.count.traced.add(traced);
   return found;
-}
-
-}  // namespace
-
-Gathered gather(const GatherTask& task, const Room& room, const Settings& settings, const Control& control,
-                StopWatch& watch, unsigned threads) {
-  if (settings.estimator == Estimator::automatic)
-    return gather_with_best(task, room, settings, control, watch, threads);
-  return Gathering(task, settings, control, watch, threads).run();
 }
 
 }  // namespace lichtmc

@@ -6,19 +6,21 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lichtmc/result.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/simulate.hpp"
+#include "run/logbook.hpp"
 #include "run/stop_watch.hpp"
 #include "walk/backward.hpp"
 #include "walk/direct_light.hpp"
 
 namespace lichtmc {
 
-// The direct light of every origin, found by all threads. direct(k, count) is called once for each k below `origins`;
+// The direct light of every origin, found by all threads of all members of a team. direct(k, count) is called once for each k below `origins`;
 // rays are counted in `traced`. Throws RuntimeError where the watch says stop before all are done.
 using DirectOf = std::function<DirectIrradiance(std::size_t, TraceCount&)>;
 std::vector<DirectIrradiance> direct_light_of(std::size_t origins, const DirectOf& direct, const Control& control,
@@ -27,7 +29,7 @@ std::vector<DirectIrradiance> direct_light_of(std::size_t origins, const DirectO
 // What walks from some origins have found.
 struct Gathered {
   std::vector<DirectIrradiance> direct;  // per origin
-  std::vector<ReceiverSums> sums;        // per origin, of all rounds
+  std::shared_ptr<std::vector<ReceiverSums>> sums;  // per origin, of all rounds
   std::uint64_t rounds = 0;              // per origin
   std::uint32_t group = 1;               // walks in a round
   double unit = 1.0;                     // of the sums, W/m² or lx
@@ -39,7 +41,7 @@ struct Gathered {
   double histories_to_target = std::numeric_limits<double>::quiet_NaN();  // as Result::histories_to_target
   std::vector<ErrorLook> convergence;
 
-  std::uint64_t histories() const { return rounds * group * sums.size(); }
+  std::uint64_t histories() const { return rounds * group * sums->size(); }
   // Irradiance that reached origin k reflected, and its standard error: NaN where fewer than two rounds were simulated.
   double indirect(std::size_t k) const;
   double indirect_error(std::size_t k) const;
@@ -57,13 +59,15 @@ struct GatherTask {
   // origins are called.
   std::vector<double> weights;
   std::string name;
+  std::optional<BackwardState> StateData::* slot = nullptr;  // where the logbook has these walks
 };
 
-// Walks until the first stop rule is met. Every origin gets as many walks; Settings::photons is the number of all
+// Walks until the first stop rule is met; goes on from the walks that the logbook has, and leaves there what was found.
+// Every origin gets as many walks; Settings::photons is the number of all
 // together. The same settings give the same sums for any number of threads. Estimator::automatic is replaced by the one
 // that does best in a pilot, see pilot.hpp. Throws RuntimeError where the run is stopped before the first round is
 // whole.
-Gathered gather(const GatherTask& task, const Room& room, const Settings& settings, const Control& control,
-                StopWatch& watch, unsigned threads);
+Gathered gather(GatherTask task, const Room& room, Settings settings, const Control& control, StopWatch& watch,
+                unsigned threads, Logbook& logbook);
 
 }  // namespace lichtmc

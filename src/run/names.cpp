@@ -34,6 +34,11 @@ std::string_view to_string(Engine engine) {
   return "";
 }
 
+std::string_view to_string(Ways ways) {
+  if (ways == Ways::forward) return "forward";
+  return ways == Ways::backward ? "backward" : "all";
+}
+
 std::string_view to_string(Direct direct) {
   return direct == Direct::sampled ? "sampled" : "analytic";
 }

@@ -30,7 +30,7 @@ double error_at(const Gathered& found, std::size_t k) {
 double error_of_receivers(const Gathered& found) {
   double squares = 0.0;
   std::size_t lit = 0;
-  for (std::size_t k = 0; k < found.sums.size(); ++k) {
+  for (std::size_t k = 0; k < found.sums->size(); ++k) {
     const double irradiance = found.direct[k].value + found.indirect(k);
     if (!(irradiance > 0.0)) continue;
     const double error = error_at(found, k);
@@ -92,7 +92,7 @@ void leave_balance_open(Balance& balance) {
 }  // namespace
 
 void receive(const Room& room, const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
-             Result& result) {
+             Logbook& logbook, Result& result) {
   const DirectLight light(room, *scene.tracer);
   const ReceiverOrigins origins(room.receivers, *scene.tracer);
   const ReceiverScale scale(room);
@@ -113,7 +113,8 @@ void receive(const Room& room, const Scene& scene, const Settings& settings, con
   task.error = error_of_receivers;
   task.weights.assign(task.origins, 1.0);
   task.name = "the receivers";
-  const Gathered found = gather(task, room, settings, control, watch, result.threads);
+  task.slot = &StateData::receivers;
+  const Gathered found = gather(task, room, settings, control, watch, result.threads, logbook);
 
   const double power = total_power(room);
   result.receiver_results.resize(task.origins);
@@ -140,7 +141,7 @@ void receive(const Room& room, const Scene& scene, const Settings& settings, con
 }
 
 void walk_from_tiles(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
-                     StopWatch& watch, Result& result) {
+                     StopWatch& watch, Logbook& logbook, Result& result) {
   const Tiling& tiling = result.tiling;
   const TileLight light(room, tiling, scene, settings, Way::backward);
   const ReceiverScale scale(room);
@@ -158,7 +159,8 @@ void walk_from_tiles(const Room& room, const Scene& scene, const Settings& setti
   };
   for (std::size_t face = 0; face < task.origins; ++face) task.weights.push_back(light.faces().area_m2(face));
   task.name = "the tiles";
-  const Gathered found = gather(task, room, settings, control, watch, result.threads);
+  task.slot = &StateData::tile_walks;
+  const Gathered found = gather(task, room, settings, control, watch, result.threads, logbook);
 
   result.estimator = found.estimator;
   if (!found.choice.empty()) result.choices.push_back(found.choice);

@@ -5,18 +5,20 @@
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/simulate.hpp"
+#include "run/logbook.hpp"
 #include "run/stop_watch.hpp"
 #include "walk/scene.hpp"
 
 namespace lichtmc {
 
 // Fills in Result::receiver_results and Result::backward. The room has receivers. Throws InputError naming a receiver
-// that lies on an emitter.
+// that lies on an emitter. Goes on from the walks that the
+// logbook has, and leaves there what was found, as gather() does.
 void receive(const Room& room, const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
-             Result& result);
+             Logbook& logbook, Result& result);
 
 // Fills in the tiles' part of the result by walks from random points of every tile.
 void walk_from_tiles(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
-                     StopWatch& watch, Result& result);
+                     StopWatch& watch, Logbook& logbook, Result& result);
 
 }  // namespace lichtmc

@@ -22,6 +22,9 @@ class Reporter {
     progress_.target = target;
   }
 
+  // Histories that an earlier session has simulated. Before threads add.
+  void set_before(std::uint64_t histories) { progress_.histories = before_ = histories; }
+
   // What is reported from now on is of this stage. Not while threads add.
   void set_stage(Progress::Stage stage) { progress_.stage = stage; }
 
@@ -34,7 +37,7 @@ class Reporter {
     if (!control_->progress || now - last_ < interval) return;
     last_ = now;
     progress_.seconds = watch_->seconds();
-    const double rate = static_cast<double>(progress_.histories) / (progress_.seconds - began_);
+    const double rate = static_cast<double>(progress_.histories - before_) / (progress_.seconds - began_);
     const double left = (histories_to_target_ - static_cast<double>(progress_.histories)) / rate;
     progress_.seconds_to_target = std::isnan(left) ? left : std::max(left, 0.0);
     control_->progress(progress_);
@@ -56,6 +59,7 @@ class Reporter {
   Progress progress_;
   double histories_to_target_ = std::numeric_limits<double>::quiet_NaN();
   double began_;  // when the histories did, s
+  std::uint64_t before_ = 0;  // histories of earlier sessions
   Clock::time_point last_;
 };
 

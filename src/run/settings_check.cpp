@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/message.hpp"
+#include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
 #include "room/reflectance.hpp"
 
@@ -34,6 +35,22 @@ const Surface* surface_that_absorbs_nothing(const Room& room) {
 void check_settings(const Settings& settings) {
   if (settings.photons == 0) {
     throw InputError("The number of photons is 0 (allowed: 1 or more). Give --photons a number, for example 1e6.");
+  }
+  if (settings.first_history % batch_histories != 0) {
+    const std::uint64_t below = settings.first_history / batch_histories * batch_histories;
+    throw InputError("The first history is " + std::to_string(settings.first_history) +
+                     " (allowed: multiples of 1024, for histories are simulated in batches of so many). Begin at " +
+                     std::to_string(below) + " or " + std::to_string(below + batch_histories) + ".");
+  }
+  if (settings.first_history > 0 && settings.estimator == Estimator::automatic) {
+    throw InputError(
+        "The estimator is 'auto' for a part of a run (allowed: weight, collision, absorption): parts must have one "
+        "and the same. Give --estimator the one that a short run with 'auto' has chosen.");
+  }
+  constexpr std::uint64_t most_histories = std::uint64_t{1} << 63;
+  if (settings.photons > most_histories || settings.first_history > most_histories - settings.photons) {
+    throw InputError("The histories end at " + std::to_string(settings.first_history) + " + " +
+                     std::to_string(settings.photons) + " (allowed: up to 2^63). Give smaller numbers.");
   }
   if (settings.target_error && !positive(*settings.target_error)) {
     throw InputError("The target error is " + to_text(*settings.target_error) +

@@ -10,11 +10,14 @@
 #include "base/message.hpp"
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
+#include "lichtmc/version.hpp"
 #include "run/forward.hpp"
+#include "run/logbook.hpp"
 #include "run/receive.hpp"
 #include "run/settings_check.hpp"
 #include "run/stop_watch.hpp"
 #include "run/surface_results.hpp"
+#include "run/team_work.hpp"
 #include "run/warnings.hpp"
 #include "walk/scene.hpp"
 #include "walk/trap.hpp"
@@ -76,49 +79,127 @@ void complete(Result& result, const Room& room) {
 }
 
 void simulate_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
-                    const Control& control) {
-  StopWatch watch(settings.max_seconds, control.stop);
+                    const Control& control, Logbook& logbook) {
+  const StateData& data = logbook.data();
   if (settings.tiles == TileWalk::forward) {
-    walk_from_emitters(room, scene, settings, control, watch, result);
+    StopWatch watch(settings.max_seconds, control.stop, data.photons ? data.photons->seconds : 0.0, control.team);
+    walk_from_emitters(room, scene, settings, control, watch, logbook, result);
   } else {
-    walk_from_tiles(room, scene, settings, control, watch, result);
+    StopWatch watch(settings.max_seconds, control.stop, data.tile_walks ? data.tile_walks->seconds : 0.0, control.team);
+    walk_from_tiles(room, scene, settings, control, watch, logbook, result);
   }
   rate(result);
 }
 
-Result simulate_checked(const Room& room, const Settings& settings, const Control& control) {
+bool stop_asked(const Control& control) {
+  bool asked = control.stop.stop_requested();
+  share(control.team, asked);
+  return asked;
+}
+
+Result simulate_checked(const Room& room, const Settings& settings, const Control& control, Logbook& logbook) {
   Result result;
   result.settings = settings;
   result.threads = threads_for(settings);
   result.tiling = make_tiling(room, settings.tile_edge_m);
   const Scene scene(room, result.tiling, settings.engine);
-  result.engine = scene.engine;
+  result.engine = logbook.data().engine = scene.engine;
   if (!settings.max_bounces && traps_light(scene, settings.seed)) refuse_trap(room);
-  const bool forward = settings.ways != Ways::backward;
-  const bool backward = settings.ways != Ways::forward && !room.receivers.empty();
+  const StateData& data = logbook.data();
+  const bool forward = settings.ways != Ways::backward && (!logbook.only_read() || data.photons || data.tile_walks);
+  const bool backward = settings.ways != Ways::forward && !room.receivers.empty() &&
+                        (!logbook.only_read() || data.receivers);
   Settings each = settings;
   if (forward && backward && each.max_seconds) each.max_seconds = 0.5 * *each.max_seconds;
-  if (forward) simulate_tiles(result, room, scene, each, control);
-  if (backward && !control.stop.stop_requested()) {
-    StopWatch watch(each.max_seconds, control.stop);
-    receive(room, scene, each, control, watch, result);
+  if (forward) simulate_tiles(result, room, scene, each, control, logbook);
+  if (backward && !(forward && stop_asked(control))) {
+    StopWatch watch(each.max_seconds, control.stop, data.receivers ? data.receivers->seconds : 0.0, control.team);
+    receive(room, scene, each, control, watch, logbook, result);
   }
   complete(result, room);
+  result.state = logbook.close();
   return result;
+}
+
+// What is the same for a run from the start and for one that goes on.
+Result simulate_from(const Room& room, const Settings& settings, const Control& control, StateData data,
+                     bool only_read) {
+  try {
+    check_settings(settings);
+    check_room(room);
+    check_settings_for(room, settings);
+    if (!(control.checkpoint_seconds >= 0.0)) {
+      throw InputError("The time between checkpoints is " + to_text(control.checkpoint_seconds) +
+                       " s (allowed: 0 or more). Give --checkpoint a time, for example 60s.");
+    }
+    Logbook logbook(control, std::move(data), only_read);
+    return simulate_checked(room, settings, control, logbook);
+  } catch (const std::bad_alloc&) {
+    throw RuntimeError("There is not enough memory to simulate " + room.source +
+                       ". Use larger tiles (--tile) or fewer threads (--threads).");
+  }
+}
+
+StateData new_state(const Room& room, const Settings& settings) {
+  StateData data;
+  data.version = version();
+  data.room = fingerprint(room);
+  data.settings = settings;
+  return data;
+}
+
+void check_state_for(const Room& room, const State& state) {
+  if (state.empty()) throw InputError("The state is empty. Give one that simulate() or read_state() has returned.");
+  if (state.version() != version()) {
+    throw InputError("The state was made by lichtmc " + state.version() + ", this is " + std::string(version()) +
+                     " (allowed: the same version, or figures could differ). Go on with that version, or run anew.");
+  }
+  if (state.room() != fingerprint(room)) {
+    throw InputError("The state is of another room than " + room.source +
+                     " as it is now (allowed: the same surfaces, reflectances, lamps and receivers). Give the room's "
+                     "file as it was, or run anew.");
+  }
+}
+
+// The data, without a second copy of the tallies where nobody else holds the state.
+StateData data_of(State&& state) {
+  StateData data = state.data();
+  state = {};
+  return data;
+}
+
+void refuse_gaps(const std::vector<HistoryRange>& ranges) {
+  if (ranges.size() < 2) return;
+  throw InputError("The state has gaps: nothing is there of " + std::to_string(ranges[0].last) + " … " +
+                   std::to_string(ranges[1].first - 1) +
+                   " (allowed: histories without gaps, to go on). Simulate what is missing with --histories, and merge.");
 }
 
 }  // namespace
 
 Result simulate(const Room& room, const Settings& settings, const Control& control) {
-  try {
-    check_settings(settings);
-    check_room(room);
-    check_settings_for(room, settings);
-    return simulate_checked(room, settings, control);
-  } catch (const std::bad_alloc&) {
-    throw RuntimeError("There is not enough memory to simulate " + room.source +
-                       ". Use larger tiles (--tile) or fewer threads (--threads).");
-  }
+  return simulate_from(room, settings, control, new_state(room, settings), false);
+}
+
+Result resume(const Room& room, State state, const Settings& rules, const Control& control) {
+  check_state_for(room, state);
+  Settings settings = state.settings();
+  settings.photons = rules.photons;
+  settings.target_error = rules.target_error;
+  settings.max_seconds = rules.max_seconds;
+  settings.threads = rules.threads;
+  StateData data = data_of(std::move(state));
+  if (data.photons) refuse_gaps(data.photons->ranges);
+  if (data.tile_walks) refuse_gaps(data.tile_walks->ranges);
+  if (data.receivers) refuse_gaps(data.receivers->ranges);
+  data.settings = settings;
+  return simulate_from(room, settings, control, std::move(data), false);
+}
+
+Result result_of(const Room& room, State state, const Control& control) {
+  check_state_for(room, state);
+  const Settings settings = state.settings();
+  return simulate_from(room, settings, control, data_of(std::move(state)), true);
 }
 
 }  // namespace lichtmc

@@ -6,19 +6,35 @@
 #include <vector>
 
 #include "lichtmc/error.hpp"
+#include "run/team_work.hpp"
 
 namespace lichtmc {
 
-bool StopWatch::should_stop() {
-  if (stop_) return true;
-  std::optional<StopReason> reason;
-  if (stop_token_.stop_requested()) reason = StopReason::interrupt;
-  if (max_seconds_ && seconds() >= *max_seconds_) reason = StopReason::max_time;
-  if (!reason) return false;
+std::optional<StopReason> StopWatch::asked() const {
+  if (max_seconds_ && elapsed() >= *max_seconds_) return StopReason::max_time;
+  if (stop_token_.stop_requested()) return StopReason::interrupt;
+  return std::nullopt;
+}
+
+void StopWatch::stop_for(StopReason reason) {
   const std::lock_guard lock(mutex_);
   if (!reason_) reason_ = reason;
   stop_ = true;
-  return true;
+}
+
+bool StopWatch::should_stop() {
+  if (stop_) return true;
+  if (team_ != nullptr) return false;
+  const std::optional<StopReason> reason = asked();
+  if (reason) stop_for(*reason);
+  return reason.has_value();
+}
+
+void StopWatch::agree() {
+  if (team_ == nullptr || stop_) return;
+  std::optional<StopReason> reason = asked();
+  share(team_, reason);
+  if (reason) stop_for(*reason);
 }
 
 std::optional<StopReason> StopWatch::reason() const {

@@ -10,20 +10,28 @@
 #include <stop_token>
 
 #include "lichtmc/result.hpp"
+#include "lichtmc/team.hpp"
 
 namespace lichtmc {
 
 class StopWatch {
  public:
-  // Time runs from now.
-  StopWatch(std::optional<double> max_seconds, std::stop_token stop)
-      : max_seconds_(max_seconds), stop_token_(std::move(stop)), began_(Clock::now()) {}
+  // Time runs from now. before: seconds that earlier sessions of the run took; they count in seconds() only. In a team
+  // (or null) all members stop together, where they agree().
+  StopWatch(std::optional<double> max_seconds, std::stop_token stop, double before = 0.0, Team* team = nullptr)
+      : max_seconds_(max_seconds), stop_token_(std::move(stop)), before_(before), team_(team), began_(Clock::now()) {}
 
-  // Whether a stop was asked for, the time is over or a thread has failed. Once true it stays so. Any thread may ask.
+  // Whether a stop was asked for, the time is over or a thread has failed; in a team, only what was agreed. Once true
+  // it stays so. Any thread may ask.
   bool should_stop();
+
   // Why should_stop() has said true; none where it has not, or where a thread failed.
   std::optional<StopReason> reason() const;
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
+
+  // Of a team's members all call it, at the same place of the run: whether to stop is what the first says.
+  void agree();
+
+  double seconds() const { return before_ + elapsed(); }
 
   // Calls work(0) … work(threads − 1), each on a thread of its own, the first on the calling one. Rethrows what the
   // first of them to fail threw; the others are told to stop.
@@ -32,8 +40,14 @@ class StopWatch {
  private:
   using Clock = std::chrono::steady_clock;
 
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
+  std::optional<StopReason> asked() const;
+  void stop_for(StopReason reason);
+
   std::optional<double> max_seconds_;
   std::stop_token stop_token_;
+  double before_;  // s
+  Team* team_;
   Clock::time_point began_;
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;  // guards what follows

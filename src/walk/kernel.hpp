@@ -56,9 +56,10 @@ class Kernel {
   Kernel(const Scene& scene, const Stream& stream, std::uint32_t max_flights)
       : scene_(&scene), stream_(stream), max_flights_(max_flights) {}
 
-  // n photons (1 … batch_histories) start and fly.
-  void fly(std::uint32_t n, Goal& goal, const Abandon& abandon) {
+  // n photons (1 … batch_histories) start and fly. Whether all came to their own end: false where they were abandoned.
+  bool fly(std::uint32_t n, Goal& goal, const Abandon& abandon) {
     launch(n, goal);
+    bool ended = true;
     for (std::uint32_t flight = 1; wave_.rays.size > 0; ++flight) {
       scene_->tracer->trace(wave_.rays, goal.misses(), goal.traced());
       lose_what_escaped(goal);
@@ -72,7 +73,9 @@ class Kernel {
       goal.reflect(wave_, flight);
       const bool abandoned = flight % abandon_interval == 0 && abandon() && flight > patience;
       if (abandoned || flight == max_flights_) cut_off(goal);
+      if (abandoned) ended = false;
     }
+    return ended;
   }
 
  private:

@@ -165,11 +165,12 @@ class ForwardWalk final : public Walk {
   ForwardWalk(const Scene& scene, const Settings& settings, std::uint32_t max_flights)
       : goal_(scene, Stream(settings.seed), settings.direct), kernel_(scene, Stream(settings.seed), max_flights) {}
 
-  void simulate_batch(std::uint64_t first, std::uint32_t n, Tally& tally, const Abandon& abandon) override {
+  bool simulate_batch(std::uint64_t first, std::uint32_t n, Tally& tally, const Abandon& abandon) override {
     goal_.begin(first, tally);
-    kernel_.fly(n, goal_, abandon);
+    const bool ended = kernel_.fly(n, goal_, abandon);
     tally.close_batch(n);
     assert(every_history_has_ended(tally));
+    return ended;
   }
 
  private:

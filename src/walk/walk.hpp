@@ -19,7 +19,8 @@ class Walk {
   virtual ~Walk() = default;
 
   // Simulates histories first … first + n − 1 (1 ≤ n ≤ batch_histories) and adds them to the tally as one batch.
-  virtual void simulate_batch(std::uint64_t first, std::uint32_t n, Tally& tally, const Abandon& abandon) = 0;
+  // Returns whether all came to their own end; they do unless `abandon` says so after very many flights.
+  virtual bool simulate_batch(std::uint64_t first, std::uint32_t n, Tally& tally, const Abandon& abandon) = 0;
 
  protected:
   Walk() = default;

@@ -15,6 +15,7 @@ BELOW = {
     "tracer": ["base", "chance", "room"],
     "walk": ["base", "chance", "room", "tracer"],
     "run": ["base", "chance", "room", "tracer", "walk"],
+    "store": ["base", "chance", "room", "tracer", "walk", "run"],
     "inspect": ["base", "chance", "room", "tracer", "walk", "run"],
     "view": ["base", "chance", "room", "tracer", "walk", "run"],
     "gltf": ["base", "chance", "room"],
@@ -24,7 +25,8 @@ BELOW = {
 PUBLIC = {
     "error": "base", "units": "base", "version": "base",
     "room": "room", "cuboid": "room", "mend": "room", "tiles": "room",
-    "settings": "room",  # plain data that every floor may read
+    "settings": "room", "state": "room",  # plain data that every floor may read
+    "team": "run",
     "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
     "paths": "walk", "picture": "view",
     "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output",
@@ -41,6 +43,8 @@ LIBRARIES = {
     r"stb/": ["src/base/", "src/gltf/"],
     r"hwy/": ["src/chance/", "src/walk/"],
     r"libfccp": ["src/output/"],
+    r"hdf5\.h": ["src/store/"],
+    r"xxhash": ["src/base/"],
 }
 
 

@@ -1,0 +1,70 @@
+// The options of `lichtmc run`, and those that other commands that make results share with it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "lichtmc/output.hpp"
+#include "lichtmc/settings.hpp"
+#include "room_options.hpp"
+
+namespace lichtmc::app {
+
+// When to stop.
+struct StopOptions {
+  std::optional<std::string> photons, target_error, max_time;
+
+  bool any() const { return photons || target_error || max_time; }
+};
+
+// The report of a run. What is not given is empty, so that another command may keep what the run was given.
+struct LookOptions {
+  std::optional<bool> report;
+  std::optional<std::string> pictures, paths, scale_max, scale_type, colour_map;
+
+  // What is given there comes before what is given here.
+  void override_with(const LookOptions& other);
+};
+
+struct RunOptions {
+  RoomOptions reading;
+  std::string output;
+  StopOptions stop;
+  std::optional<std::string> histories;
+  std::string estimator = "collision";
+  std::optional<std::string> max_bounces;
+  std::string tile = "0.1";
+  std::string seed = "1";
+  std::optional<int> threads;
+  std::string engine = "auto";
+  std::optional<std::string> direct;
+  std::string tiles = "forward";
+  std::optional<std::string> receivers, grid, grid_spacing, only;
+  LookOptions looks;
+  std::string checkpoint = "60s";
+  bool quiet = false;
+};
+
+void add_run_options(CLI::App& command, RunOptions& options);
+void add_stop_options(CLI::App& command, StopOptions& options);
+void add_look_options(CLI::App& command, LookOptions& options);
+void add_threads_option(CLI::App& command, std::optional<int>& threads, const std::string& group);
+void add_checkpoint_option(CLI::App& command, std::string& checkpoint, const std::string& group);
+
+// What the options say. Throw InputError naming the option.
+Settings parse_settings(const RunOptions& options);
+// Into settings that are there: rules that are not given end nothing.
+void apply_stop_options(const StopOptions& options, Settings& settings);
+ReportOptions parse_report(const LookOptions& looks, const std::optional<int>& threads,
+                           const std::string& command_line);
+inline bool wants_report(const LookOptions& looks) {
+  return looks.report.value_or(true);
+}
+double parse_checkpoint(const std::string& text);
+
+// The room with the receivers of the command line.
+Room read_run_room(const RunOptions& options);
+
+}  // namespace lichtmc::app

@@ -1,0 +1,93 @@
+#include <variant>
+
+#include "base/checksum.hpp"
+#include "lichtmc/state.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+class RoomChecksum {
+ public:
+  void add(const Room& room) {
+    sum_.add(static_cast<std::uint8_t>(room.quantity));
+    add_all(room.surfaces);
+    add_all(room.emitters);
+    add_all(room.receivers);
+    add_all(room.reflectance_maps);
+  }
+  Fingerprint value() const { return sum_.value(); }
+
+ private:
+  void add(const glm::dvec2& v) { sum_.add(&v, sizeof v); }
+  void add(const glm::dvec3& v) { sum_.add(&v, sizeof v); }
+  void add(const glm::uvec3& v) { sum_.add(&v, sizeof v); }
+  void add(float value) { sum_.add(value); }
+
+  void add(const Surface& surface) {
+    sum_.add(surface.name);
+    sum_.add(surface.material);
+    sum_.add(surface.reflectance);
+    sum_.add(static_cast<std::uint8_t>(surface.sides));
+    add_all(surface.positions);
+    add_all(surface.uvs);
+    add_all(surface.triangles);
+    sum_.add(std::uint64_t{surface.reflectance_map ? *surface.reflectance_map + 1 : 0});
+    add_all(surface.reflectance_uvs);
+  }
+  void add(const ReflectanceMap& map) {
+    sum_.add(map.columns);
+    sum_.add(map.rows);
+    add_all(map.values);
+    sum_.add(static_cast<std::uint8_t>(map.wrap_u));
+    sum_.add(static_cast<std::uint8_t>(map.wrap_v));
+  }
+
+  void add(const IsotropicEmitter& emitter) { add(emitter.position); }
+  void add(const LambertEmitter& emitter) {
+    add(emitter.position);
+    add(emitter.axis);
+    sum_.add(emitter.exponent);
+  }
+  void add(const SpotEmitter& emitter) {
+    add(emitter.position);
+    add(emitter.axis);
+    sum_.add(emitter.inner);
+    sum_.add(emitter.outer);
+  }
+  void add(const SurfaceEmitter& emitter) {
+    sum_.add(std::uint64_t{emitter.surface});
+    sum_.add(emitter.exponent);
+  }
+  void add(const Emitter& emitter) {
+    sum_.add(emitter.name);
+    sum_.add(emitter.power);
+    sum_.add(std::uint64_t{emitter.shape.index()});
+    std::visit([this](const auto& shape) { add(shape); }, emitter.shape);
+  }
+  void add(const Receiver& receiver) {
+    sum_.add(receiver.name);
+    add(receiver.position);
+    add(receiver.normal);
+    sum_.add(receiver.half_angle_deg);
+    sum_.add(receiver.area_m2);
+  }
+
+  template <class Thing>
+  void add_all(const std::vector<Thing>& things) {
+    sum_.add(std::uint64_t{things.size()});
+    for (const Thing& thing : things) add(thing);
+  }
+
+  Checksum sum_;
+};
+
+}  // namespace
+
+Fingerprint fingerprint(const Room& room) {
+  RoomChecksum sum;
+  sum.add(room);
+  return sum.value();
+}
+
+}  // namespace lichtmc

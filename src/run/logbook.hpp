@@ -1,0 +1,44 @@
+// The state of a run as it grows: what earlier sessions have left, what this one adds, and when to show it to the
+// caller (Control::checkpoint).
+//
+// Checkpoints come every Control::checkpoint_seconds, but so seldom that they take a hundredth of the time at most: the
+// next one is due a hundred times as long after the last as that took.
+#pragma once
+
+#include <chrono>
+#include <functional>
+
+#include "lichtmc/simulate.hpp"
+#include "run/state_data.hpp"
+
+namespace lichtmc {
+
+class Logbook {
+ public:
+  // data: of an earlier session, or with nothing counted. Control must outlive the logbook. only_read: nothing is to be
+  // simulated that the state does not hold.
+  Logbook(const Control& control, StateData data, bool only_read);
+
+  StateData& data() { return data_; }
+  bool only_read() const { return only_read_; }
+
+  // Whether it is time. Any thread may ask.
+  bool due() const { return control_->checkpoint && Clock::now() >= next_; }
+
+  // Has `fill_in` bring the data up to date, and calls back. Not while threads ask.
+  void checkpoint(const std::function<void(StateData&)>& fill_in);
+
+  // The state at the end; the logbook is empty then.
+  State close();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr int cost_factor = 100;
+
+  const Control* control_;
+  StateData data_;
+  bool only_read_;
+  Clock::time_point next_;
+};
+
+}  // namespace lichtmc

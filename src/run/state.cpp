@@ -1,0 +1,202 @@
+#include "lichtmc/state.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/message.hpp"
+#include "chance/moments.hpp"
+#include "lichtmc/error.hpp"
+#include "run/state_data.hpp"
+
+namespace lichtmc {
+
+static_assert(State::batch == batch_histories);
+
+const Settings& State::settings() const {
+  return data_->settings;
+}
+const Fingerprint& State::room() const {
+  return data_->room;
+}
+const std::string& State::version() const {
+  return data_->version;
+}
+const std::string& State::note() const {
+  return data_->note;
+}
+std::vector<HistoryRange> State::histories() const {
+  return data_->photons ? data_->photons->ranges : std::vector<HistoryRange>{};
+}
+std::uint64_t State::receiver_histories() const {
+  const std::optional<BackwardState>& walks = data_->receivers;
+  return walks ? walks->size() * walks->group * walks->sums->size() : 0;
+}
+double State::seconds() const {
+  double sum = 0.0;
+  if (data_->photons) sum += data_->photons->seconds;
+  if (data_->tile_walks) sum += data_->tile_walks->seconds;
+  if (data_->receivers) sum += data_->receivers->seconds;
+  return sum;
+}
+
+std::uint64_t Walked::size() const {
+  std::uint64_t sum = 0;
+  for (const HistoryRange& range : ranges) sum += range.last - range.first;
+  return sum;
+}
+
+namespace {
+
+// A range, and which state it is of.
+struct Owned {
+  HistoryRange range;
+  std::size_t state = 0;
+};
+
+std::string in_words(const HistoryRange& range) {
+  return std::to_string(range.first) + ":" + std::to_string(range.last);
+}
+
+class Merger {
+ public:
+  Merger(const std::vector<State>& states, const std::vector<std::string>& names) : states_(states), names_(names) {}
+
+  StateData merge() {
+    StateData sum = states_.front().data();
+    for (std::size_t k = 1; k < states_.size(); ++k) check_same(states_.front().data(), states_[k].data(), k);
+    merge_photons(sum);
+    merge_walks(sum, &StateData::tile_walks);
+    merge_walks(sum, &StateData::receivers);
+    // The stop rules of the parts are of no use for all together.
+    sum.settings.target_error.reset();
+    sum.settings.max_seconds.reset();
+    sum.settings.first_history = 0;
+    if (sum.photons) {
+      sum.settings.first_history = sum.photons->ranges.front().first;
+      sum.settings.photons = sum.photons->size();
+    }
+    return sum;
+  }
+
+ private:
+  [[noreturn]] void refuse(std::size_t k, const std::string& what) const {
+    throw InputError("The states in " + names_.front() + " and " + names_[k] + " " + what +
+                     " (allowed: the same). Merge parts of one run only.");
+  }
+
+  void check_same(const StateData& a, const StateData& b, std::size_t k) const {
+    if (a.version != b.version) refuse(k, "are of lichtmc " + a.version + " and " + b.version);
+    if (a.room != b.room) refuse(k, "are of different rooms");
+    const Settings& s = a.settings;
+    const Settings& t = b.settings;
+    if (s.seed != t.seed) refuse(k, "have the seeds " + std::to_string(s.seed) + " and " + std::to_string(t.seed));
+    if (s.tile_edge_m != t.tile_edge_m)
+      refuse(k, "have tiles of " + to_text(s.tile_edge_m) + " m and " + to_text(t.tile_edge_m) + " m");
+    if (s.direct != t.direct) refuse(k, "find direct light in different ways (--direct)");
+    if (s.tiles != t.tiles) refuse(k, "measure tiles in different ways (--tiles)");
+    if (s.ways != t.ways) refuse(k, "measure different things (--only)");
+    if (s.max_bounces != t.max_bounces) refuse(k, "end histories after different numbers of flights (--max-bounces)");
+    if (a.engine != b.engine)
+      refuse(k, "were traced by the engines " + std::string(to_string(a.engine)) + " and " +
+                    std::string(to_string(b.engine)));
+  }
+
+  void check_same_walk(const Walked& a, const Walked& b, std::size_t k) const {
+    if (a.estimator != b.estimator)
+      refuse(k, "have the estimators " + std::string(to_string(a.estimator)) + " and " +
+                    std::string(to_string(b.estimator)));
+  }
+
+  // Side by side, those that touch as one. `batch`: all ranges but the last end with a whole one.
+  std::vector<HistoryRange> join(std::vector<Owned> owned, std::uint64_t batch, const std::string& of_what) const {
+    std::sort(owned.begin(), owned.end(), [](const Owned& a, const Owned& b) {
+      return std::pair(a.range.first, a.range.last) < std::pair(b.range.first, b.range.last);
+    });
+    for (std::size_t k = 1; k < owned.size(); ++k) {
+      if (owned[k].range.first < owned[k - 1].range.last) {
+        throw InputError("The " + of_what + " " + in_words(owned[k - 1].range) + " of " + names_[owned[k - 1].state] +
+                         " and " + in_words(owned[k].range) + " of " + names_[owned[k].state] +
+                         " overlap (allowed: every one once, or it would count twice). Leave one state out.");
+      }
+    }
+    std::vector<HistoryRange> joined;
+    for (std::size_t k = 0; k < owned.size(); ++k) {
+      if (k + 1 < owned.size() && owned[k].range.last % batch != 0) {
+        throw InputError("The " + of_what + " " + in_words(owned[k].range) + " of " + names_[owned[k].state] +
+                         " end within a batch of " + std::to_string(batch) +
+                         " (allowed for the last range only). Give that part of the run --histories that end at a "
+                         "multiple of " + std::to_string(batch) + ".");
+      }
+      if (!joined.empty() && joined.back().last == owned[k].range.first) {
+        joined.back().last = owned[k].range.last;
+      } else {
+        joined.push_back(owned[k].range);
+      }
+    }
+    return joined;
+  }
+
+  void merge_photons(StateData& sum) const {
+    std::vector<Owned> owned;
+    std::shared_ptr<Totals> totals;
+    double seconds = 0.0;
+    for (std::size_t k = 0; k < states_.size(); ++k) {
+      const std::optional<Counted>& counted = states_[k].data().photons;
+      if (!counted) continue;
+      for (const HistoryRange& range : counted->ranges) owned.push_back({range, k});
+      seconds += counted->seconds;
+      if (totals == nullptr) {
+        totals = std::make_shared<Totals>(*counted->totals);
+        sum.photons = counted;
+        continue;
+      }
+      check_same_walk(*sum.photons, *counted, k);
+      if (totals->tiles.size() != counted->totals->tiles.size()) refuse(k, "have different numbers of tiles");
+      totals->add(*counted->totals);
+    }
+    if (!sum.photons) return;
+    sum.photons->ranges = join(std::move(owned), batch_histories, "histories");
+    sum.photons->totals = std::move(totals);
+    sum.photons->seconds = seconds;
+    if (states_.size() > 1) sum.photons->convergence.clear();
+  }
+
+  void merge_walks(StateData& sum, std::optional<BackwardState> StateData::* slot) const {
+    std::vector<Owned> owned;
+    std::shared_ptr<std::vector<ReceiverSums>> sums;
+    std::optional<BackwardState> merged;
+    for (std::size_t k = 0; k < states_.size(); ++k) {
+      const std::optional<BackwardState>& walks = states_[k].data().*slot;
+      if (!walks) continue;
+      for (const HistoryRange& range : walks->ranges) owned.push_back({range, k});
+      if (!merged) {
+        merged = walks;
+        sums = std::make_shared<std::vector<ReceiverSums>>(*walks->sums);
+        continue;
+      }
+      check_same_walk(*merged, *walks, k);
+      if (sums->size() != walks->sums->size() || merged->group != walks->group)
+        refuse(k, "have different numbers of receivers or tiles");
+      for (std::size_t i = 0; i < sums->size(); ++i) (*sums)[i].add((*walks->sums)[i]);
+      merged->count.add(walks->count);
+      merged->seconds += walks->seconds;
+    }
+    sum.*slot = merged;
+    if (!merged) return;
+    (sum.*slot)->ranges = join(std::move(owned), 1, "rounds of walks back");
+    (sum.*slot)->sums = std::move(sums);
+    if (states_.size() > 1) (sum.*slot)->convergence.clear();
+  }
+
+  const std::vector<State>& states_;
+  const std::vector<std::string>& names_;
+};
+
+}  // namespace
+
+State merge(const std::vector<State>& states, const std::vector<std::string>& names) {
+  if (states.empty()) throw InputError("There is no state to merge (allowed: one or more).");
+  return State(std::make_shared<const StateData>(Merger(states, names).merge()));
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,65 @@
+#include "run/team_work.hpp"
+
+#include <array>
+#include <bit>
+
+namespace lichtmc {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "integers of 128 bits are sent low word first");
+static_assert(sizeof(Moments) == 4 * sizeof(std::uint64_t) && sizeof(ReceiverSums) == 4 * sizeof(std::uint64_t));
+
+template <class Thing>
+std::span<std::uint64_t> words_of(Thing* things, std::size_t n) {
+  return {reinterpret_cast<std::uint64_t*>(things), n * sizeof(Thing) / sizeof(std::uint64_t)};
+}
+
+void add_words(Team& team, std::initializer_list<std::uint64_t*> values) {
+  std::vector<std::uint64_t> words;
+  for (const std::uint64_t* value : values) words.push_back(*value);
+  team.add(words);
+  std::size_t k = 0;
+  for (std::uint64_t* value : values) *value = words[k++];
+}
+
+}  // namespace
+
+Part part_of(const Team* team, std::uint64_t n) {
+  const auto at = [&](unsigned rank) { return static_cast<std::uint64_t>(static_cast<uint128>(n) * rank / size_of(team)); };
+  return {at(rank_of(team)), at(rank_of(team) + 1)};
+}
+
+void add_up(Team* team, Totals& totals) {
+  if (team == nullptr) return;
+  Ends& ends = totals.ends;
+  add_words(*team, {&totals.histories, &totals.impacts, &totals.traced.rays, &totals.traced.retraced,
+                    &totals.traced.shadow_rays, &ends.lost_histories});
+  std::array<int128, 4> ended{ends.absorbed, ends.escaped, ends.residual, ends.lost};
+  team->add_wide(words_of(ended.data(), ended.size()));
+  ends.absorbed = ended[0];
+  ends.escaped = ended[1];
+  ends.residual = ended[2];
+  ends.lost = ended[3];
+  team->add_wide(words_of(&totals.incident, 1));
+  team->add_wide(words_of(totals.tiles.data(), totals.tiles.size()));
+  team->add_wide(words_of(totals.maps.data(), totals.maps.size()));
+  team->add_wide(words_of(totals.behind.data(), totals.behind.size()));
+  if (!totals.hits.empty()) team->add(totals.hits);
+}
+
+void add_up(Team* team, std::vector<ReceiverSums>& sums) {
+  if (team != nullptr) team->add_wide(words_of(sums.data(), sums.size()));
+}
+
+void add_up(Team* team, BackwardCount& count) {
+  if (team == nullptr) return;
+  add_words(*team, {&count.impacts, &count.traced.rays, &count.traced.retraced, &count.traced.shadow_rays});
+}
+
+void collect(Team* team, std::vector<DirectIrradiance>& things) {
+  static_assert(sizeof(DirectIrradiance) == 2 * sizeof(double) && std::is_trivially_copyable_v<DirectIrradiance>);
+  if (team != nullptr) team->add(words_of(things.data(), things.size()));
+}
+
+}  // namespace lichtmc

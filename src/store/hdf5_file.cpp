@@ -1,0 +1,212 @@
+#include "store/hdf5_file.hpp"
+
+#include <array>
+#include <mutex>
+#include <utility>
+
+#include <hdf5.h>
+
+namespace lichtmc {
+
+namespace {
+
+std::mutex& library_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+using Closer = herr_t (*)(hid_t);
+
+// An object of HDF5, closed at the end.
+class Handle {
+ public:
+  Handle() = default;
+  Handle(hid_t id, Closer closer, const char* what) : id_(id), closer_(closer) {
+    if (id < 0) throw Hdf5Error(std::string("cannot ") + what);
+  }
+  ~Handle() {
+    if (id_ >= 0) closer_(id_);
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), closer_(other.closer_) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(closer_, other.closer_);
+    return *this;
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+
+  operator hid_t() const { return id_; }
+  bool close() { return id_ < 0 || closer_(std::exchange(id_, -1)) >= 0; }
+
+ private:
+  hid_t id_ = -1;
+  Closer closer_ = nullptr;
+};
+
+void check(herr_t status, const char* what) {
+  if (status < 0) throw Hdf5Error(std::string("cannot ") + what);
+}
+
+Handle space_of(Shape shape) {
+  const std::array<hsize_t, 2> sizes{shape.rows, shape.columns};
+  return {H5Screate_simple(shape.columns == 1 ? 1 : 2, sizes.data(), nullptr), H5Sclose, "describe an array"};
+}
+
+// Opens the file without asking for locks, which network file systems may not have. Its metadata is small and is kept
+// in memory until the end.
+Handle access() {
+  Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up HDF5");
+  check(H5Pset_fclose_degree(list, H5F_CLOSE_STRONG), "set up HDF5");
+  check(H5Pset_file_locking(list, false, true), "set up HDF5");
+  return list;
+}
+
+Handle create(const std::string& file, std::uint64_t user_bytes) {
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "set up HDF5");
+  check(H5Pset_userblock(creation, user_bytes), "set up HDF5");
+  // The same state makes the same bytes.
+  check(H5Pset_obj_track_times(creation, false), "set up HDF5");
+  return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access()), H5Fclose, "create the file"};
+}
+
+}  // namespace
+
+struct Hdf5File::Handles {
+  std::unique_lock<std::mutex> lock{library_mutex()};
+  // Errors come as exceptions, not as text on stderr.
+  H5E_auto2_t old_report = nullptr;
+  void* old_data = nullptr;
+  Handle file;
+  Handle group;
+  bool writes = false;
+
+  Handles() {
+    H5Eget_auto2(H5E_DEFAULT, &old_report, &old_data);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Handles() {
+    group.close();
+    file.close();
+    H5Eset_auto2(H5E_DEFAULT, old_report, old_data);
+  }
+  Handles(const Handles&) = delete;
+  Handles& operator=(const Handles&) = delete;
+
+  void write_attribute(const char* name, hid_t type, const void* value) const {
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "describe an attribute");
+    const Handle attribute(H5Acreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                           "make an attribute");
+    check(H5Awrite(attribute, type, value), "write an attribute");
+  }
+  Handle attribute(const char* name) const {
+    Handle found(H5Aopen(group, name, H5P_DEFAULT), H5Aclose, "find an attribute");
+    const Handle space(H5Aget_space(found), H5Sclose, "read an attribute");
+    if (H5Sget_simple_extent_npoints(space) != 1) throw Hdf5Error(std::string("attribute ") + name + " is no scalar");
+    return found;
+  }
+  void write_array(const char* name, hid_t type, const void* values, Shape shape) const {
+    const Handle space = space_of(shape);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "set up HDF5");
+    check(H5Pset_obj_track_times(creation, false), "set up HDF5");
+    check(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER), "set up HDF5");
+    const Handle array(H5Dcreate2(group, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
+                       "make an array");
+    if (shape.rows > 0) check(H5Dwrite(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write an array");
+  }
+  Handle array(const char* name) const { return {H5Dopen2(group, name, H5P_DEFAULT), H5Dclose, "find an array"}; }
+  void read_array(const char* name, hid_t type, void* values, Shape shape) const {
+    const Handle found = array(name);
+    if (shape.rows > 0) check(H5Dread(found, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "read an array");
+  }
+};
+
+Hdf5File::Hdf5File(const std::filesystem::path& file, Mode mode, std::uint64_t user_bytes)
+    : handles_(std::make_unique<Handles>()) {
+  handles_->writes = mode == Mode::write;
+  handles_->file = handles_->writes
+                       ? create(file.string(), user_bytes)
+                       : Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access()), H5Fclose, "open the file");
+}
+
+Hdf5File::~Hdf5File() = default;
+
+void Hdf5File::enter(const std::string& group) {
+  Handles& h = *handles_;
+  if (!h.writes || group == "/") {
+    h.group = Handle(H5Gopen2(h.file, group.c_str(), H5P_DEFAULT), H5Gclose, "find a group");
+    return;
+  }
+  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "set up HDF5");
+  check(H5Pset_obj_track_times(creation, false), "set up HDF5");
+  h.group = Handle(H5Gcreate2(h.file, group.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose, "make a group");
+}
+
+bool Hdf5File::has_group(const std::string& group) const {
+  return H5Lexists(handles_->file, group.c_str(), H5P_DEFAULT) > 0;
+}
+
+bool Hdf5File::has_array(const char* array) const {
+  return H5Lexists(handles_->group, array, H5P_DEFAULT) > 0;
+}
+
+void Hdf5File::write(const char* attribute, std::uint64_t value) {
+  handles_->write_attribute(attribute, H5T_NATIVE_UINT64, &value);
+}
+void Hdf5File::write(const char* attribute, double value) {
+  handles_->write_attribute(attribute, H5T_NATIVE_DOUBLE, &value);
+}
+void Hdf5File::write(const char* attribute, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "describe text");
+  check(H5Tset_size(type, text.size() + 1), "describe text");
+  check(H5Tset_cset(type, H5T_CSET_UTF8), "describe text");
+  handles_->write_attribute(attribute, type, text.c_str());
+}
+void Hdf5File::write(const char* array, const std::uint64_t* values, Shape shape) {
+  handles_->write_array(array, H5T_NATIVE_UINT64, values, shape);
+}
+void Hdf5File::write(const char* array, const double* values, Shape shape) {
+  handles_->write_array(array, H5T_NATIVE_DOUBLE, values, shape);
+}
+
+void Hdf5File::read(const char* attribute, std::uint64_t& value) {
+  check(H5Aread(handles_->attribute(attribute), H5T_NATIVE_UINT64, &value), "read an attribute");
+}
+void Hdf5File::read(const char* attribute, double& value) {
+  check(H5Aread(handles_->attribute(attribute), H5T_NATIVE_DOUBLE, &value), "read an attribute");
+}
+void Hdf5File::read(const char* attribute, std::string& text) {
+  const Handle found = handles_->attribute(attribute);
+  const Handle type(H5Aget_type(found), H5Tclose, "read text");
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
+    throw Hdf5Error(std::string("attribute ") + attribute + " is no text of fixed length");
+  text.assign(H5Tget_size(type), '\0');
+  check(H5Aread(found, type, text.data()), "read text");
+  text.resize(text.find_first_of('\0') == std::string::npos ? text.size() : text.find_first_of('\0'));
+}
+
+std::uint64_t Hdf5File::rows(const char* array, std::uint64_t columns) const {
+  const Handle found = handles_->array(array);
+  const Handle space(H5Dget_space(found), H5Sclose, "read an array");
+  std::array<hsize_t, 2> sizes{0, 1};
+  const int wanted = columns == 1 ? 1 : 2;
+  if (H5Sget_simple_extent_ndims(space) != wanted || H5Sget_simple_extent_dims(space, sizes.data(), nullptr) < 0 ||
+      (columns != 1 && sizes[1] != columns))
+    throw Hdf5Error(std::string("array ") + array + " has another shape");
+  return sizes[0];
+}
+
+void Hdf5File::read(const char* array, std::uint64_t* values, Shape shape) {
+  handles_->read_array(array, H5T_NATIVE_UINT64, values, shape);
+}
+void Hdf5File::read(const char* array, double* values, Shape shape) {
+  handles_->read_array(array, H5T_NATIVE_DOUBLE, values, shape);
+}
+
+void Hdf5File::close() {
+  const bool group_closed = handles_->group.close();
+  const bool file_closed = handles_->file.close();
+  if (!group_closed || !file_closed) throw Hdf5Error("cannot finish the file");
+}
+
+}  // namespace lichtmc

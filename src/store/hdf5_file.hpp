@@ -1,0 +1,66 @@
+// The little of HDF5 that states need: groups with attributes (numbers, text) and arrays of 64-bit numbers.
+//
+// HDF5 keeps state for the whole process and may be called by one thread at a time: an Hdf5File holds a lock as long as
+// it lives.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace lichtmc {
+
+// What HDF5 has refused, a short text.
+class Hdf5Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Rows of `columns` numbers; one column makes a plain list.
+struct Shape {
+  std::uint64_t rows = 0;
+  std::uint64_t columns = 1;
+};
+
+class Hdf5File {
+ public:
+  enum class Mode { write, read };
+
+  // write: replaces the file, leaving `user_bytes` (a power of two ≥ 512) free at its beginning. Throws Hdf5Error, as
+  // everything here does.
+  Hdf5File(const std::filesystem::path& file, Mode mode, std::uint64_t user_bytes);
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  // What follows is inside this group; "/" is the outermost. When writing it is made.
+  void enter(const std::string& group);
+  bool has_group(const std::string& group) const;
+
+  void write(const char* attribute, std::uint64_t value);
+  void write(const char* attribute, double value);
+  void write(const char* attribute, const std::string& text);
+  void write(const char* array, const std::uint64_t* values, Shape shape);
+  void write(const char* array, const double* values, Shape shape);
+
+  void read(const char* attribute, std::uint64_t& value);
+  void read(const char* attribute, double& value);
+  void read(const char* attribute, std::string& text);
+  bool has_array(const char* array) const;
+  // How many rows there are; throws where columns or numbers are others.
+  std::uint64_t rows(const char* array, std::uint64_t columns) const;
+  void read(const char* array, std::uint64_t* values, Shape shape);
+  void read(const char* array, double* values, Shape shape);
+
+  // Writes everything and closes the file.
+  void close();
+
+ private:
+  struct Handles;
+  std::unique_ptr<Handles> handles_;
+};
+
+}  // namespace lichtmc

@@ -1,0 +1,22 @@
+#include <memory>
+
+#include "base/message.hpp"
+#include "lichtmc/error.hpp"
+#include "lichtmc/state.hpp"
+#include "store/sealed_file.hpp"
+#include "store/state_layout.hpp"
+
+namespace lichtmc {
+
+State read_state(const std::filesystem::path& file) {
+  check_seal(file, state_title);
+  try {
+    Hdf5File hdf5(file, Hdf5File::Mode::read, seal_bytes);
+    return State(std::make_shared<const StateData>(read_layout(hdf5)));
+  } catch (const Hdf5Error& error) {
+    throw InputError("Cannot read the state " + in_quotes(file.string()) + ": " + error.what() +
+                     " (allowed: a file state.h5 that lichtmc has written). Run anew.");
+  }
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,93 @@
+#include "store/sealed_file.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "base/checksum.hpp"
+#include "base/message.hpp"
+#include "lichtmc/error.hpp"
+
+namespace lichtmc {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Block = std::array<char, seal_bytes>;
+
+// Of what follows the seal; n: its bytes.
+std::array<std::uint64_t, 2> checksum_of_rest(std::istream& in, std::uint64_t& n) {
+  Checksum sum;
+  std::vector<char> piece(std::size_t{1} << 20);
+  n = 0;
+  in.seekg(seal_bytes);
+  while (in) {
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    const auto got = static_cast<std::size_t>(in.gcount());
+    sum.add(piece.data(), got);
+    n += got;
+  }
+  return sum.value();
+}
+
+Block seal_of(std::string_view title, const std::array<std::uint64_t, 2>& checksum, std::uint64_t n) {
+  const std::string text = std::string(title) + "\n" + std::to_string(n) + " bytes follow; XXH3-128 " +
+                           to_hex(checksum) + "\n";
+  Block block{};
+  text.copy(block.data(), block.size());
+  return block;
+}
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
+  throw InputError("Cannot read the state " + in_quotes(file.string()) + ": " + what);
+}
+
+}  // namespace
+
+void seal(const fs::path& file, std::string_view title) {
+  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+  std::uint64_t n = 0;
+  const std::array<std::uint64_t, 2> checksum = checksum_of_rest(stream, n);
+  const Block block = seal_of(title, checksum, n);
+  stream.clear();
+  stream.seekp(0);
+  stream.write(block.data(), static_cast<std::streamsize>(block.size()));
+  stream.close();
+  if (!stream)
+    throw RuntimeError("Cannot write " + file.string() + " (" + std::strerror(errno) +
+                       "). Check that its folder is there and has room, or choose another.");
+}
+
+void check_seal(const fs::path& file, std::string_view title) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    refuse(file, std::string(std::strerror(errno)) +
+                     " (allowed: a file state.h5 that lichtmc has written). Check the name and the folder.");
+  }
+  Block found{};
+  stream.read(found.data(), static_cast<std::streamsize>(found.size()));
+  const std::string_view text(found.data(), found.size());
+  const std::string_view first_line = text.substr(0, text.find('\n'));
+  constexpr std::size_t kind = 13;  // "lichtmc state", the beginning of every title
+  if (first_line != title) {
+    if (first_line.substr(0, kind) != title.substr(0, kind))
+      refuse(file, "it is no state of lichtmc, or its beginning is damaged (allowed: a file state.h5 that lichtmc has "
+                   "written). Give another file, or run anew.");
+    refuse(file, "it is a " + in_quotes(first_line) + " (allowed: " + in_quotes(title) +
+                     "). Use the version of lichtmc that made it, or run anew.");
+  }
+  std::uint64_t n = 0;
+  stream.clear();
+  const std::array<std::uint64_t, 2> checksum = checksum_of_rest(stream, n);
+  if (found != seal_of(title, checksum, n)) {
+    refuse(file, "it is damaged: its checksum is wrong (allowed: the file as it was written). Take a copy of it, if "
+                 "there is one, or run anew.");
+  }
+}
+
+}  // namespace lichtmc
