@@ -13,6 +13,7 @@ packages=(
   libstb-dev                                 # pictures
   libopenexr-dev                             # tile maps as images
   libhdf5-dev libxxhash-dev                  # states of runs, their checksums
+  libopenmpi-dev openmpi-bin                 # runs over several machines
   libhwy-dev                                 # random numbers in lanes
   libfccp-dev                                # tables read back
   libcli11-dev                               # the command line

@@ -50,9 +50,6 @@ void check_output(const fs::path& folder, const std::vector<fs::path>& files) {
 }
 
 void merge_states(const MergeOptions& options, const Started& started) {
-  if (started.team != nullptr)
-    throw InputError("merge is the work of one process (started as " + std::to_string(started.team->size()) +
-                     "). Start it without mpirun.");
   std::vector<fs::path> files;
   for (const std::string& name : options.states) files.push_back(state_file(name));
   State state = read_and_merge(files);

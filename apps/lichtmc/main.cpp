@@ -5,6 +5,7 @@
 #include <string>
 
 #include "commands.hpp"
+#include "join_team.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/version.hpp"
 
@@ -12,11 +13,6 @@ namespace {
 
 constexpr int exit_failed = 1;       // the run failed: disk, memory, device
 constexpr int exit_wrong_input = 2;  // the command line or an input is wrong
-
-int fail(const std::string& message, int status) {
-  std::cerr << "lichtmc: " << message << '\n';
-  return status;
-}
 
 // A word that is no command is named, before the parser says only that a command is missing.
 void check_command(CLI::App& program, int argc, char** argv) {
@@ -28,6 +24,16 @@ void check_command(CLI::App& program, int argc, char** argv) {
   }
   throw lichtmc::InputError("There is no command '" + std::string(argv[1]) + "' (allowed: " + names +
                             "). See lichtmc --help.");
+}
+
+// Only runs are shared; other commands would be carried out by every process.
+void check_team(int argc, char** argv, const lichtmc::Team* team) {
+  if (team == nullptr || team->size() == 1 || argc < 2) return;
+  const std::string command = argv[1];
+  if (command == "run" || command == "resume" || command[0] == '-') return;
+  throw lichtmc::InputError("The command '" + command + "' is the work of one process, and " +
+                            std::to_string(team->size()) +
+                            " were started (allowed: run and resume share their work). Start it without mpirun.");
 }
 
 // What was typed, such that a shell reads it as the same words.
@@ -74,6 +80,7 @@ int run_program(int argc, char** argv, lichtmc::Team* team) {
   lichtmc::app::add_compare_command(program, status);
   try {
     check_command(program, argc, argv);
+    check_team(argc, argv, team);
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help and --version
     program.exit(asked);
@@ -81,19 +88,42 @@ int run_program(int argc, char** argv, lichtmc::Team* team) {
   return status;
 }
 
+// What went wrong, and with which exit status.
+struct Fault {
+  std::string message;
+  int status = exit_failed;
+};
+
+Fault fault_in_hand() {
+  try {
+    throw;
+  } catch (const CLI::ParseError& error) {
+    return {std::string(error.what()) + "\nSee lichtmc --help, or lichtmc COMMAND --help.", exit_wrong_input};
+  } catch (const lichtmc::InputError& error) {
+    return {error.what(), exit_wrong_input};
+  } catch (const std::exception& error) {
+    return {error.what(), exit_failed};
+  } catch (...) {
+    return {"an unknown fault. Please report it.", exit_failed};
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow further is a failed write, with a message
   try {
-    return run_program(argc, argv, nullptr);
-  } catch (const CLI::ParseError& error) {
-    return fail(std::string(error.what()) + "\nSee lichtmc --help, or lichtmc COMMAND --help.", exit_wrong_input);
-  } catch (const lichtmc::InputError& error) {
-    return fail(error.what(), exit_wrong_input);
-  } catch (const std::exception& error) {
-    return fail(error.what(), exit_failed);
+    const lichtmc::app::ProcessTeam team;
+    try {
+      return run_program(argc, argv, team.get());
+    } catch (...) {
+      const Fault fault = fault_in_hand();
+      team.end(fault.message.c_str(), fault.status);
+      throw;
+    }
   } catch (...) {
-    return fail("an unknown fault. Please report it.", exit_failed);
+    const Fault fault = fault_in_hand();
+    std::cerr << "lichtmc: " << fault.message << '\n';
+    return fault.status;
   }
 }

@@ -121,6 +121,16 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
   return result;
 }
 
+// All members have read the same file, or not.
+void check_team_room(Team* team, const Fingerprint& room) {
+  Fingerprint of_first = room;
+  share(team, of_first);
+  if (of_first != room)
+    throw InputError("Process " + std::to_string(rank_of(team)) +
+                     " has another room than the first (allowed: the same file for all). Put the room where all "
+                     "machines see it.");
+}
+
 // What is the same for a run from the start and for one that goes on.
 Result simulate_from(const Room& room, const Settings& settings, const Control& control, StateData data,
                      bool only_read) {
@@ -132,6 +142,7 @@ Result simulate_from(const Room& room, const Settings& settings, const Control& 
       throw InputError("The time between checkpoints is " + to_text(control.checkpoint_seconds) +
                        " s (allowed: 0 or more). Give --checkpoint a time, for example 60s.");
     }
+    check_team_room(control.team, data.room);
     Logbook logbook(control, std::move(data), only_read);
     return simulate_checked(room, settings, control, logbook);
   } catch (const std::bad_alloc&) {

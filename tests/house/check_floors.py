@@ -18,6 +18,7 @@ BELOW = {
     "store": ["base", "chance", "room", "tracer", "walk", "run"],
     "inspect": ["base", "chance", "room", "tracer", "walk", "run"],
     "view": ["base", "chance", "room", "tracer", "walk", "run"],
+    "mpi": ["base", "run"],
     "gltf": ["base", "chance", "room"],
     "output": ["base", "chance", "room"],
 }
@@ -26,7 +27,7 @@ PUBLIC = {
     "error": "base", "units": "base", "version": "base",
     "room": "room", "cuboid": "room", "mend": "room", "tiles": "room",
     "settings": "room", "state": "room",  # plain data that every floor may read
-    "team": "run",
+    "team": "run", "mpi": "mpi",
     "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
     "paths": "walk", "picture": "view",
     "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output",
@@ -45,6 +46,7 @@ LIBRARIES = {
     r"libfccp": ["src/output/"],
     r"hdf5\.h": ["src/store/"],
     r"xxhash": ["src/base/"],
+    r"mpi\.h": ["src/mpi/"],
 }
 
 

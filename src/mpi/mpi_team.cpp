@@ -1,0 +1,102 @@
+#include "lichtmc/mpi.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include <mpi.h>
+
+#include "lichtmc/error.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// MPI counts in int. Pieces of 2²⁴ words are long enough that another message costs nothing.
+constexpr std::size_t longest = std::size_t{1} << 24;
+
+// a + b of 128 bits: the carry of the low words goes into the high ones.
+void add_pairs(void* in, void* in_out, int* n, MPI_Datatype* /*type*/) {
+  const auto* a = static_cast<const std::uint64_t*>(in);
+  auto* b = static_cast<std::uint64_t*>(in_out);
+  for (int i = 0; i < *n; ++i) {
+    const std::uint64_t low = a[2 * i] + b[2 * i];
+    b[2 * i + 1] += a[2 * i + 1] + (low < b[2 * i] ? 1 : 0);
+    b[2 * i] = low;
+  }
+}
+
+// Open MPI, and anything that starts processes by PMIx or PMI (srun, MPICH's mpiexec), say so in the environment.
+bool started_by_mpi() {
+  const char* const signs[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
+  return std::any_of(std::begin(signs), std::end(signs), [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+class ConnectedTeam final : public MpiTeam {
+ public:
+  ConnectedTeam() {
+    int provided = 0;
+    if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||
+        provided < MPI_THREAD_FUNNELED) {
+      throw RuntimeError("MPI cannot be started with threads (MPI_THREAD_FUNNELED). Check the installation of MPI, or "
+                         "start lichtmc without mpirun.");
+    }
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    MPI_Type_contiguous(2, MPI_UINT64_T, &pair_);
+    MPI_Type_commit(&pair_);
+    MPI_Op_create(add_pairs, 1, &add_);
+  }
+  ~ConnectedTeam() override {
+    MPI_Op_free(&add_);
+    MPI_Type_free(&pair_);
+    MPI_Finalize();
+  }
+  ConnectedTeam(const ConnectedTeam&) = delete;
+  ConnectedTeam& operator=(const ConnectedTeam&) = delete;
+
+  unsigned rank() const override { return static_cast<unsigned>(rank_); }
+  unsigned size() const override { return static_cast<unsigned>(size_); }
+
+  void add(std::span<std::uint64_t> words) override {
+    in_pieces(words.size(), [&](std::size_t first, int n) {
+      MPI_Allreduce(MPI_IN_PLACE, words.data() + first, n, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+    });
+  }
+  void add_wide(std::span<std::uint64_t> words) override {
+    in_pieces(words.size() / 2, [&](std::size_t first, int n) {
+      MPI_Allreduce(MPI_IN_PLACE, words.data() + 2 * first, n, pair_, add_, MPI_COMM_WORLD);
+    });
+  }
+  void share(std::span<std::byte> bytes) override {
+    in_pieces(bytes.size(), [&](std::size_t first, int n) {
+      MPI_Bcast(bytes.data() + first, n, MPI_BYTE, 0, MPI_COMM_WORLD);
+    });
+  }
+
+  [[noreturn]] void abort(int status) override {
+    MPI_Abort(MPI_COMM_WORLD, status);
+    std::_Exit(status);
+  }
+
+ private:
+  template <class Send>
+  static void in_pieces(std::size_t all, const Send& send) {
+    for (std::size_t first = 0; first < all; first += longest)
+      send(first, static_cast<int>(std::min(longest, all - first)));
+  }
+
+  int rank_ = 0;
+  int size_ = 1;
+  MPI_Datatype pair_ = MPI_DATATYPE_NULL;
+  MPI_Op add_ = MPI_OP_NULL;
+};
+
+}  // namespace
+
+std::unique_ptr<MpiTeam> join_mpi_team() {
+  if (!started_by_mpi()) return nullptr;
+  return std::make_unique<ConnectedTeam>();
+}
+
+}  // namespace lichtmc
