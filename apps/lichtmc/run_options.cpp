@@ -189,7 +189,7 @@ void LookOptions::override_with(const LookOptions& other) {
   const auto take = [](auto& mine, const auto& theirs) {
     if (theirs) mine = theirs;
   };
-  take(report, other.report);
+  if (!other.report.empty()) report = other.report;
   take(pictures, other.pictures);
   take(paths, other.paths);
   take(scale_max, other.scale_max);
@@ -229,7 +229,9 @@ void add_checkpoint_option(CLI::App& command, std::string& checkpoint, const std
 
 void add_look_options(CLI::App& command, LookOptions& options) {
   const std::string group = "The report: report.html, room_lit.glb and pictures/";
-  command.add_flag("--report,!--no-report", options.report, "Write it [yes]")->group(group);
+  command.add_flag("--report,!--no-report", options.report, "Write it [yes]")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+      ->group(group);
   command
       .add_option("--scale-max", options.scale_max,
                   "What the top colour stands for, in lx or W/m^2 [chosen from the tiles]")

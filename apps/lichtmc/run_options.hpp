@@ -21,7 +21,7 @@ struct StopOptions {
 
 // The report of a run. What is not given is empty, so that another command may keep what the run was given.
 struct LookOptions {
-  std::optional<bool> report;
+  std::string report;  // "true" or "false"
   std::optional<std::string> pictures, paths, scale_max, scale_type, colour_map;
 
   // What is given there comes before what is given here.
@@ -60,7 +60,7 @@ void apply_stop_options(const StopOptions& options, Settings& settings);
 ReportOptions parse_report(const LookOptions& looks, const std::optional<int>& threads,
                            const std::string& command_line);
 inline bool wants_report(const LookOptions& looks) {
-  return looks.report.value_or(true);
+  return looks.report != "false";
 }
 double parse_checkpoint(const std::string& text);
 

@@ -15,17 +15,17 @@
 
 namespace lichtmc {
 
-// Makes the folder (and its parents) where it is missing and tries to write into it.
+// Makes the folder (and its parents) where it is missing, tries to write into it, and removes what a program that was
+// killed while writing there has left.
 // Throws InputError where that fails. Call it before a long run, so that the run is not lost.
 void prepare_output(const std::filesystem::path& folder);
 
 // Writes summary.json into a folder; tiles.csv, surfaces.csv and tiles/NAME.exr where tiles were measured;
 // receivers.csv where receivers were.
 //
-// Every file is written under a temporary name and renamed when it is whole; summary.json comes last, so that a folder
-// with a summary.json of this run is complete. tiles/ holds the maps of this run only; the report of an earlier one is
-// removed. Throws RuntimeError where
-// something cannot be written.
+// All files are written and flushed to the disk under other names first, and renamed then; summary.json comes last, so
+// that a folder with a summary.json is complete. tiles/ holds the maps of this run only; the report of an earlier one
+// is removed. Throws RuntimeError where something cannot be written: the files of an earlier run are whole then.
 void write_results(const Room& room, const Result& result, const std::filesystem::path& folder);
 
 struct ReportOptions {

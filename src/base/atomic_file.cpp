@@ -31,11 +31,14 @@ class TemporaryFile {
   // Collects small pieces: a call of the system for each would take longer than making them.
   void write(std::string_view bytes) {
     constexpr std::size_t enough = std::size_t{1} << 18;
+    if (bytes.size() >= enough) {
+      flush();
+      write_out(bytes);
+      return;
+    }
     waiting_ += bytes;
     if (waiting_.size() >= enough) flush();
   }
-
-  const std::filesystem::path& path() const { return path_; }
 
   void become_target() {
     flush();
@@ -44,18 +47,26 @@ class TemporaryFile {
     descriptor_ = -1;
     if (closed != 0 || std::rename(path_.c_str(), target_.c_str()) != 0) fail();
     renamed_ = true;
+    // The new name too must outlive a power cut. Some file systems cannot flush folders: then it is as good as it gets.
+    const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+    const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (opened < 0) return;
+    ::fsync(opened);
+    ::close(opened);
   }
 
  private:
   void flush() {
-    std::string_view bytes = waiting_;
+    write_out(waiting_);
+    waiting_.clear();
+  }
+  void write_out(std::string_view bytes) {
     while (!bytes.empty()) {
       const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
       if (written < 0 && errno == EINTR) continue;
       if (written < 0) fail();
       bytes.remove_prefix(static_cast<std::size_t>(written));
     }
-    waiting_.clear();
   }
 
   [[noreturn]] void fail() const {
@@ -82,13 +93,6 @@ void write_file_atomically(const std::filesystem::path& file, const std::functio
 
 void write_file_atomically(const std::filesystem::path& file, std::string_view bytes) {
   write_file_atomically(file, [bytes](const Sink& sink) { sink(bytes); });
-}
-
-void make_file_atomically(const std::filesystem::path& file,
-                          const std::function<void(const std::filesystem::path& temporary)>& make) {
-  TemporaryFile temporary(file);
-  make(temporary.path());
-  temporary.become_target();
 }
 
 }  // namespace lichtmc

@@ -16,9 +16,4 @@ using Sink = std::function<void(std::string_view)>;
 void write_file_atomically(const std::filesystem::path& file, const std::function<void(const Sink&)>& produce);
 void write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
 
-// The same where something else makes the file: `make` fills the temporary file that it is given, which is there and
-// empty.
-void make_file_atomically(const std::filesystem::path& file,
-                          const std::function<void(const std::filesystem::path& temporary)>& make);
-
 }  // namespace lichtmc

@@ -1,7 +1,13 @@
 #include "output/folder.hpp"
 
+#include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <charconv>
 #include <vector>
+
+#include <csignal>
+#include <unistd.h>
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
@@ -44,6 +50,68 @@ void remove_old_files(const fs::path& folder, const std::function<bool(const fs:
     throw RuntimeError("Cannot list the folder " + in_quotes(folder.string()) + " (" + reason_of(error) +
                        "). Choose another folder with --output.");
   for (const fs::path& file : old) remove_old(file);
+}
+
+namespace {
+
+constexpr std::string_view stage_prefix = ".lichtmc-";
+constexpr std::string_view temporary_mark = ".tmp";  // as files that are being written are called
+
+// Whether a name ends with the number of a process that is not there any more.
+bool is_of_the_dead(std::string_view name, std::string_view mark) {
+  const std::size_t at = name.rfind(mark);
+  if (at == std::string_view::npos) return false;
+  const std::string_view digits = name.substr(at + mark.size());
+  pid_t process = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), process);
+  if (error != std::errc() || end != digits.data() + digits.size() || process <= 0) return false;
+  return ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+}  // namespace
+
+StagedFiles::StagedFiles(const fs::path& folder)
+    : folder_(folder), stage_(folder / (std::string(stage_prefix) + std::to_string(::getpid()))) {
+  make_folder(stage_);
+}
+
+StagedFiles::~StagedFiles() {
+  std::error_code ignored;
+  fs::remove_all(stage_, ignored);
+}
+
+fs::path StagedFiles::operator/(const fs::path& name) const {
+  if (name.has_parent_path()) make_folder(stage_ / name.parent_path());
+  return stage_ / name;
+}
+
+void StagedFiles::publish(const fs::path& last) {
+  std::vector<fs::path> names;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(stage_)) {
+    if (entry.is_regular_file()) names.push_back(entry.path().lexically_relative(stage_));
+  }
+  std::sort(names.begin(), names.end(), [&](const fs::path& a, const fs::path& b) {
+    return std::pair(a == last, a) < std::pair(b == last, b);
+  });
+  for (const fs::path& name : names) {
+    if (name.has_parent_path()) make_folder(folder_ / name.parent_path());
+    std::error_code error;
+    fs::rename(stage_ / name, folder_ / name, error);
+    if (error)
+      throw RuntimeError("Cannot write " + (folder_ / name).string() + " (" + reason_of(error) +
+                         "). Choose another folder with --output.");
+  }
+}
+
+void StagedFiles::remove_leftovers(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> old;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    const bool stage = name.starts_with(stage_prefix) && is_of_the_dead(name, stage_prefix);
+    if (stage || is_of_the_dead(name, temporary_mark)) old.push_back(entry->path());
+  }
+  for (const fs::path& path : old) fs::remove_all(path, error);
 }
 
 }  // namespace lichtmc

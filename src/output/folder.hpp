@@ -8,6 +8,32 @@
 
 namespace lichtmc {
 
+// Files that belong together: written into a folder within the folder, then moved to their places all at once. Until
+// then nothing of what was there is touched, so that a full disk costs nothing.
+class StagedFiles {
+ public:
+  // Throws RuntimeError where the folder cannot be written to.
+  explicit StagedFiles(const std::filesystem::path& folder);
+  // Removes what was not published.
+  ~StagedFiles();
+  StagedFiles(const StagedFiles&) = delete;
+  StagedFiles& operator=(const StagedFiles&) = delete;
+
+  // Where to write the file that is to become folder/name, or folder/inner/name.
+  std::filesystem::path operator/(const std::filesystem::path& name) const;
+
+  // Moves every file to its place; `last`, if there is one of that name, as the last. Throws RuntimeError where one
+  // cannot be moved.
+  void publish(const std::filesystem::path& last);
+
+  // Removes what programs that were killed have left in a folder.
+  static void remove_leftovers(const std::filesystem::path& folder);
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path stage_;
+};
+
 // The system's words inside a sentence: "permission denied".
 std::string reason_of(const std::error_code& error);
 

@@ -31,7 +31,7 @@ constexpr std::uint64_t most_paths = 10'000;
 class Reporting {
  public:
   Reporting(const Room& room, const Result& result, const fs::path& folder, const ReportOptions& options)
-      : room_(&room), result_(&result), folder_(&folder), options_(&options) {
+      : room_(&room), result_(&result), folder_(folder), options_(&options) {
     content_.room = &room;
     content_.result = &result;
     content_.command = options.command;
@@ -40,13 +40,13 @@ class Reporting {
   void write() {
     if (!result_->tiles.empty()) {
       content_.scale = choose_scale(*result_, options_->scale);
-      make_folder(*folder_ / "pictures");
       draw();
     }
     tell("Looking the room over");
     content_.inspection = inspect(*room_, result_->settings.tile_edge_m);
     tell("Writing report.html");
-    write_file_atomically(*folder_ / "report.html", report_html(content_));
+    write_file_atomically(folder_ / "report.html", report_html(content_));
+    folder_.publish("report.html");
   }
 
  private:
@@ -63,10 +63,11 @@ class Reporting {
   };
 
   void write_picture(const std::string& stem, const Drawn& drawn) const {
-    const fs::path pictures = *folder_ / "pictures";
-    write_file_atomically(pictures / (stem + ".png"), drawn.png);
-    write_file_atomically(pictures / (stem + ".svg"), drawn.svg);
-    if (options_->exr_pictures) write_file_atomically(pictures / (stem + ".exr"), exr_of(*drawn.picture, *result_));
+    const fs::path pictures = "pictures";
+    write_file_atomically(folder_ / (pictures / (stem + ".png")), drawn.png);
+    write_file_atomically(folder_ / (pictures / (stem + ".svg")), drawn.svg);
+    if (options_->exr_pictures)
+      write_file_atomically(folder_ / (pictures / (stem + ".exr")), exr_of(*drawn.picture, *result_));
   }
 
   Drawn room_picture(const std::string& name, const Picture& picture, View view) const {
@@ -109,10 +110,10 @@ class Reporting {
     for (const Drawn& drawn : all) stems.push_back(drawn.name);
     stems = file_stems(stems);
     if (!content_.paths_picture.empty())
-      write_file_atomically(*folder_ / "pictures" / (stems[0] + ".svg"), content_.paths_picture);
+      write_file_atomically(folder_ / (fs::path("pictures") / (stems[0] + ".svg")), content_.paths_picture);
     for (std::size_t k = 0; k < all.size(); ++k) write_picture(stems[k + 1], all[k]);
     content_.lit_room = lit_room_glb(*room_, *result_, painter.lit_sides(), content_.scale, paths);
-    write_file_atomically(*folder_ / "room_lit.glb", content_.lit_room);
+    write_file_atomically(folder_ / "room_lit.glb", content_.lit_room);
   }
 
   // The first photons of the run, if they are to be seen.
@@ -127,7 +128,7 @@ class Reporting {
 
   const Room* room_;
   const Result* result_;
-  const fs::path* folder_;
+  StagedFiles folder_;
   const ReportOptions* options_;
   ReportContent content_;
 };

@@ -48,6 +48,7 @@ void prepare_output(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error) refuse_folder(folder, reason_of(error));
   if (const std::error_code fault = try_to_write(folder)) refuse_folder(folder, reason_of(fault));
+  StagedFiles::remove_leftovers(folder);
   for (const char* name : {"tiles", "pictures"}) {
     const fs::path inner = folder / name;
     if (!fs::exists(inner, error)) continue;
@@ -58,33 +59,33 @@ void prepare_output(const fs::path& folder) {
 
 void write_results(const Room& room, const Result& result, const fs::path& folder) {
   make_folder(folder / "tiles");
-  // A summary speaks for all files beside it: none while they change.
+  StagedFiles staged(folder);
+  std::vector<std::string> maps;
+  if (!result.tiles.empty()) {
+    maps = tile_image_names(result.tiling);
+    for (std::size_t m = 0; m < maps.size(); ++m)
+      write_file_atomically(staged / (fs::path("tiles") / maps[m]), tile_image(result, m));
+    write_file_atomically(staged / "tiles.csv", [&](const Sink& sink) { write_tiles_csv(result, sink); });
+    write_file_atomically(staged / "surfaces.csv", surfaces_csv(result));
+  }
+  if (!result.receiver_results.empty())
+    write_file_atomically(staged / "receivers.csv", [&](const Sink& sink) { write_receivers_csv(result, sink); });
+  write_file_atomically(staged / "summary.json", [&](const Sink& sink) { write_summary(room, result, sink); });
+
+  // All is on the disk: now what was there may go. A summary speaks for all files beside it: none while they change.
   remove_old(folder / "summary.json");
   remove_report(folder);
-
-  // What this run has not computed is not left over from another.
-  std::vector<std::string> names;
-  if (!result.tiles.empty()) names = tile_image_names(result.tiling);
-  for (std::size_t m = 0; m < names.size(); ++m)
-    write_file_atomically(folder / "tiles" / names[m], tile_image(result, m));
-  // Maps of an earlier run that this one has not written again. Other files are left alone.
-  const std::set<std::string> ours(names.begin(), names.end());
+  // What this run has not computed is not left over from another. Other files are left alone.
+  const std::set<std::string> ours(maps.begin(), maps.end());
   remove_old_files(folder / "tiles", [&](const fs::path& file) {
     return file.extension() == ".exr" && ours.count(file.filename().string()) == 0;
   });
-  if (!result.tiles.empty()) {
-    write_file_atomically(folder / "tiles.csv", [&](const Sink& sink) { write_tiles_csv(result, sink); });
-    write_file_atomically(folder / "surfaces.csv", surfaces_csv(result));
-  } else {
+  if (result.tiles.empty()) {
     remove_old(folder / "tiles.csv");
     remove_old(folder / "surfaces.csv");
   }
-  if (!result.receiver_results.empty()) {
-    write_file_atomically(folder / "receivers.csv", [&](const Sink& sink) { write_receivers_csv(result, sink); });
-  } else {
-    remove_old(folder / "receivers.csv");
-  }
-  write_file_atomically(folder / "summary.json", [&](const Sink& sink) { write_summary(room, result, sink); });
+  if (result.receiver_results.empty()) remove_old(folder / "receivers.csv");
+  staged.publish("summary.json");
 }
 
 }  // namespace lichtmc

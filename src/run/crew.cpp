@@ -32,7 +32,6 @@ Crew::Crew(const Scene& scene, const Settings& settings, const Control& control,
       whole_(std::make_shared<Totals>(scene.first_tile.back(), scene.first_tile.size() - 1, hits_)) {
   for (unsigned k = 0; k < threads; ++k) {
     workers_.push_back({make_walk(scene, settings), std::nullopt});
-    workers_.back().tally.emplace(scene.first_tile, hits_);
   }
 }
 
@@ -78,6 +77,7 @@ void Crew::simulate_ends() {
 // Every member of a team does so for itself: a batch takes less time than to send it.
 void Crew::simulate_part(HistoryRange range) {
   Worker& worker = workers_.front();
+  worker.tally.emplace(scene_->first_tile, hits_);
   const auto n = static_cast<std::uint32_t>(range.last - range.first);
   worker.abandoned |= !worker.walk->simulate_batch(range.first, n, *worker.tally, [this] { return watch_->should_stop(); });
   ends_ = n;
@@ -114,6 +114,7 @@ void Crew::work_in_team(std::uint64_t end) {
 }
 
 void Crew::work(Worker& worker, std::uint64_t end, bool may_pause) {
+  if (!worker.tally) worker.tally.emplace(scene_->first_tile, hits_);
   std::uint64_t told = worker.tally->counts().impacts;
   const auto tell = [&](std::uint64_t histories) {
     const std::uint64_t impacts = worker.tally->counts().impacts - told;
@@ -145,9 +146,8 @@ void Crew::collect() {
   whole_ = own(std::move(whole_));
   const auto hand_over = [this](Totals& sum) {
     for (Worker& worker : workers_) {
-      worker.tally->add_to(sum);
-      worker.tally.reset();  // before the next takes as much memory
-      worker.tally.emplace(scene_->first_tile, hits_);
+      if (worker.tally) worker.tally->add_to(sum);
+      worker.tally.reset();
     }
   };
   if (team_ == nullptr) return hand_over(*whole_);
@@ -162,7 +162,9 @@ const Totals& Crew::totals() {
   if (ends_ == 0 && !abandoned()) return *whole_;
   if (sum_ == nullptr) {
     sum_ = std::make_unique<Totals>(*whole_);
-    for (const Worker& worker : workers_) worker.tally->add_to(*sum_);
+    for (const Worker& worker : workers_) {
+      if (worker.tally) worker.tally->add_to(*sum_);
+    }
   }
   return *sum_;
 }

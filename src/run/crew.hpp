@@ -57,7 +57,7 @@ class Crew {
  private:
   struct Worker {
     std::unique_ptr<Walk> walk;
-    std::optional<Tally> tally;  // of what was not collected yet
+    std::optional<Tally> tally;  // of what was not collected yet; its memory is taken when there is something
     bool abandoned = false;      // a batch of it, because of a stop: it counts for the result, not for the state
   };
 

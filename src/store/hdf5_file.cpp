@@ -53,21 +53,10 @@ Handle space_of(Shape shape) {
   return {H5Screate_simple(shape.columns == 1 ? 1 : 2, sizes.data(), nullptr), H5Sclose, "describe an array"};
 }
 
-// Opens the file without asking for locks, which network file systems may not have. Its metadata is small and is kept
-// in memory until the end.
-Handle access() {
+Handle file_access() {
   Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up HDF5");
   check(H5Pset_fclose_degree(list, H5F_CLOSE_STRONG), "set up HDF5");
-  check(H5Pset_file_locking(list, false, true), "set up HDF5");
   return list;
-}
-
-Handle create(const std::string& file, std::uint64_t user_bytes) {
-  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "set up HDF5");
-  check(H5Pset_userblock(creation, user_bytes), "set up HDF5");
-  // The same state makes the same bytes.
-  check(H5Pset_obj_track_times(creation, false), "set up HDF5");
-  return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access()), H5Fclose, "create the file"};
 }
 
 }  // namespace
@@ -80,6 +69,7 @@ struct Hdf5File::Handles {
   Handle file;
   Handle group;
   bool writes = false;
+  std::uint64_t user_bytes = 0;
 
   Handles() {
     H5Eget_auto2(H5E_DEFAULT, &old_report, &old_data);
@@ -121,15 +111,46 @@ struct Hdf5File::Handles {
   }
 };
 
-Hdf5File::Hdf5File(const std::filesystem::path& file, Mode mode, std::uint64_t user_bytes)
-    : handles_(std::make_unique<Handles>()) {
-  handles_->writes = mode == Mode::write;
-  handles_->file = handles_->writes
-                       ? create(file.string(), user_bytes)
-                       : Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access()), H5Fclose, "open the file");
+Hdf5File::Hdf5File() : handles_(std::make_unique<Handles>()) {}
+Hdf5File::~Hdf5File() = default;
+Hdf5File::Hdf5File(Hdf5File&&) noexcept = default;
+Hdf5File& Hdf5File::operator=(Hdf5File&&) noexcept = default;
+
+Hdf5File Hdf5File::in_memory(std::uint64_t user_bytes, std::uint64_t about) {
+  Hdf5File made;
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "set up HDF5");
+  check(H5Pset_userblock(creation, user_bytes), "set up HDF5");
+  // The same state makes the same bytes.
+  check(H5Pset_obj_track_times(creation, false), "set up HDF5");
+  const Handle access = file_access();
+  constexpr std::uint64_t page = 1 << 16;
+  constexpr bool on_disk = false;
+  check(H5Pset_fapl_core(access, (about / page + 1) * page, on_disk), "set up HDF5");
+  made.handles_->writes = true;
+  made.handles_->user_bytes = user_bytes;
+  made.handles_->file = Handle(H5Fcreate("state.h5", H5F_ACC_TRUNC, creation, access), H5Fclose, "make a file");
+  return made;
 }
 
-Hdf5File::~Hdf5File() = default;
+// Without asking for locks, which network file systems may not have.
+Hdf5File::Hdf5File(const std::filesystem::path& file) : Hdf5File() {
+  const Handle access = file_access();
+  check(H5Pset_file_locking(access, false, true), "set up HDF5");
+  handles_->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "open the file");
+}
+
+std::string_view Hdf5File::image() {
+  Handles& h = *handles_;
+  h.group.close();
+  check(H5Fflush(h.file, H5F_SCOPE_GLOBAL), "finish the file");
+  // Without the user's bytes, and without what is behind the last byte in use: room to grow.
+  const ssize_t size = H5Fget_file_image(h.file, nullptr, 0);
+  if (size < 0) throw Hdf5Error("cannot finish the file");
+  // Of a file in memory the handle points to the pointer to its bytes.
+  void* handle = nullptr;
+  check(H5Fget_vfd_handle(h.file, H5P_DEFAULT, &handle), "finish the file");
+  return {*static_cast<const char* const*>(handle) + h.user_bytes, static_cast<std::size_t>(size)};
+}
 
 void Hdf5File::enter(const std::string& group) {
   Handles& h = *handles_;
@@ -201,12 +222,6 @@ void Hdf5File::read(const char* array, std::uint64_t* values, Shape shape) {
 }
 void Hdf5File::read(const char* array, double* values, Shape shape) {
   handles_->read_array(array, H5T_NATIVE_DOUBLE, values, shape);
-}
-
-void Hdf5File::close() {
-  const bool group_closed = handles_->group.close();
-  const bool file_closed = handles_->file.close();
-  if (!group_closed || !file_closed) throw Hdf5Error("cannot finish the file");
 }
 
 }  // namespace lichtmc

@@ -1,7 +1,7 @@
 // The little of HDF5 that states need: groups with attributes (numbers, text) and arrays of 64-bit numbers.
 //
 // HDF5 keeps state for the whole process and may be called by one thread at a time: an Hdf5File holds a lock as long as
-// it lives.
+// it lives. A file is made in memory: where a disk is full HDF5 1.10 cannot let go of a file on it any more.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lichtmc {
@@ -27,14 +28,16 @@ struct Shape {
 
 class Hdf5File {
  public:
-  enum class Mode { write, read };
-
-  // write: replaces the file, leaving `user_bytes` (a power of two ≥ 512) free at its beginning. Throws Hdf5Error, as
-  // everything here does.
-  Hdf5File(const std::filesystem::path& file, Mode mode, std::uint64_t user_bytes);
+  // A new file, in memory, that leaves `user_bytes` (a power of two ≥ 512) free at its beginning. about: bytes that it
+  // will have. Throws Hdf5Error, as everything here does.
+  static Hdf5File in_memory(std::uint64_t user_bytes, std::uint64_t about);
+  // An existing one, to read.
+  explicit Hdf5File(const std::filesystem::path& file);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
+  Hdf5File(Hdf5File&&) noexcept;
+  Hdf5File& operator=(Hdf5File&&) noexcept;
 
   // What follows is inside this group; "/" is the outermost. When writing it is made.
   void enter(const std::string& group);
@@ -55,10 +58,12 @@ class Hdf5File {
   void read(const char* array, std::uint64_t* values, Shape shape);
   void read(const char* array, double* values, Shape shape);
 
-  // Writes everything and closes the file.
-  void close();
+  // All bytes of a file in memory but the user's; they are there until something is written or the object ends.
+  std::string_view image();
 
  private:
+  Hdf5File();
+
   struct Handles;
   std::unique_ptr<Handles> handles_;
 };

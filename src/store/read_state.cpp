@@ -11,7 +11,7 @@ namespace lichtmc {
 State read_state(const std::filesystem::path& file) {
   check_seal(file, state_title);
   try {
-    Hdf5File hdf5(file, Hdf5File::Mode::read, seal_bytes);
+    Hdf5File hdf5(file);
     return State(std::make_shared<const StateData>(read_layout(hdf5)));
   } catch (const Hdf5Error& error) {
     throw InputError("Cannot read the state " + in_quotes(file.string()) + ": " + error.what() +

@@ -18,8 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Block = std::array<char, seal_bytes>;
-
 // Of what follows the seal; n: its bytes.
 std::array<std::uint64_t, 2> checksum_of_rest(std::istream& in, std::uint64_t& n) {
   Checksum sum;
@@ -35,12 +33,11 @@ std::array<std::uint64_t, 2> checksum_of_rest(std::istream& in, std::uint64_t& n
   return sum.value();
 }
 
-Block seal_of(std::string_view title, const std::array<std::uint64_t, 2>& checksum, std::uint64_t n) {
-  const std::string text = std::string(title) + "\n" + std::to_string(n) + " bytes follow; XXH3-128 " +
-                           to_hex(checksum) + "\n";
-  Block block{};
-  text.copy(block.data(), block.size());
-  return block;
+std::string seal_with(std::string_view title, const std::array<std::uint64_t, 2>& checksum, std::uint64_t n) {
+  std::string text =
+      std::string(title) + "\n" + std::to_string(n) + " bytes follow; XXH3-128 " + to_hex(checksum) + "\n";
+  text.resize(seal_bytes, '\0');
+  return text;
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
@@ -49,18 +46,10 @@ Block seal_of(std::string_view title, const std::array<std::uint64_t, 2>& checks
 
 }  // namespace
 
-void seal(const fs::path& file, std::string_view title) {
-  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-  std::uint64_t n = 0;
-  const std::array<std::uint64_t, 2> checksum = checksum_of_rest(stream, n);
-  const Block block = seal_of(title, checksum, n);
-  stream.clear();
-  stream.seekp(0);
-  stream.write(block.data(), static_cast<std::streamsize>(block.size()));
-  stream.close();
-  if (!stream)
-    throw RuntimeError("Cannot write " + file.string() + " (" + std::strerror(errno) +
-                       "). Check that its folder is there and has room, or choose another.");
+std::string seal_of(std::string_view title, std::string_view rest) {
+  Checksum sum;
+  sum.add(rest.data(), rest.size());
+  return seal_with(title, sum.value(), rest.size());
 }
 
 void check_seal(const fs::path& file, std::string_view title) {
@@ -69,13 +58,12 @@ void check_seal(const fs::path& file, std::string_view title) {
     refuse(file, std::string(std::strerror(errno)) +
                      " (allowed: a file state.h5 that lichtmc has written). Check the name and the folder.");
   }
-  Block found{};
+  std::string found(seal_bytes, '\0');
   stream.read(found.data(), static_cast<std::streamsize>(found.size()));
-  const std::string_view text(found.data(), found.size());
-  const std::string_view first_line = text.substr(0, text.find('\n'));
+  const std::string first_line = found.substr(0, found.find('\n'));
   constexpr std::size_t kind = 13;  // "lichtmc state", the beginning of every title
   if (first_line != title) {
-    if (first_line.substr(0, kind) != title.substr(0, kind))
+    if (first_line.compare(0, kind, title.substr(0, kind)) != 0)
       refuse(file, "it is no state of lichtmc, or its beginning is damaged (allowed: a file state.h5 that lichtmc has "
                    "written). Give another file, or run anew.");
     refuse(file, "it is a " + in_quotes(first_line) + " (allowed: " + in_quotes(title) +
@@ -84,7 +72,7 @@ void check_seal(const fs::path& file, std::string_view title) {
   std::uint64_t n = 0;
   stream.clear();
   const std::array<std::uint64_t, 2> checksum = checksum_of_rest(stream, n);
-  if (found != seal_of(title, checksum, n)) {
+  if (found != seal_with(title, checksum, n)) {
     refuse(file, "it is damaged: its checksum is wrong (allowed: the file as it was written). Take a copy of it, if "
                  "there is one, or run anew.");
   }

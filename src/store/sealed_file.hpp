@@ -4,14 +4,15 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace lichtmc {
 
 inline constexpr std::size_t seal_bytes = 512;
 
-// Writes the seal over the first 512 bytes of a file. title: a line. Throws RuntimeError where that fails.
-void seal(const std::filesystem::path& file, std::string_view title);
+// What a file with this title (a line) begins with, where `rest` follows.
+std::string seal_of(std::string_view title, std::string_view rest);
 
 // Throws InputError saying what is wrong: the file is missing, of another title, or damaged.
 void check_seal(const std::filesystem::path& file, std::string_view title);

@@ -6,20 +6,37 @@
 
 namespace lichtmc {
 
+namespace {
+
+// So that the memory for the file is taken once.
+std::uint64_t size_of(const StateData& data) {
+  std::uint64_t bytes = std::uint64_t{1} << 17;  // groups and attributes
+  if (data.photons) {
+    const Totals& totals = *data.photons->totals;
+    bytes += (totals.tiles.size() + totals.maps.size()) * sizeof(Moments) + totals.hits.size() * sizeof(std::uint64_t);
+  }
+  if (data.tile_walks) bytes += data.tile_walks->sums->size() * sizeof(ReceiverSums);
+  if (data.receivers) bytes += data.receivers->sums->size() * sizeof(ReceiverSums);
+  return bytes;
+}
+
+}  // namespace
+
 void write_state(const State& state, const std::filesystem::path& file, std::string_view note) {
   if (state.empty()) throw InputError("The state is empty (allowed: one that simulate() has returned).");
   StateData data = state.data();
   data.note = note;
   try {
-    make_file_atomically(file, [&](const std::filesystem::path& temporary) {
-      Hdf5File hdf5(temporary, Hdf5File::Mode::write, seal_bytes);
-      write_layout(hdf5, data);
-      hdf5.close();
-      seal(temporary, state_title);
+    Hdf5File hdf5 = Hdf5File::in_memory(seal_bytes, size_of(data));
+    write_layout(hdf5, data);
+    const std::string_view rest = hdf5.image();
+    write_file_atomically(file, [rest](const Sink& sink) {
+      sink(seal_of(state_title, rest));
+      sink(rest);
     });
   } catch (const Hdf5Error& error) {
     throw RuntimeError("Cannot write " + file.string() + " (" + error.what() +
-                       "). Check that its folder is there and has room, or choose another.");
+                       "). There may be too little memory: use larger tiles.");
   }
 }
 

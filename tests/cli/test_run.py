@@ -44,7 +44,7 @@ class Run(ProgramTest):
         self.assertEqual(summary["seed"], 5)
         self.assertEqual(summary["engine"], "cuboid")
         self.assertEqual(summary["stopped_by"], "photons")
-        self.assertEqual(sorted(p.name for p in out.iterdir()), ["summary.json", "surfaces.csv", "tiles", "tiles.csv"])
+        self.assertEqual(sorted(p.name for p in out.iterdir()), ["state.h5", "summary.json", "surfaces.csv", "tiles", "tiles.csv"])
         self.assertEqual(len(list((out / "tiles").glob("*.exr"))), 6)
         # Sums of 600 rounded numbers.
         self.assertTrue(math.isclose(sum(float(t["power"]) for t in tiles), summary["incident"], rel_tol=1e-12))
@@ -118,7 +118,7 @@ class Run(ProgramTest):
     def test_only_one_way(self):
         done = lichtmc("run", CUBE, "-o", self.folder / "out", "--photons", "10k", "--grid", "0.5", "--only", "backward", "--no-report")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()), ["receivers.csv", "summary.json", "tiles"])
+        self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()), ["receivers.csv", "state.h5", "summary.json", "tiles"])
         out, summary, _, _ = self.run_room("--photons", "10k", "--grid", "0.5", "--only", "forward")
         self.assertFalse((out / "receivers.csv").exists())  # not left over from the run before
         self.assertIsNone(summary["backward"])
