@@ -16,7 +16,9 @@
 #include "lichtmc/room.hpp"       // IWYU pragma: export
 #include "lichtmc/settings.hpp"   // IWYU pragma: export
 #include "lichtmc/simulate.hpp"   // IWYU pragma: export
+#include "lichtmc/state.hpp"      // IWYU pragma: export
 #include "lichtmc/study.hpp"      // IWYU pragma: export
+#include "lichtmc/team.hpp"       // IWYU pragma: export
 #include "lichtmc/tiles.hpp"      // IWYU pragma: export
 #include "lichtmc/units.hpp"      // IWYU pragma: export
 #include "lichtmc/version.hpp"    // IWYU pragma: export

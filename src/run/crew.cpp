@@ -33,6 +33,7 @@ Crew::Crew(const Scene& scene, const Settings& settings, const Control& control,
   for (unsigned k = 0; k < threads; ++k) {
     workers_.push_back({make_walk(scene, settings), std::nullopt});
   }
+  share(team_, round_);  // members may have other numbers of threads
 }
 
 void Crew::go_on_from(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals) {

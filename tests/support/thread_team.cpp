@@ -1,0 +1,82 @@
+#include "support/thread_team.hpp"
+
+#include <algorithm>
+#include <thread>
+
+namespace lichtmc::test {
+
+namespace {
+
+__extension__ using Wide = unsigned __int128;
+
+// Members put what they have here; when all have, each takes what it needs.
+class Table {
+ public:
+  explicit Table(unsigned size) : spans_(size), meeting_(size) {}
+
+  void put(unsigned rank, std::span<std::byte> bytes) {
+    spans_[rank] = bytes;
+    meeting_.arrive_and_wait();
+  }
+  template <class Word>
+  const Word* words_of(std::size_t rank) const {
+    return reinterpret_cast<const Word*>(spans_[rank].data());
+  }
+  std::span<const std::byte> bytes_of(std::size_t rank) const { return spans_[rank]; }
+  // Nobody may change what others still read.
+  void all_have_read() { meeting_.arrive_and_wait(); }
+  std::size_t size() const { return spans_.size(); }
+
+ private:
+  std::vector<std::span<std::byte>> spans_;
+  std::barrier<> meeting_;
+};
+
+class Member final : public Team {
+ public:
+  Member(Table& table, unsigned rank) : table_(&table), rank_(rank) {}
+
+  unsigned rank() const override { return rank_; }
+  unsigned size() const override { return static_cast<unsigned>(table_->size()); }
+  void add(std::span<std::uint64_t> words) override { add_up(words.data(), words.size()); }
+  void add_wide(std::span<std::uint64_t> words) override {
+    add_up(reinterpret_cast<Wide*>(words.data()), words.size() / 2);
+  }
+  void share(std::span<std::byte> bytes) override {
+    table_->put(rank_, bytes);
+    const std::span<const std::byte> first = table_->bytes_of(0);
+    if (rank_ > 0) std::copy(first.begin(), first.end(), bytes.begin());
+    table_->all_have_read();
+  }
+
+ private:
+  template <class Word>
+  void add_up(Word* words, std::size_t n) {
+    table_->put(rank_, std::as_writable_bytes(std::span(words, n)));
+    std::vector<Word> sum(n, 0);
+    for (std::size_t k = 0; k < table_->size(); ++k) {
+      const Word* theirs = table_->words_of<Word>(k);
+      for (std::size_t i = 0; i < n; ++i) sum[i] += theirs[i];
+    }
+    table_->all_have_read();
+    std::copy(sum.begin(), sum.end(), words);
+  }
+
+  Table* table_;
+  unsigned rank_;
+};
+
+}  // namespace
+
+void run_team(unsigned size, const std::function<void(Team&)>& work) {
+  Table table(size);
+  std::vector<std::jthread> members;
+  for (unsigned rank = 0; rank < size; ++rank) {
+    members.emplace_back([&table, &work, rank] {
+      Member member(table, rank);
+      work(member);
+    });
+  }
+}
+
+}  // namespace lichtmc::test

@@ -1,0 +1,16 @@
+// A team whose members are threads of one process: what lichtmc::mpi does over machines, without MPI.
+#pragma once
+
+#include <barrier>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "lichtmc/team.hpp"
+
+namespace lichtmc::test {
+
+// Calls work(team) on `size` threads, one for each member; returns when all have. Exceptions are not expected.
+void run_team(unsigned size, const std::function<void(Team&)>& work);
+
+}  // namespace lichtmc::test
