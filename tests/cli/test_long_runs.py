@@ -1,0 +1,129 @@
+"""lichtmc resume and merge: a run in pieces has the digits of one run, and what does not fit is refused."""
+import json
+import shutil
+import unittest
+
+from support import SCENES, ProgramTest, lichtmc
+
+ROOM = SCENES / "living_room.glb"  # has a receiver
+TABLES = ("tiles.csv", "surfaces.csv", "receivers.csv")
+
+
+class LongRuns(ProgramTest):
+    def run_to(self, name, *options, room=ROOM):
+        folder = self.folder / name
+        done = lichtmc("run", room, "-o", folder, "--tile", "0.5", "--no-report", *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return folder
+
+    def succeeds(self, *arguments):
+        done = lichtmc(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, "")
+        return done.stderr
+
+    def assert_same(self, a, b):
+        for table in TABLES:
+            self.assertEqual((a / table).read_bytes(), (b / table).read_bytes(), table)
+
+    def test_resume_ends_with_the_digits_of_one_run(self):
+        whole = self.run_to("whole", "--photons", "200001")
+        part = self.run_to("part", "--photons", "50k")
+        self.assertNotEqual((whole / "tiles.csv").read_bytes(), (part / "tiles.csv").read_bytes())
+        said = self.succeeds("resume", part, "--photons", "200001")
+        self.assertIn("200k photons", said)
+        self.assert_same(whole, part)
+        # Where the rules are met there is nothing to do, and the state alone makes the results.
+        elsewhere = self.folder / "elsewhere"
+        self.succeeds("resume", part / "state.h5", "-o", elsewhere)
+        self.assert_same(whole, elsewhere)
+        summary = json.loads((elsewhere / "summary.json").read_text())
+        self.assertEqual(summary["histories"], 200001)
+
+    def test_resume_keeps_to_the_options_of_the_run(self):
+        options = ["--estimator", "weight", "--seed", "9", "--light", "point:2,2,2:500lm", "--max-reflectance", "0.7", "--direct", "analytic"]
+        whole = self.run_to("whole", "--photons", "90k", *options)
+        part = self.run_to("part", "--photons", "30k", *options)
+        self.succeeds("resume", part, "--photons", "90k", "--threads", "1")
+        self.assert_same(whole, part)
+
+    def test_resume_to_a_smaller_error(self):
+        options = ["--estimator", "auto", "--only", "forward"]
+        whole = self.run_to("whole", "--target-error", "15%", *options)
+        part = self.run_to("part", "--target-error", "30%", *options)
+        self.succeeds("resume", part, "--target-error", "15%")
+        self.assertEqual((whole / "tiles.csv").read_bytes(), (part / "tiles.csv").read_bytes())
+        self.assertEqual(json.loads((part / "summary.json").read_text())["stopped_by"], "target-error")
+
+    def test_resume_finds_the_room_where_it_is_now(self):
+        moved = self.folder / "moved.glb"
+        shutil.copy(ROOM, moved)
+        part = self.run_to("part", "--photons", "30k", room=moved)
+        moved.rename(self.folder / "new.glb")
+        self.refused("resume", part, says=["moved.glb"])
+        self.succeeds("resume", part, "--photons", "40k", "--room", self.folder / "new.glb")
+        self.refused("resume", part, "--room", SCENES / "cube_paper.gltf", says=["another room", "cube_paper"])
+
+    def test_merge_in_any_order_and_grouping(self):
+        whole = self.run_to("whole", "--photons", "100000")
+        parts = [self.run_to(name, "--histories", histories)
+                 for name, histories in (("a", "0:30720"), ("b", "30720:61440"), ("c", "61440:100000"))]
+        both = self.folder / "both"
+        self.succeeds("merge", parts[2], parts[0], "-o", both)
+        summary = json.loads((both / "summary.json").read_text())
+        self.assertEqual(summary["histories"], 69280)
+        merged = self.folder / "merged"
+        self.succeeds("merge", both / "state.h5", parts[1], "-o", merged)
+        self.assert_same(whole, merged)
+        self.succeeds("merge", *reversed(parts), "-o", merged)
+        self.assert_same(whole, merged)
+        # The sum goes on.
+        longer = self.run_to("longer", "--photons", "150k")
+        self.succeeds("resume", merged, "--photons", "150k")
+        self.assert_same(longer, merged)
+
+    def test_what_does_not_fit_is_refused_and_nothing_is_written(self):
+        one = self.run_to("one", "--histories", "0:20480")
+        two = self.run_to("two", "--histories", "20480:40960", "--seed", "2")
+        three = self.run_to("three", "--histories", "40960:61440")
+        nothing = self.folder / "nothing"
+        self.refused("merge", one, one, "-o", nothing, says=["overlap", "0:20480", "twice"])
+        self.refused("merge", one, two, "-o", nothing, says=["seeds 1 and 2"])
+        self.refused("merge", one, self.folder, "-o", nothing, says=["No such file", "state.h5"])
+        self.refused("merge", one, three / "tiles.csv", "-o", nothing, says=["no state of lichtmc"])
+        damaged = self.folder / "damaged.h5"
+        content = bytearray((three / "state.h5").read_bytes())
+        content[len(content) // 2] ^= 4
+        damaged.write_bytes(content)
+        self.refused("merge", one, damaged, "-o", nothing, says=["damaged", "checksum"])
+        self.refused("resume", damaged, "-o", nothing, says=["damaged", "checksum"])
+        self.assertFalse(nothing.exists())
+        self.refused("merge", one, three, "-o", one, says=["would replace", "one of its parts"])
+        gap = self.folder / "gap"
+        self.succeeds("merge", one, three, "-o", gap)
+        self.refused("resume", gap, "--photons", "1e6", says=["gaps", "20480", "40959", "--histories"])
+
+    def test_options_are_checked(self):
+        for histories, says in (("10:2000", "Begin at 0 or 1024"), ("2048", "A:B"), ("2048:1024", "end before they begin"),
+                                ("a:b", "--histories")):
+            self.refused("run", ROOM, "--histories", histories, says=[says])
+        self.refused("run", ROOM, "--histories", "0:1024", "--photons", "1e6", says=["--photons and --histories"])
+        self.refused("run", ROOM, "--histories", "1024:2048", "--estimator", "auto", says=["'auto'", "parts"])
+        for checkpoint in ("0", "-1s", "soon"):
+            self.refused("run", ROOM, "--checkpoint", checkpoint, says=["--checkpoint"])
+
+    def test_receivers_from_stdin_are_asked_for_again(self):
+        table = "1,1,1,0,1,0\n2,1,2,0,1,0\n"
+        part = self.folder / "part"
+        done = lichtmc("run", SCENES / "cube_paper.gltf", "-o", part, "--no-report", "--photons", "20k", "--receivers", "-", input=table)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.refused("resume", part, "--photons", "30k", says=["stdin", "--receivers"])
+        points = self.folder / "points.csv"
+        points.write_text(table)
+        self.succeeds("resume", part, "--photons", "30k", "--receivers", points)
+        points.write_text(table.replace("2,1,2", "2,1,2.5"))
+        self.refused("resume", part, "--photons", "40k", "--receivers", points, says=["another room", "receivers"])
+
+
+if __name__ == "__main__":
+    unittest.main()
