@@ -10,7 +10,9 @@
 
 #include <cstddef>
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+// Sanitizers are not there yet when the variants are chosen.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 #define LICHTMC_LANES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define LICHTMC_LANES

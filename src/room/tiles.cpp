@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/memory.hpp"
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
 #include "room/chart.hpp"
@@ -22,12 +23,9 @@ namespace {
 
 constexpr double most_cells = 0x1p31;
 
-// Memory of a run per cell and thread and of its tables, measured on rooms of 10⁶ to 10⁷ tiles: some 400 bytes.
-constexpr double bytes_per_cell = 400.0;
-
-double physical_memory() {
-  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-}
+// Memory of a run of two threads per cell, with its tables, pictures and state: 171 to 211 bytes measured in a room of
+// 2·10⁷ tiles.
+constexpr double bytes_per_cell = 212.0;
 
 // A cell's centre counts as on a triangle when it is outside by no more than this share of it: on an edge between two
 // triangles rounding must not put it on neither.
@@ -63,13 +61,16 @@ void check_cells(const Room& room, const std::vector<Chart>& charts, double edge
     most = count;
     worst = k;
   }
-  const double memory = physical_memory();
-  const double allowed = memory > 0.0 ? std::min(most_cells, std::floor(memory / bytes_per_cell)) : most_cells;
+  const double allowed = std::min(most_cells, std::floor(memory_limit() / bytes_per_cell));
   if (total <= allowed) return;
+  // Two digits, rounded up.
+  const double exact = edge_m * std::sqrt(total / allowed);
+  const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 1.0);
+  const double enough = std::ceil(exact / digit * 1.001) * digit;
   throw InputError("Tiles of " + to_text(edge_m) + " m divide the room into " + to_text(total) +
-                   " cells (allowed: " + to_text(allowed) + ", what the machine's memory holds), " + to_text(most) +
+                   " cells (allowed: " + to_text(allowed) + ", what memory holds), " + to_text(most) +
                    " of them on the surface " + in_quotes(room.surfaces[worst].name) +
-                   ". Give --tile a greater length, or check that the room's coordinates are metres.");
+                   ". Give --tile " + to_text(enough) + " or more, or check that the room's coordinates are metres.");
 }
 
 // One map being filled.

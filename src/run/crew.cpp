@@ -163,8 +163,9 @@ const Totals& Crew::totals() {
   if (ends_ == 0 && !abandoned()) return *whole_;
   if (sum_ == nullptr) {
     sum_ = std::make_unique<Totals>(*whole_);
-    for (const Worker& worker : workers_) {
+    for (Worker& worker : workers_) {
       if (worker.tally) worker.tally->add_to(*sum_);
+      worker.tally.reset();
     }
   }
   return *sum_;

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "base/memory.hpp"
 #include "base/message.hpp"
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
 #include "room/reflectance.hpp"
+#include "walk/walk.hpp"
 
 namespace lichtmc {
 
@@ -76,6 +78,25 @@ void check_settings(const Settings& settings) {
     throw InputError("The number of threads is " + std::to_string(settings.threads) + " (allowed: 1 to " +
                      std::to_string(most_threads) + "). Give --threads a smaller number.");
   }
+}
+
+void check_memory(const Room& room, const Tiling& tiling, const Settings& settings, unsigned threads, bool has_maps) {
+  if (settings.tiles != TileWalk::forward || settings.ways == Ways::backward) return;
+  const bool hits_apart =
+      settings.estimator == Estimator::automatic || score_law(settings.estimator, has_maps).hits == Hits::apart;
+  // Bytes per tile: Tile and its cell; Totals; a thread's Tally (see walk/many_hits.hpp and walk/many_scores.hpp).
+  constexpr double of_tiling = sizeof(Tile) + sizeof(std::uint32_t);
+  const double of_totals = sizeof(Moments) + (hits_apart ? sizeof(std::uint64_t) : 0);
+  const double of_tally = of_totals + (hits_apart ? 16 : 8);
+  const double tiles = static_cast<double>(tiling.tiles.size());
+  const double needed = tiles * (of_tiling + of_totals + threads * of_tally);
+  const double limit = memory_limit();
+  if (needed <= limit) return;
+  constexpr double gigabyte = 1e9;
+  throw InputError("The tallies of " + std::to_string(tiling.tiles.size()) + " tiles in " + room.source + " for " +
+                   to_text(threads, "thread") + " need " + to_text(std::round(10.0 * needed / gigabyte) / 10.0) +
+                   " GB of memory (allowed: " + to_text(std::floor(10.0 * limit / gigabyte) / 10.0) +
+                   " GB, what there is). Give --tile a greater length, or fewer --threads.");
 }
 
 void check_settings_for(const Room& room, const Settings& settings) {

@@ -104,6 +104,7 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
   result.tiling = make_tiling(room, settings.tile_edge_m);
   const Scene scene(room, result.tiling, settings.engine);
   result.engine = logbook.data().engine = scene.engine;
+  check_memory(room, result.tiling, settings, result.threads, scene.has_maps());
   if (!settings.max_bounces && traps_light(scene, settings.seed)) refuse_trap(room);
   const StateData& data = logbook.data();
   const bool forward = settings.ways != Ways::backward && (!logbook.only_read() || data.photons || data.tile_walks);
