@@ -1,5 +1,6 @@
 // lichtmc merge: adds the states of parts of one run.
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,6 +50,14 @@ void check_output(const fs::path& folder, const std::vector<fs::path>& files) {
   }
 }
 
+// A part that was forgotten makes the errors larger, nothing worse; but it should not go unnoticed.
+void tell_gaps(const State& state) {
+  const std::vector<HistoryRange> ranges = state.histories();
+  for (std::size_t k = 1; k < ranges.size(); ++k)
+    std::cerr << "The parts leave out histories " << ranges[k - 1].last << " to " << ranges[k].first - 1
+              << "; the results are sound without them.\n";
+}
+
 void merge_states(const MergeOptions& options, const Started& started) {
   std::vector<fs::path> files;
   for (const std::string& name : options.states) files.push_back(state_file(name));
@@ -67,6 +76,7 @@ void merge_states(const MergeOptions& options, const Started& started) {
   job.folder = options.output.empty() ? fs::path(run.reading.file).stem().concat(".merged") : fs::path(options.output);
   check_output(job.folder, files);
   job.room = read_run_room(run);
+  if (!options.quiet) tell_gaps(state);
   carry_out(job, [&](const Control& control) { return result_of(job.room, std::move(state), control); });
 }
 

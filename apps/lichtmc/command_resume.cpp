@@ -83,6 +83,7 @@ void add_resume_command(CLI::App& program, const Started& started) {
   command->add_option("--receivers", options->receivers, "The table of receivers, where it is elsewhere, or came from stdin")
       ->type_name("FILE.csv");
   add_stop_options(*command, options->stop);
+  command->get_option("--photons")->description("Go on until there are so many light packets in all: 10M, 2G");
   const std::string machine = "How";
   add_threads_option(*command, options->threads, machine);
   add_checkpoint_option(*command, options->checkpoint, machine);

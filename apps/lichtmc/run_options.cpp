@@ -86,6 +86,7 @@ void parse_histories(const std::string& text, const StopOptions& stop, Settings&
     throw InputError("The histories " + text + " end before they begin (allowed: A:B with A below B). Give --histories "
                      "a greater second number.");
   settings.photons = end - settings.first_history;
+  settings.part = true;
 }
 
 }  // namespace

@@ -98,7 +98,8 @@ struct Result {
   Engine engine = Engine::embree;              // as used
   Estimator estimator = Estimator::collision;  // as used for the tiles
   std::vector<std::string> choices;            // what Estimator::automatic has chosen and why, a sentence each
-  unsigned threads = 1;                        // as used
+  unsigned threads = 1;                        // as used, of each process
+  unsigned processes = 1;                      // that have shared the run, see Control::team
   StopReason stopped_by = StopReason::photons;
 
   std::uint64_t histories = 0;
@@ -108,6 +109,7 @@ struct Result {
   std::uint64_t retraced = 0;        // flights that met no surface and were traced again by the slower rule
   std::uint64_t lost_histories = 0;  // histories behind Balance::lost
   double seconds = 0.0;              // wall-clock time of the walk, with that of integrating direct light
+  double checkpoint_seconds = 0.0;   // that all walks of this session have waited for Control::checkpoint
   double direct_seconds = 0.0;       // of that, integrating direct light
 
   Balance balance;

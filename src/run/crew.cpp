@@ -44,6 +44,12 @@ void Crew::go_on_from(std::vector<HistoryRange> ranges, std::shared_ptr<const To
   reporter_.set_before(histories());
 }
 
+void Crew::keep(Logbook& logbook) {
+  logbook_ = &logbook;
+  const std::size_t bytes = whole_->tiles.size() * sizeof(Moments) + whole_->hits.size() * sizeof(std::uint64_t);
+  logbook.expect(static_cast<double>(bytes));
+}
+
 std::uint64_t Crew::histories() const {
   std::uint64_t sum = range_.last - range_.first + ends_;
   for (const HistoryRange& range : before_) sum += range.last - range.first;
@@ -85,11 +91,27 @@ void Crew::simulate_part(HistoryRange range) {
   reporter_.add(n, worker.tally->counts().impacts);
 }
 
+// Each thread its own: where tiles are many it takes a while.
+void Crew::make_tally(Worker& worker) const {
+  if (worker.tally) return;
+  const double began = watch_->seconds();
+  worker.tally.emplace(scene_->first_tile, hits_);
+  worker.making = watch_->seconds() - began;
+}
+
+// New tallies are a part of what a checkpoint costs.
+void Crew::book_making() {
+  double longest = 0.0;
+  for (Worker& worker : workers_) longest = std::max(longest, std::exchange(worker.making, 0.0));
+  if (std::exchange(after_checkpoint_, false)) logbook_->book(longest);
+}
+
 // Threads come back early when a checkpoint is due. What they have taken they finish.
 void Crew::work_alone(std::uint64_t end) {
   next_ = range_.last;
   watch_->run_on_threads(static_cast<unsigned>(workers_.size()), [&](unsigned k) { work(workers_[k], end, true); });
   range_.last = std::min(next_.load(), end);
+  book_making();
 }
 
 // A round: every member simulates its part of the batches whatever happens, so that there is no gap.
@@ -101,6 +123,7 @@ void Crew::work_in_team(std::uint64_t end) {
   const std::uint64_t my_end = range_.last + part.last * batch_histories;
   watch_->run_on_threads(static_cast<unsigned>(workers_.size()), [&](unsigned k) { work(workers_[k], my_end, false); });
   range_.last += batches * batch_histories;
+  book_making();
   // Nobody runs ahead: all wait for the slowest here.
   std::uint64_t impacts = round_impacts_.exchange(0);
   team_->add(std::span(&impacts, 1));
@@ -115,7 +138,7 @@ void Crew::work_in_team(std::uint64_t end) {
 }
 
 void Crew::work(Worker& worker, std::uint64_t end, bool may_pause) {
-  if (!worker.tally) worker.tally.emplace(scene_->first_tile, hits_);
+  make_tally(worker);
   std::uint64_t told = worker.tally->counts().impacts;
   const auto tell = [&](std::uint64_t histories) {
     const std::uint64_t impacts = worker.tally->counts().impacts - told;
@@ -191,6 +214,7 @@ void Crew::checkpoint() {
     data.photons->totals = counted.totals;
     data.photons->seconds = watch_->seconds();
   });
+  after_checkpoint_ = true;
   logbook_->data().photons->totals.reset();  // or it would be copied before the next batch is added
 }
 

@@ -29,7 +29,7 @@ class Crew {
   void go_on_from(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals);
 
   // Shows the state there when it is time; none until then. It must outlive the crew.
-  void keep(Logbook& logbook) { logbook_ = &logbook; }
+  void keep(Logbook& logbook);
 
   // Simulates the histories from where the last call ended up to the `count`th, or until the watch says stop; a batch
   // begun is finished. The histories done are always the first ones, without a gap. A count that is not one of whole
@@ -58,12 +58,15 @@ class Crew {
   struct Worker {
     std::unique_ptr<Walk> walk;
     std::optional<Tally> tally;  // of what was not collected yet; its memory is taken when there is something
+    double making = 0.0;         // seconds that it took to make the tally
     bool abandoned = false;      // a batch of it, because of a stop: it counts for the result, not for the state
   };
 
   void work_alone(std::uint64_t end);
   void work_in_team(std::uint64_t end);
   void work(Worker& worker, std::uint64_t end, bool may_pause);
+  void make_tally(Worker& worker) const;
+  void book_making();
   void simulate_part(HistoryRange range);
   bool abandoned() const;
   void collect();
@@ -79,6 +82,7 @@ class Crew {
   std::vector<HistoryRange> before_;    // earlier ranges than the one that grows
   HistoryRange range_;                  // that grows, by whole batches
   std::atomic<std::uint64_t> next_{0};  // first history that no thread of this process has taken
+  bool after_checkpoint_ = false;
   std::uint64_t round_ = 0;             // batches in a round of the team
   std::atomic<std::uint64_t> round_impacts_{0};  // of this member
   std::shared_ptr<Totals> whole_;       // whole batches that were collected

@@ -24,7 +24,7 @@ namespace {
 constexpr std::uint64_t histories_at_a_time = 8192;
 
 [[noreturn]] void refuse_too_short() {
-  throw RuntimeError(
+  throw StoppedTooSoon(
       "The run was stopped before the direct light and the first walks back to it were done: there is no result. Give "
       "it more time.");
 }
@@ -35,7 +35,7 @@ HistoryRange rounds_of(const Settings& settings, std::uint64_t together) {
     return histories / together + (histories % together != 0 ? 1 : 0);
   };
   HistoryRange range{rounds(settings.first_history), rounds(settings.first_history + settings.photons)};
-  if (settings.first_history == 0) range.last = std::max<std::uint64_t>(2, range.last);
+  if (!settings.part) range.last = std::max<std::uint64_t>(2, range.last);
   return range;
 }
 

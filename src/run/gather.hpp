@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lichtmc/error.hpp"
 #include "lichtmc/result.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/simulate.hpp"
@@ -20,8 +21,14 @@
 
 namespace lichtmc {
 
+// Thrown where a stop comes before there is anything to tell.
+class StoppedTooSoon : public RuntimeError {
+ public:
+  using RuntimeError::RuntimeError;
+};
+
 // The direct light of every origin, found by all threads of all members of a team. direct(k, count) is called once for each k below `origins`;
-// rays are counted in `traced`. Throws RuntimeError where the watch says stop before all are done.
+// rays are counted in `traced`. Throws StoppedTooSoon where the watch says stop before all are done.
 using DirectOf = std::function<DirectIrradiance(std::size_t, TraceCount&)>;
 std::vector<DirectIrradiance> direct_light_of(std::size_t origins, const DirectOf& direct, const Control& control,
                                               unsigned threads, StopWatch& watch, TraceCount& traced);
@@ -65,7 +72,7 @@ struct GatherTask {
 // Walks until the first stop rule is met; goes on from the walks that the logbook has, and leaves there what was found.
 // Every origin gets as many walks; Settings::photons is the number of all
 // together. The same settings give the same sums for any number of threads. Estimator::automatic is replaced by the one
-// that does best in a pilot, see pilot.hpp. Throws RuntimeError where the run is stopped before the first round is
+// that does best in a pilot, see pilot.hpp. Throws StoppedTooSoon where the run is stopped before the first round is
 // whole.
 Gathered gather(GatherTask task, const Room& room, Settings settings, const Control& control, StopWatch& watch,
                 unsigned threads, Logbook& logbook);

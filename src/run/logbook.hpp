@@ -1,8 +1,8 @@
 // The state of a run as it grows: what earlier sessions have left, what this one adds, and when to show it to the
 // caller (Control::checkpoint).
 //
-// Checkpoints come every Control::checkpoint_seconds, but so seldom that they take a hundredth of the time at most: the
-// next one is due a hundred times as long after the last as that took.
+// Checkpoints come every Control::checkpoint_seconds, but so seldom that they take less than a hundredth of the time:
+// the next one is due 125 times as long after the last as that took, the first by what its size lets expect.
 #pragma once
 
 #include <chrono>
@@ -25,20 +25,30 @@ class Logbook {
   // Whether it is time. Any thread may ask.
   bool due() const { return control_->checkpoint && Clock::now() >= next_; }
 
+  // The state will have about so many bytes. Not while threads ask.
+  void expect(double bytes);
+
   // Has `fill_in` bring the data up to date, and calls back. Not while threads ask.
   void checkpoint(const std::function<void(StateData&)>& fill_in);
+
+  // What the last checkpoint has cost besides, in seconds: the next one waits longer for it. Not while threads ask.
+  void book(double seconds);
+
+  // Seconds that all checkpoints have cost so far.
+  double spent() const { return spent_; }
 
   // The state at the end; the logbook is empty then.
   State close();
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr int cost_factor = 100;
+  static constexpr int cost_factor = 125;
 
   const Control* control_;
   StateData data_;
   bool only_read_;
   Clock::time_point next_;
+  double spent_ = 0.0;
 };
 
 }  // namespace lichtmc

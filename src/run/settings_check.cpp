@@ -44,7 +44,11 @@ void check_settings(const Settings& settings) {
                      " (allowed: multiples of 1024, for histories are simulated in batches of so many). Begin at " +
                      std::to_string(below) + " or " + std::to_string(below + batch_histories) + ".");
   }
-  if (settings.first_history > 0 && settings.estimator == Estimator::automatic) {
+  if (settings.first_history > 0 && !settings.part) {
+    throw InputError("The first history is " + std::to_string(settings.first_history) +
+                     " and the run is no part (allowed: 0 for a whole run). Set Settings::part.");
+  }
+  if (settings.part && settings.estimator == Estimator::automatic) {
     throw InputError(
         "The estimator is 'auto' for a part of a run (allowed: weight, collision, absorption): parts must have one "
         "and the same. Give --estimator the one that a short run with 'auto' has chosen.");

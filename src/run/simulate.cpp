@@ -7,11 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include <sched.h>
+
 #include "base/message.hpp"
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/version.hpp"
 #include "run/forward.hpp"
+#include "run/gather.hpp"
 #include "run/logbook.hpp"
 #include "run/receive.hpp"
 #include "run/settings_check.hpp"
@@ -26,8 +29,15 @@ namespace lichtmc {
 
 namespace {
 
+// Those that this process may run on: batch systems and mpirun bind processes to some of the machine's.
+unsigned usable_processors() {
+  cpu_set_t usable;
+  if (::sched_getaffinity(0, sizeof usable, &usable) == 0) return static_cast<unsigned>(std::max(1, CPU_COUNT(&usable)));
+  return std::max(1U, std::thread::hardware_concurrency());
+}
+
 unsigned threads_for(const Settings& settings) {
-  const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
+  const unsigned processors = usable_processors();
   const unsigned asked = settings.threads == 0 ? processors : settings.threads;
   // A thread without a batch would only cost memory.
   return static_cast<unsigned>(std::min<std::uint64_t>(asked, batches_of(settings.photons)));
@@ -101,6 +111,7 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
   Result result;
   result.settings = settings;
   result.threads = threads_for(settings);
+  result.processes = size_of(control.team);
   result.tiling = make_tiling(room, settings.tile_edge_m);
   const Scene scene(room, result.tiling, settings.engine);
   result.engine = logbook.data().engine = scene.engine;
@@ -111,13 +122,24 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
   const bool backward = settings.ways != Ways::forward && !room.receivers.empty() &&
                         (!logbook.only_read() || data.receivers);
   Settings each = settings;
+  bool receivers_missing = false;  // what was found of the tiles is kept then
   if (forward && backward && each.max_seconds) each.max_seconds = 0.5 * *each.max_seconds;
   if (forward) simulate_tiles(result, room, scene, each, control, logbook);
-  if (backward && !(forward && stop_asked(control))) {
+  if (backward && forward && stop_asked(control)) {
+    receivers_missing = true;
+  } else if (backward) {
     StopWatch watch(each.max_seconds, control.stop, data.receivers ? data.receivers->seconds : 0.0, control.team);
-    receive(room, scene, each, control, watch, logbook, result);
+    try {
+      receive(room, scene, each, control, watch, logbook, result);
+    } catch (const StoppedTooSoon&) {
+      if (!forward) throw;
+      receivers_missing = true;
+    }
   }
   complete(result, room);
+  if (receivers_missing)
+    result.warnings.emplace_back("The run was stopped before the first walks back from the receivers: they were not measured.");
+  result.checkpoint_seconds = logbook.spent();
   result.state = logbook.close();
   return result;
 }

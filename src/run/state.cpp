@@ -75,6 +75,7 @@ class Merger {
       sum.settings.first_history = sum.photons->ranges.front().first;
       sum.settings.photons = sum.photons->size();
     }
+    sum.settings.part = sum.settings.first_history > 0;
     return sum;
   }
 

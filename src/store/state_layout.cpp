@@ -34,6 +34,7 @@ class Writer {
 
   void field(const char* name, std::uint64_t value) { file_.write(name, value); }
   void field(const char* name, std::uint32_t value) { file_.write(name, std::uint64_t{value}); }
+  void field(const char* name, bool value) { file_.write(name, std::uint64_t{value}); }
   void field(const char* name, double value) { file_.write(name, value); }
   void field(const char* name, const std::string& value) { file_.write(name, value); }
   // 0 or NaN where there is none.
@@ -78,6 +79,11 @@ class Reader {
     file_.read(name, wide);
     if (wide > std::numeric_limits<std::uint32_t>::max()) refuse(name);
     value = static_cast<std::uint32_t>(wide);
+  }
+  void field(const char* name, bool& value) {
+    std::uint64_t word = 0;
+    file_.read(name, word);
+    value = word != 0;
   }
   void field(const char* name, double& value) { file_.read(name, value); }
   void field(const char* name, std::string& value) { file_.read(name, value); }
@@ -217,6 +223,7 @@ void exchange_settings(Archive& archive, AnySettings& settings) {
   archive.field("direct", settings.direct, std::array{Direct::sampled, Direct::analytic});
   archive.field("max_bounces", settings.max_bounces);
   archive.field("first_history", settings.first_history);
+  archive.field("part", settings.part);
   archive.field("photons", settings.photons);
   archive.field("target_error", settings.target_error);
   archive.field("max_seconds", settings.max_seconds);

@@ -103,12 +103,37 @@ class LongRuns(ProgramTest):
         self.succeeds("merge", one, three, "-o", gap)
         self.refused("resume", gap, "--photons", "1e6", says=["gaps", "20480", "40959", "--histories"])
 
+    def test_many_receivers_in_small_parts(self):
+        """A round of walks back from 81 receivers is longer than the first part: each round is in one part only."""
+        options = ["--grid", "0.5", "--grid-spacing", "0.1", "--no-report"]
+        whole = self.folder / "whole"
+        self.succeeds("run", SCENES / "cube_paper.gltf", "-o", whole, "--photons", "4096", *options)
+        names = []
+        for first, last in ((0, 1024), (1024, 2048), (2048, 4096)):
+            names.append(self.folder / str(first))
+            self.succeeds("run", SCENES / "cube_paper.gltf", "-o", names[-1], "--histories", f"{first}:{last}", *options)
+        merged = self.folder / "merged"
+        self.succeeds("merge", *names, "-o", merged)
+        self.assert_same(whole, merged)
+        self.assertIn("leave out histories 1024 to 2047", self.succeeds("merge", names[0], names[2], "-o", merged))
+
+    def test_a_stop_before_the_receivers_keeps_the_tiles(self):
+        """The direct light of many receivers takes a while: a stop then must not cost what the photons have found."""
+        out = self.folder / "out"
+        done = lichtmc("run", ROOM, "-o", out, "--tile", "0.5", "--max-time", "0.4s", "--grid", "0.85", "--grid-spacing", "0.01", "--no-report")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Warning: The run was stopped before the first walks back from the receivers", done.stderr)
+        self.assertTrue((out / "tiles.csv").exists())
+        self.assertFalse((out / "receivers.csv").exists())
+        summary = json.loads((out / "summary.json").read_text())
+        self.assertGreater(summary["histories"], 0)
+
     def test_options_are_checked(self):
         for histories, says in (("10:2000", "Begin at 0 or 1024"), ("2048", "A:B"), ("2048:1024", "end before they begin"),
                                 ("a:b", "--histories")):
             self.refused("run", ROOM, "--histories", histories, says=[says])
         self.refused("run", ROOM, "--histories", "0:1024", "--photons", "1e6", says=["--photons and --histories"])
-        self.refused("run", ROOM, "--histories", "1024:2048", "--estimator", "auto", says=["'auto'", "parts"])
+        self.refused("run", ROOM, "--histories", "0:2048", "--estimator", "auto", says=["'auto'", "parts"])
         for checkpoint in ("0", "-1s", "soon"):
             self.refused("run", ROOM, "--checkpoint", checkpoint, says=["--checkpoint"])
 

@@ -98,6 +98,7 @@ State written_and_read(const State& state) {
 Result part(const Room& room, Settings settings, std::uint64_t first, std::uint64_t last) {
   settings.first_history = first;
   settings.photons = last - first;
+  settings.part = true;
   return simulate(room, settings);
 }
 
