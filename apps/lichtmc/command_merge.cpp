@@ -92,14 +92,18 @@ void add_merge_command(CLI::App& program, const Started& started) {
       ->type_name("DIR");
   command->add_option("--room", options->room, "The room's file, where it is not where the first part had it")
       ->type_name("ROOM");
-  command->add_option("--receivers", options->receivers, "The table of receivers, where it is elsewhere, or came from stdin")
+  command
+      ->add_option("--receivers", options->receivers,
+                   "The table of receivers, where it is elsewhere, or came from stdin")
       ->type_name("FILE.csv");
   add_threads_option(*command, options->threads, "How");
   add_look_options(*command, options->looks);
   command->add_flag("--quiet", options->quiet, "No progress, no summary; only errors");
   command->footer(
-      "Parts are runs of the same room with the same settings and --histories A:B that do not overlap. In any order and\n"
-      "grouping they add up, to the last digit, to one run of all histories. The sum may be merged again, or resumed.\n\n"
+      "Parts are runs of the same room with the same settings and --histories A:B that do not overlap. In any order "
+      "and\n"
+      "grouping they add up, to the last digit, to one run of all histories. The sum may be merged again, or "
+      "resumed.\n\n"
       "Example:\n"
       "  lichtmc run room.glb --histories 0:10240000 -o one            on one machine\n"
       "  lichtmc run room.glb --histories 10240000:20480000 -o two     on another\n"

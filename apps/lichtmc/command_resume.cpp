@@ -50,8 +50,9 @@ void resume_run(const ResumeOptions& options, const Started& started) {
   if (options.room) run.reading.file = *options.room;
   if (options.receivers) run.receivers = *options.receivers;
   if (run.receivers == "-" && !options.receivers)
-    throw InputError("The receivers of this run came from stdin (allowed here: a file, or - again). Give them with "
-                     "--receivers.");
+    throw InputError(
+        "The receivers of this run came from stdin (allowed here: a file, or - again). Give them with "
+        "--receivers.");
   run.looks.override_with(options.looks);
 
   const Settings rules = rules_for(options, state);
@@ -72,7 +73,8 @@ void resume_run(const ResumeOptions& options, const Started& started) {
 }  // namespace
 
 void add_resume_command(CLI::App& program, const Started& started) {
-  CLI::App* command = program.add_subcommand("resume", "Go on with a run that was interrupted, or that is to go further");
+  CLI::App* command =
+      program.add_subcommand("resume", "Go on with a run that was interrupted, or that is to go further");
   auto options = std::make_shared<ResumeOptions>();
   command->add_option("state", options->state, "state.h5 of a run, or the folder that it is in")
       ->required()
@@ -80,7 +82,9 @@ void add_resume_command(CLI::App& program, const Started& started) {
   command->add_option("-o,--output", options->output, "Folder for the results [that of STATE]")->type_name("DIR");
   command->add_option("--room", options->room, "The room's file, where it is not any more where it was")
       ->type_name("ROOM");
-  command->add_option("--receivers", options->receivers, "The table of receivers, where it is elsewhere, or came from stdin")
+  command
+      ->add_option("--receivers", options->receivers,
+                   "The table of receivers, where it is elsewhere, or came from stdin")
       ->type_name("FILE.csv");
   add_stop_options(*command, options->stop);
   command->get_option("--photons")->description("Go on until there are so many light packets in all: 10M, 2G");
@@ -90,8 +94,10 @@ void add_resume_command(CLI::App& program, const Started& started) {
   add_look_options(*command, options->looks);
   command->add_flag("--quiet", options->quiet, "No progress, no summary; only errors");
   command->footer(
-      "Photons are counted from the start of the run: --photons 10M goes on until there are 10 million in all. Time is\n"
-      "that of this session. Without any of these rules the run goes on to its own. The results are, to the last digit,\n"
+      "Photons are counted from the start of the run: --photons 10M goes on until there are 10 million in all. Time "
+      "is\n"
+      "that of this session. Without any of these rules the run goes on to its own. The results are, to the last "
+      "digit,\n"
       "those of a run without interruption.\n\n"
       "Examples:\n"
       "  lichtmc resume room.out                         after a power cut\n"

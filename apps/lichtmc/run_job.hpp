@@ -1,4 +1,5 @@
-// What run, resume and merge have in common: a simulation with progress, Ctrl-C and checkpoints, then files and a summary.
+// What run, resume and merge have in common: a simulation with progress, Ctrl-C and checkpoints, then files and a
+// summary.
 #pragma once
 
 #include <filesystem>

@@ -83,7 +83,8 @@ void parse_histories(const std::string& text, const StopOptions& stop, Settings&
   settings.first_history = parse_count(text.substr(0, colon), "--histories");
   const std::uint64_t end = parse_count(text.substr(colon + 1), "--histories");
   if (end <= settings.first_history)
-    throw InputError("The histories " + text + " end before they begin (allowed: A:B with A below B). Give --histories "
+    throw InputError("The histories " + text +
+                     " end before they begin (allowed: A:B with A below B). Give --histories "
                      "a greater second number.");
   settings.photons = end - settings.first_history;
   settings.part = true;

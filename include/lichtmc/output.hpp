@@ -38,9 +38,9 @@ struct ReportOptions {
 };
 
 // What a report is: the room in false colour (room_lit.glb), pictures/room.svg, above.svg and one of each large surface
-// (with .png files of the pixels alone), and report.html, a page with all of them, the tables, the balance, convergence,
-// what inspect() finds, and how to reproduce it. report.html needs no other file and no network. Where only receivers
-// were measured it has no pictures.
+// (with .png files of the pixels alone), and report.html, a page with all of them, the tables, the balance,
+// convergence, what inspect() finds, and how to reproduce it. report.html needs no other file and no network. Where
+// only receivers were measured it has no pictures.
 //
 // Call it after write_results(); files appear whole or not at all, and those of an earlier report are removed. Throws
 // InputError where an option is not allowed, RuntimeError where something cannot be drawn or written.

@@ -99,8 +99,8 @@ class RoomPainter {
   // Found by photons that are never absorbed: the same for the same room.
   const LitSides& lit_sides() const;
 
-  // Anti-aliased: nine rays a pixel wherever colours or edges meet. Dark lines are edges of the room. width, height: 16 … 16 384 pixels, or
-  // InputError.
+  // Anti-aliased: nine rays a pixel wherever colours or edges meet. Dark lines are edges of the room. width, height: 16
+  // … 16 384 pixels, or InputError.
   Picture draw(View view, const ColourScale& scale, std::size_t width, std::size_t height) const;
 
  private:

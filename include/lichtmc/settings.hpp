@@ -55,7 +55,7 @@ std::string_view to_string(TileWalk tiles);
 struct Settings {
   Estimator estimator = Estimator::collision;
   std::uint64_t photons = 1'000'000;  // histories, ≥ 1: so many for the tiles; and so many, shared, for the receivers
-  std::uint64_t first_history = 0;         // simulate those from this one on: a multiple of State::batch
+  std::uint64_t first_history = 0;    // simulate those from this one on: a multiple of State::batch
   bool part = false;  // these histories are a part of a run that merge() completes: receivers get their share alone
   std::optional<double> target_error;  // stop when the rms_relative_error of the walk is at most this, > 0
   std::optional<double>

@@ -53,8 +53,8 @@ struct Control {
 // has receivers, as many walks from them back to the light, and returns the irradiance at each.
 //
 // The same room, settings and seed give the same tile results, bit for bit, for any number of threads and members of a
-// team (where a stop rule of time or an interrupt ends the run: for the same number of histories). The function keeps no state: several
-// simulations may run at once in one process.
+// team (where a stop rule of time or an interrupt ends the run: for the same number of histories). The function keeps
+// no state: several simulations may run at once in one process.
 //
 // Throws InputError where the room or a setting is not sound: see check_room(); ρ = 1 with the absorption estimator; a
 // closed room in which nothing absorbs; a receiver that lies on an emitter; Ways::backward without receivers;

@@ -23,10 +23,8 @@ class Checksum {
   void add(const void* bytes, std::size_t n);
   // Numbers by their bits: −0 and 0 are different.
   template <class Number>
-    requires std::is_arithmetic_v<Number>
-  void add(Number value) {
-    add(&value, sizeof value);
-  }
+  requires std::is_arithmetic_v<Number>
+  void add(Number value) { add(&value, sizeof value); }
   // With its length, so that what follows cannot be taken for a part of it.
   void add(std::string_view text) {
     add(std::uint64_t{text.size()});

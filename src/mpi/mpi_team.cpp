@@ -38,8 +38,9 @@ class ConnectedTeam final : public MpiTeam {
     int provided = 0;
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||
         provided < MPI_THREAD_FUNNELED) {
-      throw RuntimeError("MPI cannot be started with threads (MPI_THREAD_FUNNELED). Check the installation of MPI, or "
-                         "start lichtmc without mpirun.");
+      throw RuntimeError(
+          "MPI cannot be started with threads (MPI_THREAD_FUNNELED). Check the installation of MPI, or "
+          "start lichtmc without mpirun.");
     }
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
@@ -69,9 +70,8 @@ class ConnectedTeam final : public MpiTeam {
     });
   }
   void share(std::span<std::byte> bytes) override {
-    in_pieces(bytes.size(), [&](std::size_t first, int n) {
-      MPI_Bcast(bytes.data() + first, n, MPI_BYTE, 0, MPI_COMM_WORLD);
-    });
+    in_pieces(bytes.size(),
+              [&](std::size_t first, int n) { MPI_Bcast(bytes.data() + first, n, MPI_BYTE, 0, MPI_COMM_WORLD); });
   }
 
   [[noreturn]] void abort(int status) override {

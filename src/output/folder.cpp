@@ -6,8 +6,8 @@
 #include <charconv>
 #include <vector>
 
-#include <csignal>
 #include <unistd.h>
+#include <csignal>
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
@@ -90,9 +90,8 @@ void StagedFiles::publish(const fs::path& last) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(stage_)) {
     if (entry.is_regular_file()) names.push_back(entry.path().lexically_relative(stage_));
   }
-  std::sort(names.begin(), names.end(), [&](const fs::path& a, const fs::path& b) {
-    return std::pair(a == last, a) < std::pair(b == last, b);
-  });
+  std::sort(names.begin(), names.end(),
+            [&](const fs::path& a, const fs::path& b) { return std::pair(a == last, a) < std::pair(b == last, b); });
   for (const fs::path& name : names) {
     if (name.has_parent_path()) make_folder(folder_ / name.parent_path());
     std::error_code error;

@@ -69,8 +69,8 @@ void check_cells(const Room& room, const std::vector<Chart>& charts, double edge
   const double enough = std::ceil(exact / digit * 1.001) * digit;
   throw InputError("Tiles of " + to_text(edge_m) + " m divide the room into " + to_text(total) +
                    " cells (allowed: " + to_text(allowed) + ", what memory holds), " + to_text(most) +
-                   " of them on the surface " + in_quotes(room.surfaces[worst].name) +
-                   ". Give --tile " + to_text(enough) + " or more, or check that the room's coordinates are metres.");
+                   " of them on the surface " + in_quotes(room.surfaces[worst].name) + ". Give --tile " +
+                   to_text(enough) + " or more, or check that the room's coordinates are metres.");
 }
 
 // One map being filled.

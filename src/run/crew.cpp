@@ -86,7 +86,8 @@ void Crew::simulate_part(HistoryRange range) {
   Worker& worker = workers_.front();
   worker.tally.emplace(scene_->first_tile, hits_);
   const auto n = static_cast<std::uint32_t>(range.last - range.first);
-  worker.abandoned |= !worker.walk->simulate_batch(range.first, n, *worker.tally, [this] { return watch_->should_stop(); });
+  worker.abandoned |=
+      !worker.walk->simulate_batch(range.first, n, *worker.tally, [this] { return watch_->should_stop(); });
   ends_ = n;
   reporter_.add(n, worker.tally->counts().impacts);
 }

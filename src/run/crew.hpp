@@ -83,11 +83,11 @@ class Crew {
   HistoryRange range_;                  // that grows, by whole batches
   std::atomic<std::uint64_t> next_{0};  // first history that no thread of this process has taken
   bool after_checkpoint_ = false;
-  std::uint64_t round_ = 0;             // batches in a round of the team
+  std::uint64_t round_ = 0;                      // batches in a round of the team
   std::atomic<std::uint64_t> round_impacts_{0};  // of this member
-  std::shared_ptr<Totals> whole_;       // whole batches that were collected
-  std::uint64_t ends_ = 0;              // histories of batches that are not whole; they are in the first worker's tally
-  std::unique_ptr<Totals> sum_;         // of all, once the work has ended with more than whole batches
+  std::shared_ptr<Totals> whole_;                // whole batches that were collected
+  std::uint64_t ends_ = 0;       // histories of batches that are not whole; they are in the first worker's tally
+  std::unique_ptr<Totals> sum_;  // of all, once the work has ended with more than whole batches
 };
 
 }  // namespace lichtmc

@@ -191,7 +191,8 @@ void walk_from_emitters(const Room& room, const Scene& scene, const Settings& se
   }
   std::vector<Contender> contenders = contenders_for(room, scene, own, control, watch, result, direct);
   if (log) {
-    if (log->totals->tiles.size() != result.tiling.tiles.size() || log->totals->maps.size() != result.tiling.maps.size())
+    if (log->totals->tiles.size() != result.tiling.tiles.size() ||
+        log->totals->maps.size() != result.tiling.maps.size())
       throw InputError("The state has " + std::to_string(log->totals->tiles.size()) + " tiles, the room has " +
                        std::to_string(result.tiling.tiles.size()) +
                        " (allowed: as many). The state is not one of this room; run anew.");

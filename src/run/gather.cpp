@@ -98,7 +98,8 @@ Gathered Gathering::run() {
   std::optional<BackwardState>* log = logbook_ == nullptr ? nullptr : &(logbook_->data().*task_.slot);
   if (range_.first >= range_.last && (log == nullptr || !*log)) {
     throw InputError("No walk back from " + task_.name + " belongs to these histories (allowed: at least " +
-                     std::to_string(together_) + " histories in a part, one round of all). Take greater parts, or --only forward.");
+                     std::to_string(together_) +
+                     " histories in a part, one round of all). Take greater parts, or --only forward.");
   }
   found_.direct = direct_light_of(task_.origins, task_.direct, control_, threads_, watch_, found_.count.traced);
   found_.direct_seconds = watch_.seconds();
@@ -183,7 +184,9 @@ void Gathering::simulate_up_to(std::uint64_t rounds) {
     if (!simulate_step(found_.rounds + step)) return;
     const double took = watch_.seconds() - began;
     if (step == step_ || took > step_seconds)
-      step_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(static_cast<double>(step) * std::min(4.0, step_seconds / std::max(took, 1e-6))));
+      step_ = std::max<std::uint64_t>(
+          1,
+          static_cast<std::uint64_t>(static_cast<double>(step) * std::min(4.0, step_seconds / std::max(took, 1e-6))));
     share(control_.team, step_);
     watch_.agree();
     bool due = logbook_ != nullptr && logbook_->due() && !watch_.reason();

@@ -27,19 +27,20 @@ class StoppedTooSoon : public RuntimeError {
   using RuntimeError::RuntimeError;
 };
 
-// The direct light of every origin, found by all threads of all members of a team. direct(k, count) is called once for each k below `origins`;
-// rays are counted in `traced`. Throws StoppedTooSoon where the watch says stop before all are done.
+// The direct light of every origin, found by all threads of all members of a team. direct(k, count) is called once for
+// each k below `origins`; rays are counted in `traced`. Throws StoppedTooSoon where the watch says stop before all are
+// done.
 using DirectOf = std::function<DirectIrradiance(std::size_t, TraceCount&)>;
 std::vector<DirectIrradiance> direct_light_of(std::size_t origins, const DirectOf& direct, const Control& control,
                                               unsigned threads, StopWatch& watch, TraceCount& traced);
 
 // What walks from some origins have found.
 struct Gathered {
-  std::vector<DirectIrradiance> direct;  // per origin
+  std::vector<DirectIrradiance> direct;             // per origin
   std::shared_ptr<std::vector<ReceiverSums>> sums;  // per origin, of all rounds
-  std::uint64_t rounds = 0;              // per origin
-  std::uint32_t group = 1;               // walks in a round
-  double unit = 1.0;                     // of the sums, W/m² or lx
+  std::uint64_t rounds = 0;                         // per origin
+  std::uint32_t group = 1;                          // walks in a round
+  double unit = 1.0;                                // of the sums, W/m² or lx
   BackwardCount count;
   double direct_seconds = 0.0;  // integrating direct light
   StopReason stopped_by = StopReason::photons;
@@ -66,7 +67,7 @@ struct GatherTask {
   // origins are called.
   std::vector<double> weights;
   std::string name;
-  std::optional<BackwardState> StateData::* slot = nullptr;  // where the logbook has these walks
+  std::optional<BackwardState> StateData::*slot = nullptr;  // where the logbook has these walks
 };
 
 // Walks until the first stop rule is met; goes on from the walks that the logbook has, and leaves there what was found.

@@ -58,7 +58,7 @@ class Reporter {
   std::mutex mutex_;
   Progress progress_;
   double histories_to_target_ = std::numeric_limits<double>::quiet_NaN();
-  double began_;  // when the histories did, s
+  double began_;              // when the histories did, s
   std::uint64_t before_ = 0;  // histories of earlier sessions
   Clock::time_point last_;
 };

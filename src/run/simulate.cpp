@@ -32,7 +32,8 @@ namespace {
 // Those that this process may run on: batch systems and mpirun bind processes to some of the machine's.
 unsigned usable_processors() {
   cpu_set_t usable;
-  if (::sched_getaffinity(0, sizeof usable, &usable) == 0) return static_cast<unsigned>(std::max(1, CPU_COUNT(&usable)));
+  if (::sched_getaffinity(0, sizeof usable, &usable) == 0)
+    return static_cast<unsigned>(std::max(1, CPU_COUNT(&usable)));
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
@@ -119,8 +120,8 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
   if (!settings.max_bounces && traps_light(scene, settings.seed)) refuse_trap(room);
   const StateData& data = logbook.data();
   const bool forward = settings.ways != Ways::backward && (!logbook.only_read() || data.photons || data.tile_walks);
-  const bool backward = settings.ways != Ways::forward && !room.receivers.empty() &&
-                        (!logbook.only_read() || data.receivers);
+  const bool backward =
+      settings.ways != Ways::forward && !room.receivers.empty() && (!logbook.only_read() || data.receivers);
   Settings each = settings;
   bool receivers_missing = false;  // what was found of the tiles is kept then
   if (forward && backward && each.max_seconds) each.max_seconds = 0.5 * *each.max_seconds;
@@ -138,7 +139,8 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
   }
   complete(result, room);
   if (receivers_missing)
-    result.warnings.emplace_back("The run was stopped before the first walks back from the receivers: they were not measured.");
+    result.warnings.emplace_back(
+        "The run was stopped before the first walks back from the receivers: they were not measured.");
   result.checkpoint_seconds = logbook.spent();
   result.state = logbook.close();
   return result;
@@ -204,9 +206,10 @@ StateData data_of(State&& state) {
 
 void refuse_gaps(const std::vector<HistoryRange>& ranges) {
   if (ranges.size() < 2) return;
-  throw InputError("The state has gaps: nothing is there of " + std::to_string(ranges[0].last) + " … " +
-                   std::to_string(ranges[1].first - 1) +
-                   " (allowed: histories without gaps, to go on). Simulate what is missing with --histories, and merge.");
+  throw InputError(
+      "The state has gaps: nothing is there of " + std::to_string(ranges[0].last) + " … " +
+      std::to_string(ranges[1].first - 1) +
+      " (allowed: histories without gaps, to go on). Simulate what is missing with --histories, and merge.");
 }
 
 }  // namespace

@@ -126,7 +126,8 @@ class Merger {
         throw InputError("The " + of_what + " " + in_words(owned[k].range) + " of " + names_[owned[k].state] +
                          " end within a batch of " + std::to_string(batch) +
                          " (allowed for the last range only). Give that part of the run --histories that end at a "
-                         "multiple of " + std::to_string(batch) + ".");
+                         "multiple of " +
+                         std::to_string(batch) + ".");
       }
       if (!joined.empty() && joined.back().last == owned[k].range.first) {
         joined.back().last = owned[k].range.last;
@@ -162,7 +163,7 @@ class Merger {
     if (states_.size() > 1) sum.photons->convergence.clear();
   }
 
-  void merge_walks(StateData& sum, std::optional<BackwardState> StateData::* slot) const {
+  void merge_walks(StateData& sum, std::optional<BackwardState> StateData::*slot) const {
     std::vector<Owned> owned;
     std::shared_ptr<std::vector<ReceiverSums>> sums;
     std::optional<BackwardState> merged;

@@ -26,7 +26,9 @@ void add_words(Team& team, std::initializer_list<std::uint64_t*> values) {
 }  // namespace
 
 Part part_of(const Team* team, std::uint64_t n) {
-  const auto at = [&](unsigned rank) { return static_cast<std::uint64_t>(static_cast<uint128>(n) * rank / size_of(team)); };
+  const auto at = [&](unsigned rank) {
+    return static_cast<std::uint64_t>(static_cast<uint128>(n) * rank / size_of(team));
+  };
   return {at(rank_of(team)), at(rank_of(team) + 1)};
 }
 

@@ -22,7 +22,7 @@ inline unsigned size_of(const Team* team) {
 
 // Everyone gets the first's value: decisions that hang on floating-point numbers or on time must be the same for all.
 template <class Value>
-  requires std::is_trivially_copyable_v<Value>
+requires std::is_trivially_copyable_v<Value>
 void share(Team* team, Value& value) {
   if (team != nullptr) team->share(std::as_writable_bytes(std::span(&value, 1)));
 }

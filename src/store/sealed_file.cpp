@@ -64,8 +64,9 @@ void check_seal(const fs::path& file, std::string_view title) {
   constexpr std::size_t kind = 13;  // "lichtmc state", the beginning of every title
   if (first_line != title) {
     if (first_line.compare(0, kind, title.substr(0, kind)) != 0)
-      refuse(file, "it is no state of lichtmc, or its beginning is damaged (allowed: a file state.h5 that lichtmc has "
-                   "written). Give another file, or run anew.");
+      refuse(file,
+             "it is no state of lichtmc, or its beginning is damaged (allowed: a file state.h5 that lichtmc has "
+             "written). Give another file, or run anew.");
     refuse(file, "it is a " + in_quotes(first_line) + " (allowed: " + in_quotes(title) +
                      "). Use the version of lichtmc that made it, or run anew.");
   }
@@ -73,8 +74,9 @@ void check_seal(const fs::path& file, std::string_view title) {
   stream.clear();
   const std::array<std::uint64_t, 2> checksum = checksum_of_rest(stream, n);
   if (found != seal_with(title, checksum, n)) {
-    refuse(file, "it is damaged: its checksum is wrong (allowed: the file as it was written). Take a copy of it, if "
-                 "there is one, or run anew.");
+    refuse(file,
+           "it is damaged: its checksum is wrong (allowed: the file as it was written). Take a copy of it, if "
+           "there is one, or run anew.");
   }
 }
 

@@ -137,6 +137,19 @@ class Faults(FaultTest):
         self.assertIn("Warning: the checkpoint was not written; the run goes on.", done.stderr)
         self.assertIn("lichtmc: Cannot write", done.stderr)
 
+    def test_tallies_beyond_memory_are_refused_before_the_start(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (2_000_000_000, 2_000_000_000))
+        out = self.folder / "out"
+        for options, says in ((["--tile", "0.0002"], "1.5e+08 cells (allowed: 9433962, what memory holds)"),
+                              (["--tile", "0.002", "--threads", "64"], "1500000 tiles")):
+            done = lichtmc("run", CUBE, "-o", out, "--photons", "1e9", *options, preexec_fn=limit)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(says, done.stderr)
+            self.assertIn("Give --tile", done.stderr)
+            self.assertFalse((out / "summary.json").exists())
+        self.assertIn("for 64 threads need 4.0 GB of memory (allowed: 2.0 GB, what there is)", done.stderr.replace(" 4 GB", " 4.0 GB").replace(" 2 GB", " 2.0 GB"))
+
     def test_a_folder_that_vanishes_comes_back_with_the_results(self):
         whole = self.reference()
         out = self.folder / "out"

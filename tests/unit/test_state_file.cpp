@@ -94,7 +94,6 @@ TEST_CASE("a bit that has changed anywhere in a state is found") {
   write_state(small_state(), scratch.file(), "note");
   const std::string whole = bytes_of(scratch.file());
   REQUIRE_FALSE(is_refused(scratch.file()));
-  INFO(whole.size() << " bytes");
   std::mt19937 random(1);
   // Every byte once, so every field of the structure; then anywhere.
   std::vector<std::size_t> places(whole.size());
@@ -134,7 +133,8 @@ TEST_CASE("what is no state is refused by what it is") {
   std::string other = bytes_of(scratch.file());
   other.replace(other.find("layout 1"), 8, "layout 2");
   write_bytes(scratch.file(), other);
-  CHECK_THROWS_WITH(read_state(scratch.file()), ContainsSubstring("'lichtmc state, layout 2' (allowed: 'lichtmc state, layout 1')"));
+  CHECK_THROWS_WITH(read_state(scratch.file()),
+                    ContainsSubstring("'lichtmc state, layout 2' (allowed: 'lichtmc state, layout 1')"));
 }
 
 TEST_CASE("a state that cannot be written leaves the old one") {

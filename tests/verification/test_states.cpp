@@ -207,7 +207,8 @@ TEST_CASE("parts add up to one run, in any order and grouping") {
     const Result whole = simulate(room, way.settings);
     std::vector<State> parts;
     std::uint64_t first = 0;
-    for (const std::uint64_t last : {std::uint64_t{20'480}, std::uint64_t{21'504}, std::uint64_t{40'960}, way.settings.photons}) {
+    for (const std::uint64_t last :
+         {std::uint64_t{20'480}, std::uint64_t{21'504}, std::uint64_t{40'960}, way.settings.photons}) {
       parts.push_back(written_and_read(part(room, way.settings, first, last).state));
       first = last;
     }
@@ -238,7 +239,9 @@ TEST_CASE("states that do not belong together are refused by what sets them apar
     CHECK_THROWS_WITH(merge({one, other}, {"one.h5", "two.h5"}), ContainsSubstring(says));
     CHECK_THROWS_WITH(merge({other, one}, {"two.h5", "one.h5"}), ContainsSubstring("two.h5"));
   };
-  const auto after = [&](const Room& other_room, Settings other) { return part(other_room, other, 10'240, 20'480).state; };
+  const auto after = [&](const Room& other_room, Settings other) {
+    return part(other_room, other, 10'240, 20'480).state;
+  };
   refused(one, "overlap");
   Settings other = settings;
   other.seed = 2;
