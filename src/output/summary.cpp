@@ -130,13 +130,11 @@ void write_summary(const Room& room, const Result& result, const Sink& sink) {
       {"engine", std::string(to_string(result.engine))},
       {"estimator", std::string(to_string(result.tiles.empty() ? result.backward.estimator : result.estimator))},
       {"seed", result.settings.seed},
-      {"processes", result.processes},
       {"threads", result.threads},
       {"histories", result.histories},
       {"impacts", result.impacts},
       {"rays", result.rays + result.backward.rays},
       {"seconds", number(result.seconds)},
-      {"checkpoint_seconds", number(result.checkpoint_seconds)},
       {"impacts_per_second", number(static_cast<double>(result.impacts) / result.seconds)},
       {"emitted", number(balance.emitted)},
       {"absorbed", number(balance.absorbed)},
@@ -151,6 +149,8 @@ void write_summary(const Room& room, const Result& result, const Sink& sink) {
       {"surfaces", surfaces_of(result)},
       {"receivers", Json::array()},
       {"ignored", texts_of(result.ignored)}};
+  summary["processes"] = result.processes;
+  summary["checkpoint_seconds"] = number(result.checkpoint_seconds);
   summary["tiles_by"] = std::string(to_string(result.settings.tiles));
   summary["direct"] = std::string(to_string(direct_is_apart(result) ? Direct::analytic : Direct::sampled));
   summary["shadow_rays"] = result.shadow_rays + result.backward.shadow_rays;

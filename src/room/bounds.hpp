@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "lichtmc/room.hpp"
 
@@ -19,7 +20,10 @@ struct Bounds {
     low = glm::min(low, point);
     high = glm::max(high, point);
   }
-  bool holds(const glm::dvec3& point) const { return glm::min(point, low) == low && glm::max(point, high) == high; }
+  // Whether a point lies in the box, or outside by no more than `slack`.
+  bool holds(const glm::dvec3& point, double slack = 0.0) const {
+    return glm::all(glm::greaterThanEqual(point, low - slack)) && glm::all(glm::lessThanEqual(point, high + slack));
+  }
 };
 
 // The box about all triangles of a room, in m; positions that no triangle uses do not count.

@@ -1,6 +1,9 @@
 #include "run/warnings.hpp"
 
+#include <algorithm>
 #include <variant>
+
+#include <glm/common.hpp>
 
 #include "base/message.hpp"
 #include "room/bounds.hpp"
@@ -19,12 +22,15 @@ std::string percent(double share) {
 std::vector<OutsideEmitter> emitters_outside(const Room& room) {
   std::vector<OutsideEmitter> outside;
   const Bounds bounds = bounds_of(room);
+  // Files hold floats: a lamp at the ceiling may be rounded beyond it.
+  const glm::dvec3 farthest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
+  const double slack = 4.0 * 0x1p-24 * std::max({farthest.x, farthest.y, farthest.z});
   for (const Emitter& emitter : room.emitters) {
     std::visit(
         [&](const auto& shape) {
           if constexpr (requires { shape.position; }) {
             const glm::dvec3& p = shape.position;
-            if (bounds.holds(p)) return;
+            if (bounds.holds(p, slack)) return;
             std::string range;
             for (int k = 0; k < 3; ++k)
               range += (k > 0 ? ", " : "") + short_number(bounds.low[k]) + " to " + short_number(bounds.high[k]);
