@@ -1,6 +1,7 @@
 #include "run/warnings.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <variant>
 
 #include <glm/common.hpp>
@@ -30,13 +31,20 @@ std::vector<OutsideEmitter> emitters_outside(const Room& room) {
         [&](const auto& shape) {
           if constexpr (requires { shape.position; }) {
             const glm::dvec3& p = shape.position;
-            if (bounds.holds(p, slack)) return;
+            const std::string which = "Emitter " + in_quotes(emitter.name) + " at (" + short_number(p.x) + ", " +
+                                      short_number(p.y) + ", " + short_number(p.z) + ") m lies ";
+            if (bounds.holds(p, slack)) {
+              const bool to_all_sides = std::is_same_v<std::decay_t<decltype(shape)>, IsotropicEmitter>;
+              if (to_all_sides && !bounds.holds(p, -slack))
+                outside.push_back(
+                    {which + "in the rim of the room: the light that it sends outwards leaves the room at once.",
+                     "Move it some centimetres inwards."});
+              return;
+            }
             std::string range;
             for (int k = 0; k < 3; ++k)
               range += (k > 0 ? ", " : "") + short_number(bounds.low[k]) + " to " + short_number(bounds.high[k]);
-            outside.push_back({"Emitter " + in_quotes(emitter.name) + " at (" + short_number(p.x) + ", " +
-                                   short_number(p.y) + ", " + short_number(p.z) +
-                                   ") m lies outside the room, which reaches from x, y, z = " + range + " m.",
+            outside.push_back({which + "outside the room, which reaches from x, y, z = " + range + " m.",
                                "Check its position; Y is up."});
           }
         },
