@@ -90,6 +90,8 @@ struct Inspection {
 // for rooms of 10⁵ triangles. Throws InputError where the room has no triangle with an area or its numbers do not fit
 // (check_room()); what else would stop a simulation is a finding.
 Inspection inspect(const Room& room, double tile_edge_m = 0.1);
+// The same where make_tiling(room, tile_edge_m) is at hand: tiles may be more than memory holds twice.
+Inspection inspect(const Room& room, const Tiling& tiling, double tile_edge_m);
 
 // Everything that an inspection found, with the room's emitters and receivers, as JSON.
 std::string inspection_json(const Room& room, const Inspection& inspection);

@@ -114,7 +114,10 @@ std::size_t Inspection::count(Severity severity) const {
       findings.begin(), findings.end(), [severity](const Finding& finding) { return finding.severity == severity; }));
 }
 
-Inspection inspect(const Room& room, double tile_edge_m) {
+namespace {
+
+// tiling: null where it is still to be made.
+Inspection inspect_with(const Room& room, const Tiling* tiling, double tile_edge_m) {
   check_surfaces(room);
   Inspection facts;
   bool own_light = true;
@@ -130,13 +133,27 @@ Inspection inspect(const Room& room, double tile_edge_m) {
   facts.looks_z_up = looks_z_up(room, facts.high - facts.low);
   if (const auto unit = guess_unit(facts.high - facts.low)) facts.suggested_scale = unit->metres;
   look_at_surfaces(room, facts);
-  const Tiling tiling = tiling_within_memory(room, tile_edge_m, facts);
-  look_at_tiles(tiling, tile_edge_m, facts);
-  shoot_rays(room, tiling, own_light, facts);
+  Tiling made;
+  if (tiling == nullptr) {
+    made = tiling_within_memory(room, tile_edge_m, facts);
+    tiling = &made;
+  }
+  look_at_tiles(*tiling, tile_edge_m, facts);
+  shoot_rays(room, *tiling, own_light, facts);
   add_findings(room, facts);
   std::stable_sort(facts.findings.begin(), facts.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   return facts;
+}
+
+}  // namespace
+
+Inspection inspect(const Room& room, double tile_edge_m) {
+  return inspect_with(room, nullptr, tile_edge_m);
+}
+
+Inspection inspect(const Room& room, const Tiling& tiling, double tile_edge_m) {
+  return inspect_with(room, &tiling, tile_edge_m);
 }
 
 }  // namespace lichtmc

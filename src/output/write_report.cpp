@@ -43,7 +43,7 @@ class Reporting {
       draw();
     }
     tell("Looking the room over");
-    content_.inspection = inspect(*room_, result_->settings.tile_edge_m);
+    content_.inspection = inspect(*room_, result_->tiling, result_->settings.tile_edge_m);
     tell("Writing report.html");
     write_file_atomically(folder_ / "report.html", report_html(content_));
     folder_.publish("report.html");

@@ -8,6 +8,7 @@
 #include "base/message.hpp"
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
+#include "lichtmc/result.hpp"
 #include "room/reflectance.hpp"
 #include "walk/walk.hpp"
 
@@ -84,16 +85,30 @@ void check_settings(const Settings& settings) {
   }
 }
 
-void check_memory(const Room& room, const Tiling& tiling, const Settings& settings, unsigned threads, bool has_maps) {
-  if (settings.tiles != TileWalk::forward || settings.ways == Ways::backward) return;
-  const bool hits_apart =
-      settings.estimator == Estimator::automatic || score_law(settings.estimator, has_maps).hits == Hits::apart;
-  // Bytes per tile: Tile and its cell; Totals; a thread's Tally (see walk/many_hits.hpp and walk/many_scores.hpp).
+namespace {
+
+// Bytes per tile of a forward walk, at its worst time.
+double bytes_per_tile(const Settings& settings, unsigned threads, unsigned processes, bool has_maps) {
+  const bool automatic = settings.estimator == Estimator::automatic;
+  const bool hits_apart = automatic || score_law(settings.estimator, has_maps).hits == Hits::apart;
+  // Tile and its cell; Totals; a thread's Tally (see walk/many_hits.hpp and walk/many_scores.hpp).
   constexpr double of_tiling = sizeof(Tile) + sizeof(std::uint32_t);
   const double of_totals = sizeof(Moments) + (hits_apart ? sizeof(std::uint64_t) : 0);
-  const double of_tally = of_totals + (hits_apart ? 16 : 8);
+  const double of_tally = sizeof(Moments) + (hits_apart ? 16 : 8);
+  const double contenders = automatic ? 3 : 1;
+  const double walking = (contenders + (processes > 1 ? 1 : 0)) * of_totals + threads * of_tally;
+  const double ending = 2 * of_totals + of_tally;             // a last batch that is not whole, counted apart
+  const double writing = 2 * of_totals + sizeof(TileResult);  // the state, and its file as it is made
+  return of_tiling + std::max({walking, ending, writing});
+}
+
+}  // namespace
+
+void check_memory(const Room& room, const Tiling& tiling, const Settings& settings, unsigned threads,
+                  unsigned processes, bool has_maps) {
+  if (settings.tiles != TileWalk::forward || settings.ways == Ways::backward) return;
   const double tiles = static_cast<double>(tiling.tiles.size());
-  const double needed = tiles * (of_tiling + of_totals + threads * of_tally);
+  const double needed = tiles * bytes_per_tile(settings, threads, processes, has_maps);
   const double limit = memory_limit();
   if (needed <= limit) return;
   constexpr double gigabyte = 1e9;

@@ -17,8 +17,9 @@ void check_settings_for(const Room& room, const Settings& settings);
 // The first surface that has ρ = 1 and an area, or null.
 const Surface* surface_that_absorbs_nothing(const Room& room);
 
-// Throws InputError where the tallies of so many threads, and what a run keeps beside them, need more memory than there
-// is.
-void check_memory(const Room& room, const Tiling& tiling, const Settings& settings, unsigned threads, bool has_maps);
+// Throws InputError where the tallies of so many threads of one of so many processes, and what a run keeps beside them,
+// need more memory than there is.
+void check_memory(const Room& room, const Tiling& tiling, const Settings& settings, unsigned threads,
+                  unsigned processes, bool has_maps);
 
 }  // namespace lichtmc

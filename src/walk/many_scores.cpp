@@ -34,6 +34,13 @@ void ManyScores::add_to(Totals& totals) const {
     totals.tiles[tile].add(tiles_[tile].score, batch_histories);
     totals.hits[tile] += tiles_[tile].hits;
   }
+  for (const Carried& carried : carried_) totals.hits[carried.tile] += carried.times << 32;
+}
+
+void ManyScores::carry(std::uint32_t tile) {
+  auto carried = std::find_if(carried_.begin(), carried_.end(), [tile](const Carried& c) { return c.tile == tile; });
+  if (carried == carried_.end()) carried = carried_.insert(carried_.end(), {tile, 0});
+  ++carried->times;
 }
 
 }  // namespace lichtmc

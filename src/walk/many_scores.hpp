@@ -1,7 +1,8 @@
 // The scores of a batch where tiles are many and impacts score weights.
 //
 // Each impact goes to one place in memory, and closing a batch to none: a tile's score stays beside the tile, with the
-// number of the batch that it belongs to, and goes to the totals when another batch hits the tile.
+// number of the batch that it belongs to, and goes to the totals when another batch hits the tile. Hits stay there
+// until they are asked for: totals that a thread keeps need no room for them.
 #pragma once
 
 #include <cstddef>
@@ -32,27 +33,33 @@ class ManyScores {
     }
     at.score += units;
     map_scores_[map] += units;
-    // 2³² hits at a time are moved to the totals.
-    if (++at.hits == 0) totals.hits[tile] += std::uint64_t{1} << 32;
+    if (++at.hits == 0) carry(tile);
   }
 
   // Ends a batch of n histories; returns the scores of the maps.
   const std::vector<std::uint64_t>& close_batch(std::uint32_t n, Totals& totals);
 
-  // Adds what is not yet in the totals.
+  // Adds what is not yet in the totals, and all hits.
   void add_to(Totals& totals) const;
 
  private:
   struct BatchTile {
     std::uint64_t score = 0;
     std::uint32_t batch = 0;  // that hit the tile last
-    std::uint32_t hits = 0;   // not yet in the totals
+    std::uint32_t hits = 0;   // modulo 2³²
   };
+  // More hits than four bytes hold: so many times 2³² besides.
+  struct Carried {
+    std::uint32_t tile = 0;
+    std::uint64_t times = 0;
+  };
+  void carry(std::uint32_t tile);
 
   void settle(std::uint32_t tile, std::uint32_t n, Totals& totals);
 
   std::uint32_t batch_ = 1;  // number of the batch being simulated
   std::vector<BatchTile> tiles_;
+  std::vector<Carried> carried_;
   std::vector<std::uint64_t> map_scores_;
   std::vector<std::uint64_t> closed_;
 };

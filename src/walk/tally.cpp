@@ -17,10 +17,16 @@ Tally::TileScores tiles_for(const std::vector<std::uint32_t>& first_tile, Hits h
   return ManyScores(tiles, maps);
 }
 
+// Where tiles are many, their hits stay beside the scores.
+Hits hits_in_totals(const Tally::TileScores& tiles, Hits hits) {
+  return std::holds_alternative<ManyScores>(tiles) ? Hits::are_the_score : hits;
+}
+
 }  // namespace
 
 Tally::Tally(const std::vector<std::uint32_t>& first_tile, Hits hits)
-    : batch_(tiles_for(first_tile, hits)), totals_(first_tile.back(), first_tile.size() - 1, hits) {}
+    : batch_(tiles_for(first_tile, hits)),
+      totals_(first_tile.back(), first_tile.size() - 1, hits_in_totals(batch_, hits)) {}
 
 void Tally::close_batch(std::uint32_t n) {
   assert(n >= 1 && n <= batch_histories);

@@ -25,9 +25,10 @@ Totals::Totals(std::size_t tile_count, std::size_t map_count, Hits hits_are)
 
 void Totals::add(const Totals& other) {
   assert(tiles.size() == other.tiles.size() && maps.size() == other.maps.size());
+  assert(other.hits.empty() || hits.size() == other.hits.size());
   Counts::add(other);
   for (std::size_t i = 0; i < tiles.size(); ++i) tiles[i].add(other.tiles[i]);
-  for (std::size_t i = 0; i < hits.size(); ++i) hits[i] += other.hits[i];
+  for (std::size_t i = 0; i < other.hits.size(); ++i) hits[i] += other.hits[i];
   for (std::size_t i = 0; i < maps.size(); ++i) maps[i].add(other.maps[i]);
   for (std::size_t i = 0; i < behind.size(); ++i) behind[i] += other.behind[i];
 }
