@@ -47,12 +47,7 @@ class TemporaryFile {
     descriptor_ = -1;
     if (closed != 0 || std::rename(path_.c_str(), target_.c_str()) != 0) fail();
     renamed_ = true;
-    // The new name too must outlive a power cut. Some file systems cannot flush folders: then it is as good as it gets.
-    const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-    const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (opened < 0) return;
-    ::fsync(opened);
-    ::close(opened);
+    flush_folder(target_.has_parent_path() ? target_.parent_path() : ".");
   }
 
  private:
@@ -89,6 +84,14 @@ void write_file_atomically(const std::filesystem::path& file, const std::functio
   TemporaryFile temporary(file);
   produce([&temporary](std::string_view bytes) { temporary.write(bytes); });
   temporary.become_target();
+}
+
+// Some file systems cannot flush folders: then it is as good as it gets.
+void flush_folder(const std::filesystem::path& folder) {
+  const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (opened < 0) return;
+  ::fsync(opened);
+  ::close(opened);
 }
 
 void write_file_atomically(const std::filesystem::path& file, std::string_view bytes) {

@@ -16,4 +16,8 @@ using Sink = std::function<void(std::string_view)>;
 void write_file_atomically(const std::filesystem::path& file, const std::function<void(const Sink&)>& produce);
 void write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
 
+// Has a folder's entries flushed to the disk: names that are new, and that old ones are gone. Where that cannot be done
+// nothing happens.
+void flush_folder(const std::filesystem::path& folder);
+
 }  // namespace lichtmc

@@ -4,11 +4,13 @@
 #include <cctype>
 #include <cerrno>
 #include <charconv>
+#include <set>
 #include <vector>
 
 #include <unistd.h>
 #include <csignal>
 
+#include "base/atomic_file.hpp"
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
 
@@ -55,13 +57,11 @@ void remove_old_files(const fs::path& folder, const std::function<bool(const fs:
 namespace {
 
 constexpr std::string_view stage_prefix = ".lichtmc-";
-constexpr std::string_view temporary_mark = ".tmp";  // as files that are being written are called
+constexpr std::string_view temporary_state = "state.h5.tmp";  // as write_file_atomically() calls it
 
-// Whether a name ends with the number of a process that is not there any more.
-bool is_of_the_dead(std::string_view name, std::string_view mark) {
-  const std::size_t at = name.rfind(mark);
-  if (at == std::string_view::npos) return false;
-  const std::string_view digits = name.substr(at + mark.size());
+// Whether behind a name's beginning there is the number of a process that is not there any more.
+bool is_of_the_dead(std::string_view name, std::string_view beginning) {
+  const std::string_view digits = name.substr(beginning.size());
   pid_t process = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), process);
   if (error != std::errc() || end != digits.data() + digits.size() || process <= 0) return false;
@@ -70,8 +70,14 @@ bool is_of_the_dead(std::string_view name, std::string_view mark) {
 
 }  // namespace
 
+// Numbers of processes come again: what another of the same number has left must not be taken for ours.
 StagedFiles::StagedFiles(const fs::path& folder)
     : folder_(folder), stage_(folder / (std::string(stage_prefix) + std::to_string(::getpid()))) {
+  std::error_code error;
+  fs::remove_all(stage_, error);
+  if (error)
+    throw RuntimeError("Cannot remove the folder " + in_quotes(stage_.string()) + " (" + reason_of(error) +
+                       "), which an earlier run has left. Choose another folder with --output.");
   make_folder(stage_);
 }
 
@@ -92,23 +98,33 @@ void StagedFiles::publish(const fs::path& last) {
   }
   std::sort(names.begin(), names.end(),
             [&](const fs::path& a, const fs::path& b) { return std::pair(a == last, a) < std::pair(b == last, b); });
+  std::set<fs::path> folders{folder_};
+  // New names too must outlive a power cut, those that the last speaks for before it.
+  const auto flush_all = [&folders] { std::for_each(folders.begin(), folders.end(), flush_folder); };
   for (const fs::path& name : names) {
-    if (name.has_parent_path()) make_folder(folder_ / name.parent_path());
+    if (name == last) flush_all();
+    if (name.has_parent_path()) {
+      make_folder(folder_ / name.parent_path());
+      folders.insert(folder_ / name.parent_path());
+    }
     std::error_code error;
     fs::rename(stage_ / name, folder_ / name, error);
     if (error)
       throw RuntimeError("Cannot write " + (folder_ / name).string() + " (" + reason_of(error) +
                          "). Choose another folder with --output.");
   }
+  flush_all();
 }
 
+// By their names alone: whatever else lies in the folder is somebody's.
 void StagedFiles::remove_leftovers(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> old;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     const bool stage = name.starts_with(stage_prefix) && is_of_the_dead(name, stage_prefix);
-    if (stage || is_of_the_dead(name, temporary_mark)) old.push_back(entry->path());
+    const bool state = name.starts_with(temporary_state) && is_of_the_dead(name, temporary_state);
+    if (stage || state) old.push_back(entry->path());
   }
   for (const fs::path& path : old) fs::remove_all(path, error);
 }

@@ -74,6 +74,7 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
 
   // All is on the disk: now what was there may go. A summary speaks for all files beside it: none while they change.
   remove_old(folder / "summary.json");
+  flush_folder(folder);
   remove_report(folder);
   // What this run has not computed is not left over from another. Other files are left alone.
   const std::set<std::string> ours(maps.begin(), maps.end());
