@@ -44,8 +44,8 @@ struct Control {
   // while direct light is integrated or an estimator is being chosen. An exception from it ends the run.
   std::function<void(const State&)> checkpoint;
   double checkpoint_seconds = 60.0;
-  // Members that share the run, or null. All get the result; callbacks are called by the first alone. A stop is heard
-  // by the first, and within a second or so.
+  // Members that share the run, or null. All get the result; callbacks are called by the first alone. A stop that one
+  // of them asks for, or whose time is over, ends the run of all, within a second or so.
   Team* team = nullptr;
 };
 
@@ -62,16 +62,17 @@ struct Control {
 Result simulate(const Room& room, const Settings& settings = {}, const Control& control = {});
 
 // Goes on with a run of the same room until the first of the stop rules of `rules` is met: photons, counted from the
-// run's first; target_error; max_seconds, of this session. Its threads count too; everything else is as the state has
-// it. The result is, to the last digit, that of one run under these rules (where they are looser than those that the
-// state has ended by: that of the state). A run whose estimator was chosen keeps its choice.
+// run's first; target_error; max_seconds, of this session, in which integrating direct light anew does not count. Its
+// threads count too; everything else is as the state has it. The result is, to the last digit, that of one run under
+// these rules (where they are looser than those that the state has ended by: that of the state). A run whose estimator
+// was chosen keeps its choice.
 //
 // Throws as simulate() does, and InputError where the room is not the state's, where versions differ, or where the
 // state has gaps.
 Result resume(const Room& room, State state, const Settings& rules, const Control& control = {});
 
-// The result of what a state holds, of one run or of several that were merged. Throws as resume() does; gaps do not
-// matter.
-Result result_of(const Room& room, State state, const Control& control = {});
+// The result of what a state holds, of one run or of several that were merged. threads: as Settings::threads. Throws as
+// resume() does, and InputError where the state holds nothing; gaps do not matter.
+Result result_of(const Room& room, State state, unsigned threads = 0, const Control& control = {});
 
 }  // namespace lichtmc

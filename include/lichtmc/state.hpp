@@ -45,7 +45,8 @@ class State {
   bool empty() const { return data_ == nullptr; }
 
   // Of a state that is not empty:
-  const Settings& settings() const;  // as the run was asked for; the estimator as used
+  // As the run was asked for; max_seconds is the walking time of all sessions together.
+  const Settings& settings() const;
   const Fingerprint& room() const;
   const std::string& version() const;  // of lichtmc that made it
   const std::string& note() const;     // what write_state() was given
@@ -60,6 +61,9 @@ class State {
  private:
   std::shared_ptr<const StateData> data_;
 };
+
+// Throws InputError where another version of lichtmc has made the state: it may count differently.
+void check_version(const State& state);
 
 // Adds states of one room and one setting whose histories do not overlap: those of one run that simulates all of them.
 // Order and grouping do not matter. Gaps are allowed. Throws InputError, naming states by `names` (one each), where

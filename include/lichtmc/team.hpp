@@ -14,7 +14,7 @@ class Team {
  public:
   virtual ~Team() = default;
 
-  // This member's number, 0 … size() − 1. Member 0, the first, decides when to stop and writes.
+  // This member's number, 0 … size() − 1. Member 0, the first, decides what hangs on rounding and calls back.
   virtual unsigned rank() const = 0;
   virtual unsigned size() const = 0;
 

@@ -201,7 +201,11 @@ Counted Crew::state() {
   counted.ranges = before_;
   HistoryRange range = range_;
   // Where the last step was abandoned, what was collected before it: the sum counts its histories.
-  if (abandoned()) range.last = range.first + whole_->histories;
+  if (abandoned()) {
+    std::uint64_t before = 0;
+    for (const HistoryRange& earlier : before_) before += earlier.last - earlier.first;
+    range.last = range.first + (whole_->histories - before);
+  }
   range.last += ends_;
   counted.ranges.push_back(range);
   counted.totals = whole_;

@@ -73,10 +73,12 @@ Choice choose_for_tiles(std::vector<Pilot>& pilots, const Contender& contender, 
   return choose_best(pilots, means, tiles.areas, "the tiles");
 }
 
-// Leaves the contender that does best; it goes on from where its pilot has ended.
-void keep_best(std::vector<Contender>& contenders, std::uint64_t photons, const StopWatch& watch, Team* team,
+// Leaves the contender that does best; it goes on from where its pilot has ended. False where a stop came before that
+// was known: another session must not go on with what an uninterrupted run might not have chosen.
+bool keep_best(std::vector<Contender>& contenders, std::uint64_t photons, const StopWatch& watch, Team* team,
                Logbook& logbook, Result& result) {
   Counted& log = logbook.data().photons.emplace();
+  bool chosen = true;
   if (contenders.size() > 1) {
     std::vector<Pilot> pilots;
     for (Contender& contender : contenders) {
@@ -86,9 +88,11 @@ void keep_best(std::vector<Contender>& contenders, std::uint64_t photons, const 
       if (watch.reason()) break;
     }
     Choice choice;
-    if (pilots.size() < contenders.size() || pilots.back().values.empty()) {
+    chosen = !watch.reason();
+    if (!chosen) {
       choice.reason = "The estimator '" + std::string(to_string(pilots.front().estimator)) +
-                      "' was taken for the tiles: the run ended before the others were tried.";
+                      "' was taken for the tiles: the run ended before all were tried. To go on from there begins the "
+                      "run anew.";
     } else {
       choice = choose_for_tiles(pilots, contenders.front(), result.tiling);
     }
@@ -100,6 +104,7 @@ void keep_best(std::vector<Contender>& contenders, std::uint64_t photons, const 
     log.pilot = contenders.front().crew->histories();
   }
   log.estimator = contenders.front().settings.estimator;
+  return chosen;
 }
 
 // Numbers of histories after which errors are looked at. They depend on nothing but the settings, the tiles and the
@@ -174,22 +179,27 @@ void fill_in(Result& result, const Totals& totals, const Scores& scores) {
 
 void walk_from_emitters(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
                         StopWatch& watch, Logbook& logbook, Result& result) {
+  std::optional<Counted>& log = logbook.data().photons;
   std::vector<TileDirect> direct;
   if (settings.direct == Direct::analytic) {
+    // Going on takes it anew, however little time there is left: without it the photons would be lost.
+    if (log) watch.suspend_limit();
     TraceCount count;
+    const double began = watch.seconds();
     direct =
         TileLight(room, result.tiling, scene, settings, Way::forward).of_tiles(control, result.threads, watch, count);
     result.rays = count.rays;
     result.shadow_rays = count.shadow_rays;
-    result.direct_seconds = watch.seconds();
+    result.direct_seconds = watch.seconds() - began;
+    if (log) watch.restart_limit();
   }
-  std::optional<Counted>& log = logbook.data().photons;
   Settings own = settings;
   if (log) {
     own.estimator = log->estimator;
     own.photons = std::max(own.photons, log->size());
   }
   std::vector<Contender> contenders = contenders_for(room, scene, own, control, watch, result, direct);
+  bool chosen_well = true;
   if (log) {
     if (log->totals->tiles.size() != result.tiling.tiles.size() ||
         log->totals->maps.size() != result.tiling.maps.size())
@@ -198,7 +208,7 @@ void walk_from_emitters(const Room& room, const Scene& scene, const Settings& se
                        " (allowed: as many). The state is not one of this room; run anew.");
     contenders.front().crew->go_on_from(log->ranges, std::move(log->totals));
   } else {
-    keep_best(contenders, settings.photons, watch, control.team, logbook, result);
+    chosen_well = keep_best(contenders, settings.photons, watch, control.team, logbook, result);
   }
   const Contender& chosen = contenders.front();
   Crew& crew = *chosen.crew;
@@ -223,6 +233,7 @@ void walk_from_emitters(const Room& room, const Scene& scene, const Settings& se
   log->totals = counted.totals;
   log->seconds = result.seconds;
   result.convergence = log->convergence;
+  if (!chosen_well) log.reset();
 }
 
 }  // namespace lichtmc

@@ -39,6 +39,18 @@ HistoryRange rounds_of(const Settings& settings, std::uint64_t together) {
   return range;
 }
 
+}  // namespace
+
+void check_rounds(const Settings& settings, std::uint64_t together, const std::string& name) {
+  const HistoryRange range = rounds_of(settings, together);
+  if (range.first < range.last) return;
+  throw InputError("No walk back from " + name + " belongs to these histories (allowed: at least " +
+                   std::to_string(together) +
+                   " histories in a part, one round of all). Take greater parts, or --only forward.");
+}
+
+namespace {
+
 class Gathering {
  public:
   // logbook: null for a pilot.
@@ -75,7 +87,7 @@ class Gathering {
   bool simulate_step(std::uint64_t rounds);
   void take_rounds(std::uint64_t first, std::uint64_t last, std::vector<ReceiverSums>& step_sums,
                    BackwardCount& step_count);
-  void write_down(BackwardState& log) const;
+  void write_down(StateData& data) const;
 
   const GatherTask& task_;
   const Settings& settings_;
@@ -96,21 +108,20 @@ class Gathering {
 
 Gathered Gathering::run() {
   std::optional<BackwardState>* log = logbook_ == nullptr ? nullptr : &(logbook_->data().*task_.slot);
-  if (range_.first >= range_.last && (log == nullptr || !*log)) {
-    throw InputError("No walk back from " + task_.name + " belongs to these histories (allowed: at least " +
-                     std::to_string(together_) +
-                     " histories in a part, one round of all). Take greater parts, or --only forward.");
-  }
+  const bool goes_on = log != nullptr && log->has_value();
+  if (!goes_on) check_rounds(settings_, together_, task_.name);
+  // Going on takes the direct light anew, however little time there is left: without it the walks would be lost.
+  if (goes_on) watch_.suspend_limit();
+  const double began = watch_.seconds();
   found_.direct = direct_light_of(task_.origins, task_.direct, control_, threads_, watch_, found_.count.traced);
-  found_.direct_seconds = watch_.seconds();
-  if (log != nullptr && *log) {
+  found_.direct_seconds = watch_.seconds() - began;
+  if (goes_on) {
+    watch_.restart_limit();
     go_on_from(**log);
-  } else if (log != nullptr) {
-    log->emplace();
   }
   found_.stopped_by = logbook_ != nullptr && logbook_->only_read() ? StopReason::photons : simulate();
   if (found_.rounds == 0) refuse_too_short();
-  if (log != nullptr) write_down(**log);
+  if (log != nullptr) write_down(logbook_->data());
   return std::move(found_);
 }
 
@@ -135,7 +146,9 @@ void Gathering::go_on_from(const BackwardState& before) {
   reporter_.set_before(histories_of(found_.rounds));
 }
 
-void Gathering::write_down(BackwardState& log) const {
+void Gathering::write_down(StateData& data) const {
+  std::optional<BackwardState>& slot = data.*task_.slot;
+  BackwardState& log = slot ? *slot : slot.emplace();
   log.estimator = found_.estimator;
   log.choice = found_.choice;
   log.convergence = found_.convergence;
@@ -188,23 +201,23 @@ void Gathering::simulate_up_to(std::uint64_t rounds) {
           1,
           static_cast<std::uint64_t>(static_cast<double>(step) * std::min(4.0, step_seconds / std::max(took, 1e-6))));
     share(control_.team, step_);
-    watch_.agree();
-    bool due = logbook_ != nullptr && logbook_->due() && !watch_.reason();
+    bool due = logbook_ != nullptr && logbook_->due();
     share(control_.team, due);
     if (due) {
-      logbook_->checkpoint([this](StateData& data) { write_down(*(data.*task_.slot)); });
+      logbook_->checkpoint([this](StateData& data) { write_down(data); });
       (logbook_->data().*task_.slot)->sums.reset();  // or they would be copied before the next step is added
     }
-    if (watch_.reason()) return;
   }
 }
 
 // What is simulated in part when a stop comes is thrown away: every origin has the same rounds. Whether it was whole.
+// A team agrees behind each step.
 bool Gathering::simulate_step(std::uint64_t rounds) {
   std::vector<ReceiverSums> sums(task_.origins);
   BackwardCount count;
   next_ = 0;
   watch_.run_on_threads(threads_, [&](unsigned) { take_rounds(found_.rounds, rounds, sums, count); });
+  watch_.agree();
   if (watch_.reason()) return false;
   add_up(control_.team, sums);
   add_up(control_.team, count);
@@ -227,7 +240,7 @@ void Gathering::take_rounds(std::uint64_t first, std::uint64_t last, std::vector
   const Part mine = part_of(control_.team, (task_.origins + together - 1) / together * parts);
   const std::uint64_t skipped = range_.first - rounds_before_;  // rounds are numbered from the run's first
   std::vector<ReceiverSums> sums;
-  while (!watch_.should_stop()) {
+  while (!watch_.wants_to_stop()) {
     const std::uint64_t piece = mine.first + next_.fetch_add(1);
     if (piece >= mine.last) break;
     BackwardWork work;
@@ -239,7 +252,7 @@ void Gathering::take_rounds(std::uint64_t first, std::uint64_t last, std::vector
     BackwardCount count;
     walk->simulate(work, sums, count, [this] {
       reporter_.add(0, 0);
-      return watch_.should_stop();
+      return watch_.wants_to_stop();
     });
     {
       const std::lock_guard lock(mutex_);
@@ -266,7 +279,7 @@ std::vector<DirectIrradiance> direct_light_of(std::size_t origins, const DirectO
   BackwardCount traced_here;
   watch.run_on_threads(threads, [&](unsigned) {
     TraceCount count;
-    while (!watch.should_stop()) {
+    while (!watch.wants_to_stop()) {
       const std::size_t first = next.fetch_add(at_a_time);
       if (first >= mine.last) break;
       const std::size_t last = std::min<std::size_t>(mine.last, first + at_a_time);
@@ -276,11 +289,11 @@ std::vector<DirectIrradiance> direct_light_of(std::size_t origins, const DirectO
     const std::lock_guard lock(mutex);
     traced_here.traced.add(count);
   });
+  watch.agree();
+  if (watch.reason()) refuse_too_short();
   collect(control.team, found);
   add_up(control.team, traced_here);
   traced.add(traced_here.traced);
-  watch.agree();
-  if (watch.reason()) refuse_too_short();
   return found;
 }
 
@@ -329,7 +342,7 @@ std::optional<Gathered> choose_by_pilots(const GatherTask& task, const Room& roo
     Gathered found = Gathering(short_task, short_run, control, watch, threads, nullptr).run();
     if (watch.reason()) {
       found.choice = "The estimator '" + std::string(to_string(estimator)) + "' was taken for " + task.name +
-                     ": the run ended before all were tried.";
+                     ": the run ended before all were tried. To go on from there begins the walks anew.";
       return found;
     }
     pilots.push_back(outcome(found));

@@ -42,7 +42,7 @@ struct Gathered {
   std::uint32_t group = 1;                          // walks in a round
   double unit = 1.0;                                // of the sums, W/m² or lx
   BackwardCount count;
-  double direct_seconds = 0.0;  // integrating direct light
+  double direct_seconds = 0.0;  // integrating direct light, in this session
   StopReason stopped_by = StopReason::photons;
   Estimator estimator = Estimator::collision;                             // as used
   std::string choice;                                                     // why, where it was chosen
@@ -69,6 +69,10 @@ struct GatherTask {
   std::string name;
   std::optional<BackwardState> StateData::*slot = nullptr;  // where the logbook has these walks
 };
+
+// Throws InputError where no round belongs to the histories of a part. together: walks in a round of all origins, which
+// are called `name`.
+void check_rounds(const Settings& settings, std::uint64_t together, const std::string& name);
 
 // Walks until the first stop rule is met; goes on from the walks that the logbook has, and leaves there what was found.
 // Every origin gets as many walks; Settings::photons is the number of all

@@ -20,6 +20,7 @@ class Logbook {
   Logbook(const Control& control, StateData data, bool only_read);
 
   StateData& data() { return data_; }
+  const StateData& data() const { return data_; }
   bool only_read() const { return only_read_; }
 
   // Whether it is time. Any thread may ask.

@@ -91,6 +91,10 @@ void leave_balance_open(Balance& balance) {
 
 }  // namespace
 
+void check_receiver_rounds(const Room& room, const Settings& settings) {
+  check_rounds(settings, room.receivers.size() * ReceiverOrigins::group, "the receivers");
+}
+
 void receive(const Room& room, const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
              Logbook& logbook, Result& result) {
   const DirectLight light(room, *scene.tracer);

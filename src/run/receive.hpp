@@ -11,9 +11,12 @@
 
 namespace lichtmc {
 
+// Throws InputError where no walk from the receivers belongs to the histories of a part.
+void check_receiver_rounds(const Room& room, const Settings& settings);
+
 // Fills in Result::receiver_results and Result::backward. The room has receivers. Throws InputError naming a receiver
-// that lies on an emitter. Goes on from the walks that the
-// logbook has, and leaves there what was found, as gather() does.
+// that lies on an emitter. Goes on from the walks that the logbook has, and leaves there what was found, as gather()
+// does.
 void receive(const Room& room, const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
              Logbook& logbook, Result& result);
 

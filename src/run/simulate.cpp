@@ -89,23 +89,66 @@ void complete(Result& result, const Room& room) {
       "with --estimator weight --max-bounces N.");
 }
 
+double seconds_of(const std::optional<Counted>& walk) {
+  return walk ? walk->seconds : 0.0;
+}
+double seconds_of(const std::optional<BackwardState>& walk) {
+  return walk ? walk->seconds : 0.0;
+}
+
+// What earlier sessions have walked for the tiles, and for the receivers.
+struct WalkedBefore {
+  explicit WalkedBefore(const StateData& data)
+      : tiles(seconds_of(data.photons) + seconds_of(data.tile_walks)), receivers(seconds_of(data.receivers)) {}
+  double tiles = 0.0;      // s
+  double receivers = 0.0;  // s
+};
+
+// Where both are measured each gets half of the time of all sessions, as if the run had not been interrupted.
+std::optional<double> half_of_time(const Settings& settings, const WalkedBefore& before, double mine) {
+  if (!settings.max_seconds) return std::nullopt;
+  const double half = 0.5 * (before.tiles + before.receivers + *settings.max_seconds);
+  return std::clamp(half - mine, 0.0, *settings.max_seconds);
+}
+
 void simulate_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
-                    const Control& control, Logbook& logbook) {
-  const StateData& data = logbook.data();
+                    const Control& control, StopWatch& watch, Logbook& logbook) {
   if (settings.tiles == TileWalk::forward) {
-    StopWatch watch(settings.max_seconds, control.stop, data.photons ? data.photons->seconds : 0.0, control.team);
     walk_from_emitters(room, scene, settings, control, watch, logbook, result);
   } else {
-    StopWatch watch(settings.max_seconds, control.stop, data.tile_walks ? data.tile_walks->seconds : 0.0, control.team);
     walk_from_tiles(room, scene, settings, control, watch, logbook, result);
   }
   rate(result);
 }
 
-bool stop_asked(const Control& control) {
-  bool asked = control.stop.stop_requested();
-  share(control.team, asked);
-  return asked;
+// Which walks there are to do. A state that is only read may hold one of them, or both.
+struct WaysToGo {
+  WaysToGo(const Room& room, const Settings& settings, const Logbook& logbook) {
+    const StateData& data = logbook.data();
+    forward = settings.ways != Ways::backward && (!logbook.only_read() || data.photons || data.tile_walks);
+    backward = settings.ways != Ways::forward && !room.receivers.empty() && (!logbook.only_read() || data.receivers);
+  }
+  bool forward = false;
+  bool backward = false;
+};
+
+constexpr const char* receivers_not_measured =
+    "The run was stopped before the first walks back from the receivers: they were not measured.";
+constexpr const char* receivers_left_out =
+    "The run was stopped before the direct light of the receivers was found anew: they are not among the results. The "
+    "state has the walks back from them; going on from it brings them back.";
+
+// The receivers after the tiles; what was found of the tiles is kept where a stop comes before there is anything to
+// tell of the receivers.
+void receive_after_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
+                         const Control& control, StopWatch& watch, Logbook& logbook, std::string& warning) {
+  const bool known = logbook.data().receivers.has_value();
+  try {
+    if (votes_for(control.team, control.stop.stop_requested()) > 0) throw StoppedTooSoon("");
+    receive(room, scene, settings, control, watch, logbook, result);
+  } catch (const StoppedTooSoon&) {
+    warning = known ? receivers_left_out : receivers_not_measured;
+  }
 }
 
 Result simulate_checked(const Room& room, const Settings& settings, const Control& control, Logbook& logbook) {
@@ -116,44 +159,50 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
   result.tiling = make_tiling(room, settings.tile_edge_m);
   const Scene scene(room, result.tiling, settings.engine);
   result.engine = logbook.data().engine = scene.engine;
-  check_memory(room, result.tiling, settings, result.threads, scene.has_maps());
+  // Photons are only counted again where a state is only read, by one thread.
+  const unsigned tallies = logbook.only_read() ? 1 : result.threads;
+  check_memory(room, result.tiling, settings, tallies, result.processes, scene.has_maps());
   if (!settings.max_bounces && traps_light(scene, settings.seed)) refuse_trap(room);
-  const StateData& data = logbook.data();
-  const bool forward = settings.ways != Ways::backward && (!logbook.only_read() || data.photons || data.tile_walks);
-  const bool backward =
-      settings.ways != Ways::forward && !room.receivers.empty() && (!logbook.only_read() || data.receivers);
-  Settings each = settings;
-  bool receivers_missing = false;  // what was found of the tiles is kept then
-  if (forward && backward && each.max_seconds) each.max_seconds = 0.5 * *each.max_seconds;
-  if (forward) simulate_tiles(result, room, scene, each, control, logbook);
-  if (backward && forward && stop_asked(control)) {
-    receivers_missing = true;
-  } else if (backward) {
-    StopWatch watch(each.max_seconds, control.stop, data.receivers ? data.receivers->seconds : 0.0, control.team);
-    try {
-      receive(room, scene, each, control, watch, logbook, result);
-    } catch (const StoppedTooSoon&) {
-      if (!forward) throw;
-      receivers_missing = true;
+  const WaysToGo go(room, settings, logbook);
+  const WalkedBefore before(logbook.data());
+  const bool both = go.forward && go.backward;
+  if (both && !logbook.data().receivers) check_receiver_rounds(room, settings);
+  std::string warning;
+  if (go.forward) {
+    StopWatch watch(both ? half_of_time(settings, before, before.tiles) : settings.max_seconds, control.stop,
+                    before.tiles, control.team);
+    simulate_tiles(result, room, scene, settings, control, watch, logbook);
+  }
+  if (go.backward) {
+    StopWatch watch(both ? half_of_time(settings, before, before.receivers) : settings.max_seconds, control.stop,
+                    before.receivers, control.team);
+    if (both) {
+      receive_after_tiles(result, room, scene, settings, control, watch, logbook, warning);
+    } else {
+      receive(room, scene, settings, control, watch, logbook, result);
     }
   }
   complete(result, room);
-  if (receivers_missing)
-    result.warnings.emplace_back(
-        "The run was stopped before the first walks back from the receivers: they were not measured.");
+  if (!warning.empty()) result.warnings.push_back(warning);
   result.checkpoint_seconds = logbook.spent();
   result.state = logbook.close();
   return result;
 }
 
-// All members have read the same file, or not.
-void check_team_room(Team* team, const Fingerprint& room) {
-  Fingerprint of_first = room;
-  share(team, of_first);
-  if (of_first != room)
-    throw InputError("Process " + std::to_string(rank_of(team)) +
-                     " has another room than the first (allowed: the same file for all). Put the room where all "
-                     "machines see it.");
+// All members have read the same files and were given the same options, or histories would count twice. All refuse.
+void check_team(Team* team, const StateData& data) {
+  const auto check = [team](const Fingerprint& mine, const std::string& what) {
+    Fingerprint of_first = mine;
+    share(team, of_first);
+    const std::uint64_t others = votes_for(team, of_first != mine);
+    if (others > 0)
+      throw InputError(std::to_string(others) + " of " + std::to_string(size_of(team)) + " processes have " + what);
+  };
+  check(data.room,
+        "another room than the first (allowed: the same file for all). Put the room where all machines see it.");
+  check(fingerprint(data),
+        "other settings, another state or another version of lichtmc than the first (allowed: the same for all). Give "
+        "all the same options and the same program, and put state.h5 where all machines see it.");
 }
 
 // What is the same for a run from the start and for one that goes on.
@@ -167,7 +216,7 @@ Result simulate_from(const Room& room, const Settings& settings, const Control& 
       throw InputError("The time between checkpoints is " + to_text(control.checkpoint_seconds) +
                        " s (allowed: 0 or more). Give --checkpoint a time, for example 60s.");
     }
-    check_team_room(control.team, data.room);
+    check_team(control.team, data);
     Logbook logbook(control, std::move(data), only_read);
     return simulate_checked(room, settings, control, logbook);
   } catch (const std::bad_alloc&) {
@@ -186,10 +235,7 @@ StateData new_state(const Room& room, const Settings& settings) {
 
 void check_state_for(const Room& room, const State& state) {
   if (state.empty()) throw InputError("The state is empty. Give one that simulate() or read_state() has returned.");
-  if (state.version() != version()) {
-    throw InputError("The state was made by lichtmc " + state.version() + ", this is " + std::string(version()) +
-                     " (allowed: the same version, or figures could differ). Go on with that version, or run anew.");
-  }
+  check_version(state);
   if (state.room() != fingerprint(room)) {
     throw InputError("The state is of another room than " + room.source +
                      " as it is now (allowed: the same surfaces, reflectances, lamps and receivers). Give the room's "
@@ -220,6 +266,7 @@ Result simulate(const Room& room, const Settings& settings, const Control& contr
 
 Result resume(const Room& room, State state, const Settings& rules, const Control& control) {
   check_state_for(room, state);
+  const double seconds_before = state.seconds();
   Settings settings = state.settings();
   settings.photons = rules.photons;
   settings.target_error = rules.target_error;
@@ -230,12 +277,21 @@ Result resume(const Room& room, State state, const Settings& rules, const Contro
   if (data.tile_walks) refuse_gaps(data.tile_walks->ranges);
   if (data.receivers) refuse_gaps(data.receivers->ranges);
   data.settings = settings;
+  // Of all sessions: a later one subtracts what they have taken.
+  if (settings.max_seconds) data.settings.max_seconds = seconds_before + *settings.max_seconds;
   return simulate_from(room, settings, control, std::move(data), false);
 }
 
-Result result_of(const Room& room, State state, const Control& control) {
+Result result_of(const Room& room, State state, unsigned threads, const Control& control) {
   check_state_for(room, state);
-  const Settings settings = state.settings();
+  const StateData& found = state.data();
+  if (!found.photons && !found.tile_walks && !found.receivers) {
+    throw InputError(
+        "The state holds no walk: the run was stopped before an estimator was chosen (allowed: a state with something "
+        "counted). Go on with it by lichtmc resume.");
+  }
+  Settings settings = state.settings();
+  settings.threads = threads;
   return simulate_from(room, settings, control, data_of(std::move(state)), true);
 }
 

@@ -1,11 +1,15 @@
 #include "lichtmc/state.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
+#include "base/checksum.hpp"
 #include "base/message.hpp"
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
+#include "lichtmc/version.hpp"
 #include "run/state_data.hpp"
 
 namespace lichtmc {
@@ -47,6 +51,90 @@ std::uint64_t Walked::size() const {
 
 namespace {
 
+class StateChecksum {
+ public:
+  Fingerprint of(const StateData& data) {
+    sum_.add(data.version);
+    add_all(data.room);
+    add(data.settings);
+    sum_.add(static_cast<std::uint8_t>(data.engine));
+    add_photons(data.photons);
+    add_walks(data.tile_walks);
+    add_walks(data.receivers);
+    return sum_.value();
+  }
+
+ private:
+  template <class Choice>
+  void add_choice(Choice choice) {
+    sum_.add(static_cast<std::uint8_t>(choice));
+  }
+  template <class Number>
+  void add(const std::optional<Number>& value) {
+    sum_.add(std::uint8_t{value.has_value()});
+    if (value) sum_.add(*value);
+  }
+  template <class Things>
+  void add_all(const Things& things) {
+    using Thing = typename Things::value_type;
+    static_assert(std::has_unique_object_representations_v<Thing>);
+    sum_.add(std::uint64_t{things.size()});
+    sum_.add(things.data(), things.size() * sizeof(Thing));
+  }
+
+  void add(const Settings& settings) {
+    add_choice(settings.estimator);
+    sum_.add(settings.photons);
+    sum_.add(settings.first_history);
+    sum_.add(std::uint8_t{settings.part});
+    add(settings.target_error);
+    add(settings.max_seconds);
+    add_choice(settings.ways);
+    add_choice(settings.tiles);
+    add_choice(settings.direct);
+    add(settings.max_bounces);
+    sum_.add(settings.tile_edge_m);
+    sum_.add(settings.seed);
+    add_choice(settings.engine);
+  }
+  void add(const Walked& walked) {
+    add_choice(walked.estimator);
+    add_all(walked.ranges);
+  }
+  void add_photons(const std::optional<Counted>& photons) {
+    sum_.add(std::uint8_t{photons.has_value()});
+    if (!photons) return;
+    add(*photons);
+    sum_.add(photons->pilot);
+    sum_.add(photons->totals->histories);
+    add_all(photons->totals->tiles);
+    add_all(photons->totals->hits);
+  }
+  void add_walks(const std::optional<BackwardState>& walks) {
+    sum_.add(std::uint8_t{walks.has_value()});
+    if (!walks) return;
+    add(*walks);
+    sum_.add(walks->group);
+    add_all(*walks->sums);
+  }
+
+  Checksum sum_;
+};
+
+}  // namespace
+
+Fingerprint fingerprint(const StateData& data) {
+  return StateChecksum().of(data);
+}
+
+void check_version(const State& state) {
+  if (state.version() == version()) return;
+  throw InputError("The state was made by lichtmc " + state.version() + ", this is " + std::string(version()) +
+                   " (allowed: the same version, or figures could differ). Go on with that version, or run anew.");
+}
+
+namespace {
+
 // A range, and which state it is of.
 struct Owned {
   HistoryRange range;
@@ -67,19 +155,27 @@ class Merger {
     merge_photons(sum);
     merge_walks(sum, &StateData::tile_walks);
     merge_walks(sum, &StateData::receivers);
-    // The stop rules of the parts are of no use for all together.
-    sum.settings.target_error.reset();
-    sum.settings.max_seconds.reset();
-    sum.settings.first_history = 0;
-    if (sum.photons) {
-      sum.settings.first_history = sum.photons->ranges.front().first;
-      sum.settings.photons = sum.photons->size();
-    }
-    sum.settings.part = sum.settings.first_history > 0;
+    if (states_.size() > 1) set_rules(sum);
     return sum;
   }
 
  private:
+  // The stop rules of the parts are of no use for all together: what is left are the histories that they were to do.
+  void set_rules(StateData& sum) const {
+    Settings& settings = sum.settings;
+    settings.target_error.reset();
+    settings.max_seconds.reset();
+    std::uint64_t last = 0;
+    for (const State& state : states_) {
+      const Settings& part = state.settings();
+      settings.first_history = std::min(settings.first_history, part.first_history);
+      last = std::max(last, part.first_history + part.photons);
+    }
+    settings.photons = last - settings.first_history;
+    if (sum.photons) settings.photons = sum.photons->size();
+    settings.part = settings.first_history > 0;
+  }
+
   [[noreturn]] void refuse(std::size_t k, const std::string& what) const {
     throw InputError("The states in " + names_.front() + " and " + names_[k] + " " + what +
                      " (allowed: the same). Merge parts of one run only.");

@@ -51,4 +51,8 @@ struct StateData {
   std::string note;
 };
 
+// Two states with the same fingerprint have counted the same and are to go on in the same way: a hash (XXH3, 128 bits)
+// of all but the note, the threads and how long it took.
+Fingerprint fingerprint(const StateData& data);
+
 }  // namespace lichtmc

@@ -1,17 +1,18 @@
 #include "run/stop_watch.hpp"
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <system_error>
 #include <thread>
 #include <vector>
 
 #include "lichtmc/error.hpp"
-#include "run/team_work.hpp"
 
 namespace lichtmc {
 
 std::optional<StopReason> StopWatch::asked() const {
-  if (max_seconds_ && elapsed() >= *max_seconds_) return StopReason::max_time;
+  if (max_seconds_ && limit_began_ && since(*limit_began_) >= *max_seconds_) return StopReason::max_time;
   if (stop_token_.stop_requested()) return StopReason::interrupt;
   return std::nullopt;
 }
@@ -30,11 +31,21 @@ bool StopWatch::should_stop() {
   return reason.has_value();
 }
 
+bool StopWatch::wants_to_stop() {
+  return should_stop() || (team_ != nullptr && asked().has_value());
+}
+
+// Votes are added up, so that all hear the same whoever has got the signal, and whose clock is ahead.
 void StopWatch::agree() {
   if (team_ == nullptr || stop_) return;
-  std::optional<StopReason> reason = asked();
-  share(team_, reason);
-  if (reason) stop_for(*reason);
+  const std::optional<StopReason> mine = asked();
+  std::array<std::uint64_t, 2> votes{mine == StopReason::interrupt, mine == StopReason::max_time};
+  team_->add(votes);
+  if (votes[0] > 0) {
+    stop_for(StopReason::interrupt);
+  } else if (votes[1] > 0) {
+    stop_for(StopReason::max_time);
+  }
 }
 
 std::optional<StopReason> StopWatch::reason() const {

@@ -16,20 +16,31 @@ namespace lichtmc {
 
 class StopWatch {
  public:
-  // Time runs from now. before: seconds that earlier sessions of the run took; they count in seconds() only. In a team
-  // (or null) all members stop together, where they agree().
+  // Time runs from now. before: seconds that earlier sessions of the run took; they count in seconds() only.
+  // max_seconds may be 0: the time is over. In a team (or null) all members stop together, where they agree().
   StopWatch(std::optional<double> max_seconds, std::stop_token stop, double before = 0.0, Team* team = nullptr)
-      : max_seconds_(max_seconds), stop_token_(std::move(stop)), before_(before), team_(team), began_(Clock::now()) {}
+      : max_seconds_(max_seconds), stop_token_(std::move(stop)), before_(before), team_(team), began_(Clock::now()) {
+    limit_began_ = began_;
+  }
 
   // Whether a stop was asked for, the time is over or a thread has failed; in a team, only what was agreed. Once true
   // it stays so. Any thread may ask.
   bool should_stop();
 
+  // Whether this member would stop, though the team has not agreed yet: what it is at need not be completed, if all
+  // agree() behind it and throw it away where the answer is to stop. Alone the same as should_stop().
+  bool wants_to_stop();
+
   // Why should_stop() has said true; none where it has not, or where a thread failed.
   std::optional<StopReason> reason() const;
 
-  // Of a team's members all call it, at the same place of the run: whether to stop is what the first says.
+  // Of a team's members all call it, at the same place of the run: where one would stop, all do.
   void agree();
+
+  // The time limit does not count until it is restarted: for work that an earlier session has done as well. Not while
+  // threads ask.
+  void suspend_limit() { limit_began_.reset(); }
+  void restart_limit() { limit_began_ = Clock::now(); }
 
   double seconds() const { return before_ + elapsed(); }
 
@@ -40,7 +51,8 @@ class StopWatch {
  private:
   using Clock = std::chrono::steady_clock;
 
-  double elapsed() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
+  static double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+  double elapsed() const { return since(began_); }
   std::optional<StopReason> asked() const;
   void stop_for(StopReason reason);
 
@@ -49,6 +61,7 @@ class StopWatch {
   double before_;  // s
   Team* team_;
   Clock::time_point began_;
+  std::optional<Clock::time_point> limit_began_;  // when the time limit began to count; none while it does not
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;  // guards what follows
   std::optional<StopReason> reason_;

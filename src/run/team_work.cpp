@@ -25,6 +25,12 @@ void add_words(Team& team, std::initializer_list<std::uint64_t*> values) {
 
 }  // namespace
 
+std::uint64_t votes_for(Team* team, bool mine) {
+  std::uint64_t votes = mine ? 1 : 0;
+  if (team != nullptr) team->add(std::span(&votes, 1));
+  return votes;
+}
+
 Part part_of(const Team* team, std::uint64_t n) {
   const auto at = [&](unsigned rank) {
     return static_cast<std::uint64_t>(static_cast<uint128>(n) * rank / size_of(team));

@@ -27,6 +27,9 @@ void share(Team* team, Value& value) {
   if (team != nullptr) team->share(std::as_writable_bytes(std::span(&value, 1)));
 }
 
+// How many of the members say so; all hear the same.
+std::uint64_t votes_for(Team* team, bool mine);
+
 // A member's part of n things in a row: every thing belongs to one.
 struct Part {
   std::uint64_t first = 0;
