@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "go_on.hpp"
 #include "lichtmc/error.hpp"
+#include "quantities.hpp"
 #include "run_job.hpp"
 #include "run_options.hpp"
 
@@ -20,12 +22,7 @@ namespace fs = std::filesystem;
 
 struct MergeOptions {
   std::vector<std::string> states;
-  std::string output;
-  std::optional<std::string> room;
-  std::optional<std::string> receivers;
-  std::optional<int> threads;
-  LookOptions looks;
-  bool quiet = false;
+  AgainOptions again;
 };
 
 // One after the other, so that no more than two are in memory.
@@ -62,22 +59,16 @@ void merge_states(const MergeOptions& options, const Started& started) {
   std::vector<fs::path> files;
   for (const std::string& name : options.states) files.push_back(state_file(name));
   State state = read_and_merge(files);
-  RunOptions run = options_of(state, files.front());
-  if (options.room) run.reading.file = *options.room;
-  if (options.receivers) run.receivers = *options.receivers;
-  run.looks.override_with(options.looks);
-
-  RunJob job;
-  job.settings = state.settings();
-  job.report = parse_report(run.looks, options.threads, started.command_line);
-  job.with_report = wants_report(run.looks);
-  job.note = state.note();
-  job.quiet = options.quiet;
-  job.folder = options.output.empty() ? fs::path(run.reading.file).stem().concat(".merged") : fs::path(options.output);
-  check_output(job.folder, files);
-  job.room = read_run_room(run);
-  if (!options.quiet) tell_gaps(state);
-  carry_out(job, [&](const Control& control) { return result_of(job.room, std::move(state), control); });
+  const AgainOptions& again = options.again;
+  const RunOptions run = options_of(state, files.front(), again);
+  const fs::path folder =
+      again.output.empty() ? fs::path(run.reading.file).stem().concat(".merged") : fs::path(again.output);
+  check_output(folder, files);
+  RunJob job = job_of(state, run, again, started.command_line);
+  job.folder = folder;
+  if (!job.quiet) tell_gaps(state);
+  const unsigned threads = parse_threads(again.threads);
+  carry_out(job, [&](const Control& control) { return result_of(job.room, std::move(state), threads, control); });
 }
 
 }  // namespace
@@ -88,17 +79,7 @@ void add_merge_command(CLI::App& program, const Started& started) {
   command->add_option("states", options->states, "state.h5 of each part, or the folder that it is in")
       ->required()
       ->type_name("STATE");
-  command->add_option("-o,--output", options->output, "Folder for the results [name of the room with .merged]")
-      ->type_name("DIR");
-  command->add_option("--room", options->room, "The room's file, where it is not where the first part had it")
-      ->type_name("ROOM");
-  command
-      ->add_option("--receivers", options->receivers,
-                   "The table of receivers, where it is elsewhere, or came from stdin")
-      ->type_name("FILE.csv");
-  add_threads_option(*command, options->threads, "How");
-  add_look_options(*command, options->looks);
-  command->add_flag("--quiet", options->quiet, "No progress, no summary; only errors");
+  add_again_options(*command, options->again, "Folder for the results [name of the room with .merged]", "How");
   command->footer(
       "Parts are runs of the same room with the same settings and --histories A:B that do not overlap. In any order "
       "and\n"

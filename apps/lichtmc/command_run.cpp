@@ -4,6 +4,7 @@
 #include <string>
 
 #include "commands.hpp"
+#include "go_on.hpp"
 #include "light_spec.hpp"
 #include "run_job.hpp"
 #include "run_options.hpp"

@@ -21,6 +21,8 @@ extern "C" void note_interrupt(int signal) {
 
 InterruptWatch::InterruptWatch() {
   interrupted = 0;
+  hears_hang_up_ = std::signal(SIGHUP, note_interrupt) != SIG_IGN;
+  if (!hears_hang_up_) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
   watcher_ = std::jthread([this](const std::stop_token& ended) {
@@ -30,6 +32,7 @@ InterruptWatch::InterruptWatch() {
 }
 
 InterruptWatch::~InterruptWatch() {
+  if (hears_hang_up_) std::signal(SIGHUP, SIG_DFL);
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
 }

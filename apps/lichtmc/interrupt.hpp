@@ -6,7 +6,8 @@
 
 namespace lichtmc::app {
 
-// While it lives, the first SIGINT or SIGTERM asks for a stop; a second one ends the program at once.
+// While it lives, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (the terminal is gone) asks for a stop; a second one
+// ends the program at once. A SIGHUP that the program was started to ignore (nohup) stays ignored.
 class InterruptWatch {
  public:
   InterruptWatch();
@@ -17,6 +18,7 @@ class InterruptWatch {
   std::stop_token token() const { return source_.get_token(); }
 
  private:
+  bool hears_hang_up_;
   std::stop_source source_;
   std::jthread watcher_;
 };

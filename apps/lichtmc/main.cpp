@@ -1,5 +1,6 @@
 // The program lichtmc: reads the command line, runs a command, and turns errors into messages and exit status.
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -34,6 +35,19 @@ void check_team(int argc, char** argv, const lichtmc::Team* team) {
   throw lichtmc::InputError("The command '" + command + "' is the work of one process, and " +
                             std::to_string(team->size()) +
                             " were started (allowed: run and resume share their work). Start it without mpirun.");
+}
+
+// Slurm's srun connects the processes that it starts where it has PMIx; without, each believes to be alone.
+void warn_of_strangers(int argc, char** argv, const lichtmc::Team* team) {
+  const auto number = [](const char* name) {
+    const char* text = std::getenv(name);
+    return text == nullptr ? -1 : std::atoi(text);
+  };
+  const bool runs = argc > 1 && (std::string(argv[1]) == "run" || std::string(argv[1]) == "resume");
+  if (!runs || team != nullptr || number("SLURM_STEP_NUM_TASKS") < 2 || number("SLURM_PROCID") != 0) return;
+  std::cerr << "Warning: srun has started " << number("SLURM_STEP_NUM_TASKS")
+            << " processes that do not know of each other: each does all of the work. For one run together give srun "
+               "--mpi=pmix, or use mpirun; for runs of their own give each another --output.\n";
 }
 
 // What was typed, such that a shell reads it as the same words.
@@ -81,6 +95,7 @@ int run_program(int argc, char** argv, lichtmc::Team* team) {
   try {
     check_command(program, argc, argv);
     check_team(argc, argv, team);
+    warn_of_strangers(argc, argv, team);
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help and --version
     program.exit(asked);

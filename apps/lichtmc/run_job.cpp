@@ -1,12 +1,13 @@
 #include "run_job.hpp"
 
+#include <cstddef>
+#include <exception>
 #include <iostream>
-#include <optional>
-
-#include <nlohmann/json.hpp>
+#include <span>
+#include <stop_token>
+#include <vector>
 
 #include "interrupt.hpp"
-#include "lichtmc/error.hpp"
 #include "outcome.hpp"
 #include "progress_line.hpp"
 
@@ -26,15 +27,17 @@ void write_checkpoint(const State& state, const RunJob& job) {
   }
 }
 
-Result simulate_with(const RunJob& job, ProgressLine::Show show,
+bool is_first(const RunJob& job) {
+  return job.team == nullptr || job.team->rank() == 0;
+}
+
+Result simulate_with(const RunJob& job, const std::stop_token& stop, ProgressLine::Show show,
                      const std::function<Result(const Control&)>& simulate) {
-  const bool first = job.team == nullptr || job.team->rank() == 0;
-  const InterruptWatch interrupt;
-  ProgressLine line(first ? show : ProgressLine::Show::no, job.settings);
+  ProgressLine line(is_first(job) ? show : ProgressLine::Show::no, job.settings);
   Control control;
-  control.stop = interrupt.token();
+  control.stop = stop;
   control.team = job.team;
-  if (first) {
+  if (is_first(job)) {
     control.progress = [&line](const Progress& progress) { line.update(progress); };
     control.checkpoint = [&job](const State& state) { write_checkpoint(state, job); };
   }
@@ -42,14 +45,27 @@ Result simulate_with(const RunJob& job, ProgressLine::Show show,
   return simulate(control);
 }
 
-}  // namespace
+// Folders that are made for a run, and removed again where it is refused: as long as they are empty.
+class NewFolders {
+ public:
+  explicit NewFolders(const fs::path& folder) {
+    std::error_code unknown;
+    for (fs::path path = fs::absolute(folder); !path.empty() && !fs::exists(path, unknown); path = path.parent_path())
+      made_.push_back(path);
+  }
+  ~NewFolders() {
+    std::error_code not_empty;
+    for (const fs::path& path : made_) fs::remove(path, not_empty);
+  }
+  NewFolders(const NewFolders&) = delete;
+  NewFolders& operator=(const NewFolders&) = delete;
+  void keep() { made_.clear(); }
 
-void carry_out(RunJob& job, const std::function<Result(const Control&)>& simulate) {
-  const bool first = job.team == nullptr || job.team->rank() == 0;
-  if (first) prepare_output(job.folder);
-  const auto show = job.quiet ? ProgressLine::Show::no : ProgressLine::Show::yes;
-  Result result = simulate_with(job, show, simulate);
-  if (!first) return;
+ private:
+  std::vector<fs::path> made_;  // the innermost first
+};
+
+void write_all(RunJob& job, Result& result, ProgressLine::Show show) {
   if (!fs::exists(job.folder)) prepare_output(job.folder);
   write_state(result.state, job.folder / "state.h5", job.note);
   result.state = {};  // as much memory as the tiles
@@ -62,45 +78,23 @@ void carry_out(RunJob& job, const std::function<Result(const Control&)>& simulat
   if (!job.quiet) print_outcome(result, job.folder, job.with_report);
 }
 
-std::string note_of(const std::vector<std::string>& arguments) {
-  const nlohmann::json note{{"directory", fs::current_path().string()}, {"arguments", arguments}};
-  // Names of files may be any bytes: those that are no UTF-8 are replaced, and the file is then asked for by --room.
-  return note.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+}  // namespace
 
-RunOptions options_of(const State& state, const fs::path& file) {
-  const auto refuse = [&file](const std::string& why) {
-    throw InputError("The state " + file.string() + " does not say how it was run" + why +
-                     " (allowed: a state that `lichtmc run` has written). Go on with it in the program that made it.");
-  };
-  const nlohmann::json note = nlohmann::json::parse(state.note(), nullptr, false);
-  if (!note.is_object() || !note.contains("arguments") || !note["arguments"].is_array() ||
-      !note.contains("directory") || !note["directory"].is_string())
-    refuse("");
-  std::vector<std::string> words;
-  for (const nlohmann::json& word : note["arguments"]) {
-    if (!word.is_string()) refuse("");
-    words.insert(words.begin(), word.get<std::string>());  // the parser takes them from the back
+void carry_out(RunJob& job, const std::function<Result(const Control&)>& simulate) {
+  const InterruptWatch interrupt;
+  const auto show = job.quiet ? ProgressLine::Show::no : ProgressLine::Show::yes;
+  if (!is_first(job)) {
+    simulate_with(job, interrupt.token(), show, simulate);
+  } else {
+    NewFolders made(job.folder);
+    prepare_output(job.folder);
+    Result result = simulate_with(job, interrupt.token(), show, simulate);
+    made.keep();
+    write_all(job, result, show);
   }
-  RunOptions options;
-  CLI::App command;
-  add_run_options(command, options);
-  try {
-    command.parse(words);
-  } catch (const CLI::ParseError& error) {
-    refuse(": " + std::string(error.what()));
-  }
-  const fs::path directory = note["directory"].get<std::string>();
-  const auto there = [&directory](const std::string& name) { return (directory / name).lexically_normal().string(); };
-  options.reading.file = there(options.reading.file);
-  if (options.receivers && *options.receivers != "-") options.receivers = there(*options.receivers);
-  return options;
-}
-
-fs::path state_file(const std::string& name) {
-  const fs::path path(name);
-  std::error_code unknown;
-  return fs::is_directory(path, unknown) ? path / "state.h5" : path;
+  // A member that a signal ends while the first still writes would take it along.
+  std::byte written{};
+  if (job.team != nullptr) job.team->share(std::span(&written, 1));
 }
 
 }  // namespace lichtmc::app

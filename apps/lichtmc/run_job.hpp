@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "lichtmc/output.hpp"
 #include "lichtmc/simulate.hpp"
@@ -25,18 +24,9 @@ struct RunJob {
   Team* team = nullptr;
 };
 
-// Calls simulate with a control and writes what it returns: state.h5 first, for the work must not be lost. In a team
-// the first member writes and speaks, the others only simulate.
+// Calls simulate with a control and writes what it returns: state.h5 first, for the work must not be lost. A signal to
+// stop does not keep it from writing. In a team the first member writes and speaks; the others only simulate, and wait
+// until it has written. A folder that was made for a run that is refused is removed again.
 void carry_out(RunJob& job, const std::function<Result(const Control&)>& simulate);
-
-// The words behind `lichtmc run`, and the folder that they were said in: what a state notes down of its run.
-std::string note_of(const std::vector<std::string>& arguments);
-
-// The options of the run that a state is of; the files that they name are where they were. Throws InputError where the
-// program has not written the state.
-RunOptions options_of(const State& state, const std::filesystem::path& file);
-
-// A state file; of a folder, the state.h5 in it.
-std::filesystem::path state_file(const std::string& name);
 
 }  // namespace lichtmc::app

@@ -1,0 +1,99 @@
+#include "go_on.hpp"
+
+#include <algorithm>
+#include <system_error>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "lichtmc/error.hpp"
+#include "quantities.hpp"
+
+namespace lichtmc::app {
+
+namespace fs = std::filesystem;
+
+std::string note_of(const std::vector<std::string>& arguments) {
+  const nlohmann::json note{{"directory", fs::current_path().string()}, {"arguments", arguments}};
+  // Names of files may be any bytes: those that are no UTF-8 are replaced, and the file is then asked for by --room.
+  return note.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+void add_again_options(CLI::App& command, AgainOptions& options, const std::string& output_help,
+                       const std::string& machine_group) {
+  command.add_option("-o,--output", options.output, output_help)->type_name("DIR");
+  command.add_option("--room", options.room, "The room's file, where it is not any more where it was")
+      ->type_name("ROOM");
+  command
+      .add_option("--receivers", options.receivers, "The table of receivers, where it is elsewhere, or came from stdin")
+      ->type_name("FILE.csv");
+  add_threads_option(command, options.threads, machine_group);
+  add_look_options(command, options.looks);
+  command.add_flag("--quiet", options.quiet, "No progress, no summary; only errors");
+}
+
+namespace {
+
+// The words of the run and where they were said.
+RunOptions noted_options(const State& state, const fs::path& file) {
+  const auto refuse = [&file](const std::string& why) {
+    throw InputError("The state " + file.string() + " does not say how it was run" + why +
+                     " (allowed: a state that `lichtmc run` has written). Go on with it in the program that made it.");
+  };
+  const nlohmann::json note = nlohmann::json::parse(state.note(), nullptr, false);
+  if (!note.is_object() || !note.contains("arguments") || !note["arguments"].is_array() ||
+      !note.contains("directory") || !note["directory"].is_string())
+    refuse("");
+  std::vector<std::string> words;
+  for (const nlohmann::json& word : note["arguments"]) {
+    if (!word.is_string()) refuse("");
+    words.push_back(word.get<std::string>());
+  }
+  std::reverse(words.begin(), words.end());  // the parser takes them from the back
+  RunOptions options;
+  CLI::App command;
+  add_run_options(command, options);
+  try {
+    command.parse(words);
+  } catch (const CLI::ParseError& error) {
+    refuse(": " + std::string(error.what()));
+  }
+  const fs::path directory = note["directory"].get<std::string>();
+  options.reading.file = (directory / options.reading.file).string();
+  if (options.receivers && *options.receivers != "-") options.receivers = (directory / *options.receivers).string();
+  return options;
+}
+
+}  // namespace
+
+RunOptions options_of(const State& state, const fs::path& file, const AgainOptions& again) {
+  check_version(state);  // words of another version may not be known
+  RunOptions run = noted_options(state, file);
+  if (again.room) run.reading.file = *again.room;
+  if (again.receivers) run.receivers = again.receivers;
+  if (run.receivers == "-" && !again.receivers)
+    throw InputError(
+        "The receivers of this run came from stdin (allowed here: a file, or - again). Give them with "
+        "--receivers.");
+  run.looks.override_with(again.looks);
+  return run;
+}
+
+RunJob job_of(const State& state, const RunOptions& run, const AgainOptions& again, const std::string& command_line) {
+  RunJob job;
+  job.settings = state.settings();
+  job.report = parse_report(run.looks, again.threads, command_line);
+  job.with_report = wants_report(run.looks);
+  job.note = state.note();
+  job.quiet = again.quiet;
+  job.room = read_run_room(run);
+  return job;
+}
+
+fs::path state_file(const std::string& name) {
+  const fs::path path(name);
+  std::error_code unknown;
+  return fs::is_directory(path, unknown) ? path / "state.h5" : path;
+}
+
+}  // namespace lichtmc::app
