@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install-deps.sh
-tests=(verify_states verify_reproducibility verify_receivers verify_automatic test_state_file test_study test_picture
+tests=(verify_states verify_interruptions verify_reproducibility verify_receivers verify_automatic test_study test_picture
   test_paths test_report extreme_counts)
 cmake --preset tsan
 cmake --build --preset tsan --target "${tests[@]}"

@@ -1,5 +1,6 @@
 """lichtmc resume and merge: a run in pieces has the digits of one run, and what does not fit is refused."""
 import json
+import os
 import shutil
 import unittest
 
@@ -128,6 +129,61 @@ class LongRuns(ProgramTest):
         summary = json.loads((out / "summary.json").read_text())
         self.assertGreater(summary["histories"], 0)
 
+    def test_resume_after_the_time_is_over_keeps_what_there_is(self):
+        """Time may be over when a run is killed: going on must not need more of it, though direct light is found anew."""
+        for options in (["--direct", "analytic", "--grid", "0.5"], ["--tiles", "backward", "--grid", "0.5"]):
+            out = self.folder / options[1]
+            self.succeeds("run", SCENES / "cube_paper.gltf", "-o", out, "--max-time", "1s", "--no-report", *options)
+            tables = [(out / table).read_bytes() for table in TABLES]
+            self.succeeds("resume", out)
+            self.assertEqual([(out / table).read_bytes() for table in TABLES], tables)
+
+    def test_a_part_that_goes_on_stays_within_its_histories(self):
+        part = self.run_to("part", "--histories", "0:20480", "--target-error", "0.1%", "--only", "forward")
+        self.assertEqual(json.loads((part / "summary.json").read_text())["stopped_by"], "photons")
+        self.succeeds("resume", part, "--target-error", "0.01%")
+        self.assertEqual(json.loads((part / "summary.json").read_text())["histories"], 20480)
+        self.succeeds("resume", part, "--photons", "30720")
+        self.assertEqual(json.loads((part / "summary.json").read_text())["histories"], 30720)
+
+    def test_merge_takes_the_threads_that_it_is_given(self):
+        part = self.run_to("part", "--photons", "20k", "--threads", "2")
+        merged = self.folder / "merged"
+        self.succeeds("merge", part, "-o", merged, "--threads", "1")
+        self.assertEqual(json.loads((merged / "summary.json").read_text())["threads"], 1)
+        self.assert_same(part, merged)
+
+    def test_a_copy_of_a_state_does_not_replace_the_one_that_it_lies_beside(self):
+        part = self.run_to("part", "--photons", "20k")
+        copy = part / "copy.h5"
+        shutil.copy(part / "state.h5", copy)
+        self.refused("resume", copy, "--photons", "30k", says=["copy.h5", "would replace", "--output"])
+        shutil.copy(copy, self.folder / "alone.h5")
+        self.succeeds("resume", self.folder / "alone.h5", "--photons", "30k", "-o", self.folder / "further")
+        # Without another state beside it the results go where the file is.
+        alone = self.folder / "folder"
+        alone.mkdir()
+        shutil.copy(copy, alone / "alone.h5")
+        self.succeeds("resume", alone / "alone.h5", "--photons", "30k")
+        self.assert_same(alone, self.folder / "further")
+
+    def test_what_is_refused_leaves_no_folder(self):
+        part = self.run_to("part", "--photons", "20k")
+        deep = self.folder / "a" / "b"
+        self.refused("resume", part, "--room", SCENES / "cube_paper.gltf", "-o", deep, says=["another room"])
+        self.refused("merge", part, "--room", SCENES / "cube_paper.gltf", "-o", deep, says=["another room"])
+        self.refused("run", ROOM, "--photons", "0", "-o", deep, says=["photons"])
+        self.assertFalse((self.folder / "a").exists())
+
+    def test_processes_that_do_not_know_of_each_other_are_warned_of(self):
+        environment = {**os.environ, "SLURM_STEP_NUM_TASKS": "4", "SLURM_PROCID": "0"}
+        command = ("run", SCENES / "cube_paper.gltf", "-o", self.folder / "out", "--no-report", "--photons", "2k")
+        said = lichtmc(*command, env=environment)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertIn("srun has started 4 processes that do not know of each other", said.stderr)
+        self.assertNotIn("srun", lichtmc(*command, env={**environment, "SLURM_PROCID": "1"}).stderr)
+        self.assertNotIn("srun", lichtmc(*command, env={**environment, "SLURM_STEP_NUM_TASKS": "1"}).stderr)
+
     def test_options_are_checked(self):
         for histories, says in (("10:2000", "Begin at 0 or 1024"), ("2048", "A:B"), ("2048:1024", "end before they begin"),
                                 ("a:b", "--histories")):
@@ -143,6 +199,7 @@ class LongRuns(ProgramTest):
         done = lichtmc("run", SCENES / "cube_paper.gltf", "-o", part, "--no-report", "--photons", "20k", "--receivers", "-", input=table)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.refused("resume", part, "--photons", "30k", says=["stdin", "--receivers"])
+        self.refused("merge", part, "-o", self.folder / "merged", says=["stdin", "--receivers"])
         points = self.folder / "points.csv"
         points.write_text(table)
         self.succeeds("resume", part, "--photons", "30k", "--receivers", points)

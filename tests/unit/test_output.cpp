@@ -258,6 +258,27 @@ TEST_CASE("an earlier run's maps go and what is not lichtmc's stays") {
                                                             "tiles/lamp.back.exr", "tiles/notes.txt"});
 }
 
+TEST_CASE("what killed runs have left is cleared away, and nothing else") {
+  const Folder folder;
+  // A process of our number in another container has left a stage; one that is dead another, and half a state.
+  const fs::path ours = folder.path() / (".lichtmc-" + std::to_string(::getpid()));
+  constexpr const char* nobody = "2147483646";  // beyond what Linux numbers
+  for (const fs::path& stage : {ours, folder.path() / (std::string(".lichtmc-") + nobody)}) {
+    fs::create_directories(stage);
+    std::ofstream(stage / "receivers.csv") << "of another run";
+  }
+  fs::create_directories(folder.path() / (std::string("backup.tmp") + nobody));
+  for (const char* name : {"state.h5.tmp", "notes.tmp", "backup.tmp2147483646/kept"})
+    std::ofstream(folder.path() / (std::string(name) + nobody)) << "x";
+  std::ofstream(folder.path() / ("state.h5.tmp" + std::to_string(::getppid()))) << "of a run that goes on";
+  prepare_output(folder.path());
+  write_results(make_room(), make_result(), folder.path());
+  CHECK(files_below(folder.path()) ==
+        std::set<std::string>{"backup.tmp2147483646/kept2147483646", "notes.tmp2147483646",
+                              "state.h5.tmp" + std::to_string(::getppid()), "summary.json", "surfaces.csv", "tiles.csv",
+                              "tiles/a__b___c_d.exr", "tiles/lamp.back.exr"});
+}
+
 TEST_CASE("a run that cannot be written leaves no summary and no temporary file") {
   const Folder folder;
   write_results(make_room(), make_result(), folder.path());

@@ -1,112 +1,21 @@
 // However a run is split (into sessions, parts, members of a team), its figures are the same to the last bit. Nothing
 // here is a matter of chance: one history counted twice, or not at all, changes bits.
-#include <algorithm>
-#include <cstring>
-#include <filesystem>
 #include <mutex>
 #include <optional>
-#include <stop_token>
+#include <string>
 #include <vector>
-
-#include <unistd.h>
 
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
+#include "support/split_runs.hpp"
 #include "support/thread_team.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
 
-namespace {
-
-bool same_bits(double a, double b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
-
-// Everything that comes from tallies.
-bool same_figures(const Result& a, const Result& b) {
-  if (a.tiles.size() != b.tiles.size() || a.receiver_results.size() != b.receiver_results.size()) return false;
-  for (std::size_t i = 0; i < a.tiles.size(); ++i) {
-    if (!same_bits(a.tiles[i].power, b.tiles[i].power) || a.tiles[i].hits != b.tiles[i].hits ||
-        !same_bits(a.tiles[i].standard_error, b.tiles[i].standard_error))
-      return false;
-  }
-  for (std::size_t i = 0; i < a.surfaces.size(); ++i) {
-    if (!same_bits(a.surfaces[i].standard_error, b.surfaces[i].standard_error) ||
-        !same_bits(a.surfaces[i].behind_share, b.surfaces[i].behind_share))
-      return false;
-  }
-  for (std::size_t i = 0; i < a.receiver_results.size(); ++i) {
-    if (!same_bits(a.receiver_results[i].irradiance, b.receiver_results[i].irradiance) ||
-        !same_bits(a.receiver_results[i].standard_error, b.receiver_results[i].standard_error))
-      return false;
-  }
-  return a.histories == b.histories && a.impacts == b.impacts && a.backward.histories == b.backward.histories &&
-         same_bits(a.incident, b.incident) && same_bits(a.incident_standard_error, b.incident_standard_error) &&
-         same_bits(a.balance.absorbed, b.balance.absorbed) && same_bits(a.balance.residual, b.balance.residual);
-}
-
-// Two emitters, different walls, two receivers; with a board in the middle it is no cuboid any more.
-Room room_to_split(bool furnished) {
-  Room room = make_cuboid({1.0, 2.0, 1.5}, {0.3, 0.8, 0.5, 0.6, 0.7, 0.4});
-  room.emitters.push_back(lambert({0.4, 1.5, 0.7}, {0.1, -1, 0.2}, 2.0, 3.0));
-  room.emitters.push_back(isotropic({0.6, 0.5, 0.5}, 1.0));
-  room.receivers.push_back({"desk", {0.5, 0.8, 0.7}, {0, 1, 0}, 90.0, 1.0});
-  room.receivers.push_back({"eye", {0.2, 1.2, 1.1}, {1, 0.2, 0}, 60.0, 1.0});
-  if (furnished) {
-    Surface board;
-    board.name = "board";
-    board.positions = {{0.2, 1.0, 0.2}, {0.8, 1.0, 0.2}, {0.8, 1.0, 1.2}, {0.2, 1.0, 1.2}};
-    board.triangles = {{0, 1, 2}, {0, 2, 3}};
-    room.surfaces.push_back(board);
-  }
-  return room;
-}
-
-struct Way {
-  bool furnished = false;
-  Settings settings;
-};
-
-// Both tracers, all estimators, cut off or not, few tiles and many, direct light counted and integrated, tiles walked
-// from backward.
-std::vector<Way> ways() {
-  std::vector<Way> all;
-  for (const Estimator estimator : {Estimator::weight, Estimator::collision, Estimator::absorption})
-    all.push_back({false, settings_of(estimator, Engine::cuboid, 50'001, 7)});
-  for (const Estimator estimator : {Estimator::weight, Estimator::collision})
-    all.push_back({true, settings_of(estimator, Engine::embree, 50'001, 7, 0.02)});
-  all.push_back({true, settings_of(Estimator::collision, Engine::embree, 50'001, 8)});
-  all.back().settings.direct = Direct::analytic;
-  all.push_back({false, settings_of(Estimator::weight, Engine::cuboid, 50'001, 9)});
-  all.back().settings.max_bounces = 4;
-  all.push_back({true, settings_of(Estimator::collision, Engine::embree, 50'001, 10, 0.3)});
-  all.back().settings.tiles = TileWalk::backward;
-  for (Way& way : all) way.settings.ways = Ways::all;
-  return all;
-}
-
-// The state as another process finds it.
-State written_and_read(const State& state) {
-  const auto file = std::filesystem::temp_directory_path() / ("lichtmc_state_" + std::to_string(::getpid()) + ".h5");
-  write_state(state, file);
-  State read = read_state(file);
-  std::filesystem::remove(file);
-  return read;
-}
-
-Result part(const Room& room, Settings settings, std::uint64_t first, std::uint64_t last) {
-  settings.first_history = first;
-  settings.photons = last - first;
-  settings.part = true;
-  return simulate(room, settings);
-}
-
-}  // namespace
-
 TEST_CASE("a run that is resumed, from within a batch too, ends as one without interruption") {
   for (const Way& way : ways()) {
-    const Room room = room_to_split(way.furnished);
+    const Room room = room_to_split(way.kind);
     const Result whole = simulate(room, way.settings);
     for (const std::uint64_t first : {std::uint64_t{1}, std::uint64_t{10'240}, std::uint64_t{33'333}}) {
       Settings shorter = way.settings;
@@ -123,7 +32,7 @@ TEST_CASE("a run that is resumed, from within a batch too, ends as one without i
 
 TEST_CASE("every checkpoint of a run is a state that ends as the run does") {
   for (const Way& way : ways()) {
-    const Room room = room_to_split(way.furnished);
+    const Room room = room_to_split(way.kind);
     Settings settings = way.settings;
     settings.photons = 400'000;
     const Result whole = simulate(room, settings);
@@ -140,32 +49,8 @@ TEST_CASE("every checkpoint of a run is a state that ends as the run does") {
   }
 }
 
-TEST_CASE("a run that was stopped goes on as if it had not been") {
-  const Room room = room_to_split(true);
-  Settings settings = settings_of(Estimator::weight, Engine::embree, 300'001, 3);
-  settings.ways = Ways::all;
-  const Result whole = simulate(room, settings);
-  Settings stopped_early = settings;
-  stopped_early.max_seconds = 0.05;
-  const Result stopped = simulate(room, stopped_early);
-  REQUIRE(stopped.stopped_by == StopReason::max_time);
-  CHECK(same_figures(whole, resume(room, stopped.state, settings)));
-  // By the caller, at the first report of progress.
-  std::stop_source source;
-  Control control;
-  control.stop = source.get_token();
-  control.progress = [&](const Progress& progress) {
-    if (progress.stage == Progress::Stage::tiles) source.request_stop();
-  };
-  Settings longer = settings;
-  longer.photons = 3'000'000;
-  const Result interrupted = simulate(room, longer, control);
-  if (interrupted.histories < longer.photons) CHECK(interrupted.stopped_by == StopReason::interrupt);
-  CHECK(same_figures(simulate(room, longer), resume(room, interrupted.state, longer)));
-}
-
 TEST_CASE("a smaller target error ends where a run with it from the start ends") {
-  const Room room = room_to_split(false);
+  const Room room = room_to_split(Furniture::none);
   Settings settings = settings_of(Estimator::collision, Engine::cuboid, 1e12, 4);
   settings.ways = Ways::all;
   settings.target_error = 0.06;
@@ -182,7 +67,7 @@ TEST_CASE("a smaller target error ends where a run with it from the start ends")
 }
 
 TEST_CASE("a run whose estimator was chosen keeps its choice and its looks") {
-  const Room room = room_to_split(true);
+  const Room room = room_to_split(Furniture::board);
   Settings settings = settings_of(Estimator::automatic, Engine::embree, 1e12, 4, 0.3);
   settings.ways = Ways::all;
   settings.target_error = 0.005;
@@ -203,7 +88,7 @@ TEST_CASE("a run whose estimator was chosen keeps its choice and its looks") {
 
 TEST_CASE("parts add up to one run, in any order and grouping") {
   for (const Way& way : ways()) {
-    const Room room = room_to_split(way.furnished);
+    const Room room = room_to_split(way.kind);
     const Result whole = simulate(room, way.settings);
     std::vector<State> parts;
     std::uint64_t first = 0;
@@ -231,7 +116,7 @@ TEST_CASE("parts add up to one run, in any order and grouping") {
 }
 
 TEST_CASE("states that do not belong together are refused by what sets them apart") {
-  const Room room = room_to_split(false);
+  const Room room = room_to_split(Furniture::none);
   const Settings settings = settings_of(Estimator::collision, Engine::cuboid, 10'240, 1);
   const State one = simulate(room, settings).state;
   const auto refused = [&](const State& other, const std::string& says) {
@@ -261,6 +146,19 @@ TEST_CASE("states that do not belong together are refused by what sets them apar
   other = settings;
   other.ways = Ways::all;
   refused(after(room, other), "--only");
+  other = settings;
+  other.tiles = TileWalk::backward;
+  refused(after(room, other), "--tiles");
+  const State cut_off = [&] {
+    Settings weights = settings;
+    weights.estimator = Estimator::weight;
+    weights.max_bounces = 4;
+    return simulate(room, weights).state;
+  }();
+  other = settings;
+  other.estimator = Estimator::weight;
+  other.max_bounces = 5;
+  CHECK_THROWS_WITH(merge({cut_off, after(room, other)}, {"one.h5", "two.h5"}), ContainsSubstring("--max-bounces"));
   Room darker = room;
   darker.surfaces[0].reflectance = 0.31;
   refused(after(darker, settings), "different rooms");
@@ -281,12 +179,12 @@ TEST_CASE("states that do not belong together are refused by what sets them apar
 
 TEST_CASE("a team of any size finds the same figures, and all its members do") {
   std::vector<Way> all = ways();
-  Way chosen{true, settings_of(Estimator::automatic, Engine::embree, 200'000, 4, 0.3)};
+  Way chosen{Furniture::board, settings_of(Estimator::automatic, Engine::embree, 200'000, 4, 0.3)};
   chosen.settings.target_error = 0.05;
   chosen.settings.ways = Ways::all;
   all.push_back(chosen);
   for (const Way& way : all) {
-    const Room room = room_to_split(way.furnished);
+    const Room room = room_to_split(way.kind);
     const Result alone = simulate(room, way.settings);
     for (const unsigned size : {1U, 2U, 3U}) {
       std::mutex mutex;
@@ -309,25 +207,4 @@ TEST_CASE("a team of any size finds the same figures, and all its members do") {
       CHECK(same_figures(alone, resume(room, states.front(), way.settings)));
     }
   }
-}
-
-TEST_CASE("a team stops together when the first is asked to") {
-  const Room room = room_to_split(true);
-  Settings settings = settings_of(Estimator::collision, Engine::embree, 1e12, 3);
-  settings.max_seconds = 0.5;
-  settings.ways = Ways::forward;
-  std::vector<std::uint64_t> histories(3);
-  State state;
-  run_team(3, [&](Team& team) {
-    Control control;
-    control.team = &team;
-    Result result = simulate(room, settings, control);
-    histories[team.rank()] = result.histories;
-    if (team.rank() == 0) state = result.state;
-  });
-  CHECK(histories[0] > 0);
-  CHECK(histories == std::vector<std::uint64_t>(3, histories[0]));
-  settings.max_seconds.reset();
-  settings.photons = histories[0];
-  CHECK(same_figures(simulate(room, settings), result_of(room, state)));
 }

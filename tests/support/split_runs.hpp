@@ -1,0 +1,36 @@
+// Runs to be split into sessions, parts and members of a team, and whether the figures are the same to the last bit.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lichtmc/lichtmc.hpp"
+
+namespace lichtmc::test {
+
+// Everything that comes from tallies, bit by bit.
+bool same_figures(const Result& a, const Result& b);
+
+// What stands in the room: nothing (a cuboid), a board in the middle, or a board with two sides of their own and a
+// texture in a room without a ceiling.
+enum class Furniture { none, board, textured_board };
+
+// Two emitters, different walls, two receivers.
+Room room_to_split(Furniture furniture);
+
+struct Way {
+  Furniture kind = Furniture::none;
+  Settings settings;
+};
+
+// Both tracers, all estimators, cut off or not, few tiles and many, direct light counted and integrated, tiles walked
+// from backward, textures and openings.
+std::vector<Way> ways();
+
+// The state as another process finds it.
+State written_and_read(const State& state);
+
+// Histories first … last − 1 as a part of a run.
+Result part(const Room& room, Settings settings, std::uint64_t first, std::uint64_t last);
+
+}  // namespace lichtmc::test
