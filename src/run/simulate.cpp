@@ -138,17 +138,27 @@ constexpr const char* receivers_left_out =
     "The run was stopped before the direct light of the receivers was found anew: they are not among the results. The "
     "state has the walks back from them; going on from it brings them back.";
 
-// The receivers after the tiles; what was found of the tiles is kept where a stop comes before there is anything to
-// tell of the receivers.
-void receive_after_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
-                         const Control& control, StopWatch& watch, Logbook& logbook, std::string& warning) {
-  const bool known = logbook.data().receivers.has_value();
+// The receivers after the tiles. What was found of the tiles is kept where a stop comes before there is anything to
+// tell of the receivers: false then.
+bool receive_after_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
+                         const Control& control, StopWatch& watch, Logbook& logbook) {
+  if (votes_for(control.team, control.stop.stop_requested()) > 0) return false;
   try {
-    if (votes_for(control.team, control.stop.stop_requested()) > 0) throw StoppedTooSoon("");
     receive(room, scene, settings, control, watch, logbook, result);
+    return true;
   } catch (const StoppedTooSoon&) {
-    warning = known ? receivers_left_out : receivers_not_measured;
+    return false;
   }
+}
+
+// A state has one of them; it is found from the room, so that another one means that the file was tampered with.
+void note_engine(StateData& data, Engine used) {
+  if ((data.photons || data.tile_walks || data.receivers) && data.engine != used) {
+    throw InputError("The state was traced by the engine '" + std::string(to_string(data.engine)) +
+                     "', the room needs '" + std::string(to_string(used)) +
+                     "' (allowed: the same). The state is not one of this room; run anew.");
+  }
+  data.engine = used;
 }
 
 Result simulate_checked(const Room& room, const Settings& settings, const Control& control, Logbook& logbook) {
@@ -158,7 +168,8 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
   result.processes = size_of(control.team);
   result.tiling = make_tiling(room, settings.tile_edge_m);
   const Scene scene(room, result.tiling, settings.engine);
-  result.engine = logbook.data().engine = scene.engine;
+  note_engine(logbook.data(), scene.engine);
+  result.engine = scene.engine;
   // Photons are only counted again where a state is only read, by one thread.
   const unsigned tallies = logbook.only_read() ? 1 : result.threads;
   check_memory(room, result.tiling, settings, tallies, result.processes, scene.has_maps());
@@ -167,7 +178,8 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
   const WalkedBefore before(logbook.data());
   const bool both = go.forward && go.backward;
   if (both && !logbook.data().receivers) check_receiver_rounds(room, settings);
-  std::string warning;
+  const bool receivers_known = logbook.data().receivers.has_value();
+  bool receivers_told = true;
   if (go.forward) {
     StopWatch watch(both ? half_of_time(settings, before, before.tiles) : settings.max_seconds, control.stop,
                     before.tiles, control.team);
@@ -177,13 +189,13 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
     StopWatch watch(both ? half_of_time(settings, before, before.receivers) : settings.max_seconds, control.stop,
                     before.receivers, control.team);
     if (both) {
-      receive_after_tiles(result, room, scene, settings, control, watch, logbook, warning);
+      receivers_told = receive_after_tiles(result, room, scene, settings, control, watch, logbook);
     } else {
       receive(room, scene, settings, control, watch, logbook, result);
     }
   }
   complete(result, room);
-  if (!warning.empty()) result.warnings.push_back(warning);
+  if (!receivers_told) result.warnings.emplace_back(receivers_known ? receivers_left_out : receivers_not_measured);
   result.checkpoint_seconds = logbook.spent();
   result.state = logbook.close();
   return result;
