@@ -1,0 +1,40 @@
+// A room as triangles of floats, one facet each: what Embree is given.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "lichtmc/room.hpp"
+#include "lichtmc/tiles.hpp"
+#include "tracer/departure.hpp"
+#include "tracer/facet.hpp"
+
+namespace lichtmc {
+
+// The room is moved to the origin and scaled by a power of two so that its largest half extent lies in [½, 1): neither
+// its size nor its place costs digits.
+struct Placement {
+  glm::dvec3 centre{0.0};  // of the room, m
+  double scale = 1.0;      // 1/m
+
+  // The world, in m → the tracer's coordinates.
+  glm::dvec3 operator()(const glm::dvec3& world_m) const { return scale * (world_m - centre); }
+};
+
+Placement place(const Room& room);
+
+// The triangles of all surfaces, one surface after the other, in the order of Surface::triangles.
+struct RoomTriangles {
+  std::vector<glm::vec3> vertices;       // in the tracer's coordinates
+  std::vector<glm::uvec3> corners;       // of each triangle, in `vertices`
+  std::vector<Facet> facets;             // of each triangle; s and t go to its second and third corner
+  std::vector<Departure> departures;     // of each triangle
+  std::vector<std::size_t> first_facet;  // of each surface
+};
+
+// A triangle without area has a facet that cannot be hit.
+RoomTriangles make_triangles(const Room& room, const Tiling& tiling, const Placement& placement);
+
+}  // namespace lichtmc

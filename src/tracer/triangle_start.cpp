@@ -1,0 +1,82 @@
+#include "tracer/triangle_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <glm/geometric.hpp>
+
+#include "tracer/touch.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// Whether a point (tracer's coordinates) lies on a facet, or not farther from it than `distance`.
+bool touches(const Departure& facet, const glm::dvec3& point, double distance) {
+  const glm::dvec3 normal(facet.normal);
+  const glm::dvec3 from_corner = point - glm::dvec3(facet.corner);
+  if (std::abs(glm::dot(from_corner, normal)) > distance) return false;
+  const glm::dvec3 cross = glm::cross(glm::dvec3(facet.edge_s), glm::dvec3(facet.edge_t));
+  const double area = glm::dot(cross, cross);
+  if (!(area > 0.0)) return false;
+  const double s = glm::dot(glm::cross(from_corner, glm::dvec3(facet.edge_t)), cross) / area;
+  const double t = glm::dot(glm::cross(glm::dvec3(facet.edge_s), from_corner), cross) / area;
+  const glm::dvec3 margin(facet.margin);
+  return !(s < -margin.y || t < -margin.z || s + t > 1.0 + margin.x);
+}
+
+// Collects the facets that an emitter touches.
+class Touching {
+ public:
+  Touching(const glm::dvec3& world_point_m, const glm::dvec3& axis, const Placement& placement)
+      : emitter_(world_point_m), axis_(axis), scale_(placement.scale), point_(placement(world_point_m)) {
+    start_.point = glm::vec3(point_);
+  }
+
+  // corner_m: of the facet, in the world.
+  void meet(const Departure& facet, const glm::dvec3& corner_m) {
+    // Most facets are far off.
+    if (!touches(facet, point_, std::max(double{facet.step}, NearPlane::most_rounding))) return;
+    const glm::dvec3 normal(facet.normal);
+    const NearPlane plane{emitter_, corner_m, normal, 1.0 / scale_};
+    if (!touches(facet, point_, std::max(double{facet.step}, scale_ * plane.rounding()))) return;
+    // Triangles of one plane count once.
+    const bool known = std::any_of(planes_.begin(), planes_.end(), [&](const glm::vec3& other) {
+      return std::abs(glm::dot(glm::dvec3(other), normal)) > 1.0 - 1e-6;
+    });
+    if (known) return;
+    planes_.push_back(facet.normal);
+    const glm::vec3 step = 2.0F * facet.step * facet.normal;
+    if (stays_before(plane, axis_)) {
+      start_.point += plane.distance() < 0.0 ? -step : step;
+    } else {
+      start_.steps.push_back(step);
+      start_.on_surface = true;
+    }
+  }
+
+  const Start& start() const { return start_; }
+
+ private:
+  glm::dvec3 emitter_;  // m
+  glm::dvec3 axis_;
+  double scale_;
+  glm::dvec3 point_;  // of the emitter, in the tracer's coordinates
+  std::vector<glm::vec3> planes_;
+  Start start_;
+};
+
+}  // namespace
+
+Start start_at(const glm::dvec3& world_point_m, const glm::dvec3& axis, const Room& room, const Placement& placement,
+               const std::vector<Departure>& departures) {
+  Touching touching(world_point_m, axis, placement);
+  auto facet = departures.begin();
+  for (const Surface& surface : room.surfaces) {
+    for (const glm::uvec3& triangle : surface.triangles) touching.meet(*facet++, surface.positions[triangle.x]);
+  }
+  return touching.start();
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,20 @@
+// Where photons of a point emitter start in a room of triangles.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "lichtmc/room.hpp"
+#include "tracer/departure.hpp"
+#include "tracer/room_triangles.hpp"
+#include "tracer/tracer.hpp"
+
+namespace lichtmc {
+
+// As Tracer::start(). An emitter touches a facet where it is no farther from it than a step, or than its own distance
+// may be off (see NearPlane). `departures`: of the room's triangles, in the order of RoomTriangles.
+Start start_at(const glm::dvec3& world_point_m, const glm::dvec3& axis, const Room& room, const Placement& placement,
+               const std::vector<Departure>& departures);
+
+}  // namespace lichtmc
