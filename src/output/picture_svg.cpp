@@ -16,6 +16,7 @@
 #include "lichtmc/lit_room.hpp"
 #include "lichtmc/version.hpp"
 #include "output/exr.hpp"
+#include "output/readable.hpp"
 #include "output/svg.hpp"
 #include "room/emitter_place.hpp"
 #include "room/welded_mesh.hpp"
@@ -62,7 +63,7 @@ std::string legend(const ColourScale& scale, Quantity quantity, double x, double
     const Colour colour = colour_at(scale.colours, 1.0 - static_cast<double>(k) / (steps - 1));
     pixels.insert(pixels.end(), colour.begin(), colour.end());
   }
-  std::string svg = svg_text(x, y - 8.0, irradiance_word(quantity) == "illuminance" ? "lx" : "W/m²");
+  std::string svg = svg_text(x, y - 8.0, written_irradiance_unit(quantity));
   svg += image_of(png_file(1, steps, 3, pixels), x, y, bar_width, height, false);
   svg += "<rect x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\" width=\"" + fixed(bar_width) + "\" height=\"" +
          fixed(height) + "\" class=\"frame\"/>\n";

@@ -1,0 +1,192 @@
+#include "output/report_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "base/message.hpp"
+#include "lichtmc/units.hpp"
+#include "output/chart.hpp"
+#include "output/html.hpp"
+#include "output/readable.hpp"
+#include "output/svg.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr std::size_t most_receiver_rows = 2000;  // a page that still opens at once
+
+std::string attribute(std::string_view name, const std::string& value) {
+  return " data-" + std::string(name) + "=\"" + escaped(value) + "\"";
+}
+
+std::string vector_text(const glm::dvec3& v) {
+  return to_text(v.x) + "," + to_text(v.y) + "," + to_text(v.z);
+}
+
+// What a script needs to find a tile in the picture.
+std::string plan_figure(const ReportContent& content, std::size_t k) {
+  const SurfacePlan& plan = content.plans[k];
+  const ColourScale& scale = content.scale;
+  std::string attributes = std::string(" class=\"") + (plan.flat ? "plan" : "tile-map") + "\"" +
+                           attribute("map", content.result->tiling.maps[plan.map].name) +
+                           attribute("low", to_text(scale.low)) + attribute("high", to_text(scale.high)) +
+                           attribute("scale", scale.logarithmic ? "log" : "linear") +
+                           attribute("colours", std::string(to_string(scale.colours)));
+  if (plan.flat) {
+    attributes += attribute("corner", vector_text(plan.corner)) + attribute("across", vector_text(plan.across)) +
+                  attribute("down", vector_text(plan.down));
+  }
+  return element("figure", content.plan_pictures[k], attributes);
+}
+
+// A row of the balance: what became of so much power.
+struct Share {
+  std::string name;
+  double power = 0.0;
+  const char* colour = "";
+};
+
+std::string shares_svg(const std::vector<Share>& shares, double emitted, const std::string& unit) {
+  constexpr double row = 26.0;
+  constexpr double names_end = 300.0;
+  constexpr double bar_width = 520.0;
+  std::string svg =
+      svg_head(1080.0, 44.0 + row * static_cast<double>(shares.size()) + 10.0, "Where the light went", 14.0);
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const double y = 44.0 + row * static_cast<double>(k);
+    const double width = bar_width * std::clamp(shares[k].power / emitted, 0.0, 1.0);
+    svg += svg_text(names_end - 8.0, y + 16.0, shares[k].name, " text-anchor=\"end\"");
+    svg += "<rect x=\"" + fixed(names_end) + "\" y=\"" + fixed(y + 3.0) + "\" width=\"" + fixed(width) +
+           "\" height=\"18\" fill=\"" + shares[k].colour + "\"/>\n";
+    svg += svg_text(names_end + width + 8.0, y + 16.0,
+                    short_number(shares[k].power) + " " + unit + ", " + percent(shares[k].power / emitted));
+  }
+  return svg + "</svg>\n";
+}
+
+ChartSeries series_of(const std::string& name, const std::vector<ErrorLook>& looks) {
+  ChartSeries series{name, {}};
+  for (const ErrorLook& look : looks)
+    series.points.push_back({static_cast<double>(look.histories), 100.0 * look.rms_relative_error});
+  return series;
+}
+
+}  // namespace
+
+std::string surfaces_section(const ReportContent& content) {
+  const Result& result = *content.result;
+  if (result.tiles.empty()) return {};
+  const std::string power(power_unit(result.quantity));
+  const std::string irradiance = written_irradiance_unit(result.quantity);
+  std::string rows;
+  for (const SurfaceResult& s : result.surfaces) {
+    rows += "<tr>" + text_cell(s.name) + text_cell(s.material) + number_cell(s.reflectance) + number_cell(s.area_m2) +
+            number_cell(s.mean_irradiance) + number_cell(s.standard_error) + number_cell(s.min_irradiance) +
+            number_cell(s.max_irradiance) + number_cell(s.power) + number_cell(100.0 * s.behind_share) +
+            count_cell(s.tiles) + "</tr>\n";
+  }
+  std::string html = heading("Surfaces");
+  html += text_element("p",
+                       "Click a heading to sort. Lowest and highest are those of single tiles and have their chance in "
+                       "them. tiles.csv has every tile.",
+                       " class=\"muted\"");
+  html += element("div",
+                  element("table",
+                          table_head({"surface", "material", "reflectance", "area, m²", "mean, " + irradiance,
+                                      "standard error, " + irradiance, "lowest, " + irradiance,
+                                      "highest, " + irradiance, "arriving, " + power, "from behind, %", "tiles"}) +
+                              element("tbody", rows),
+                          " class=\"sortable\" id=\"surfaces\""),
+                  " class=\"scroll\"");
+  if (content.plans.empty()) return html;
+  std::string figures;
+  for (std::size_t k = 0; k < content.plans.size(); ++k) figures += plan_figure(content, k);
+  html += heading("Surfaces laid flat");
+  html += text_element("p",
+                       "Walls as seen from where the light is, floors and ceilings as seen from above. The largest "
+                       "pieces that are at least 2 % of all surface.",
+                       " class=\"muted\"");
+  return html + element("div", figures, " class=\"plans\"");
+}
+
+std::string receivers_section(const Result& result) {
+  const std::size_t n = result.receiver_results.size();
+  if (n == 0) return {};
+  const std::string irradiance = written_irradiance_unit(result.quantity);
+  const std::string word(irradiance_word(result.quantity));
+  std::string rows;
+  for (std::size_t k = 0; k < std::min(n, most_receiver_rows); ++k) {
+    const Receiver& receiver = result.receivers[k];
+    const ReceiverResult& one = result.receiver_results[k];
+    rows += "<tr>" + text_cell(receiver.name) + number_cell(receiver.position.x) + number_cell(receiver.position.y) +
+            number_cell(receiver.position.z) + number_cell(one.irradiance) + number_cell(one.standard_error) +
+            number_cell(one.direct) + number_cell(one.indirect) + number_cell(10.0 * std::log10(one.gain)) + "</tr>\n";
+  }
+  std::string html = heading("Receivers");
+  if (n > most_receiver_rows)
+    html += text_element("p", "The first " + std::to_string(most_receiver_rows) + " of " + std::to_string(n) +
+                                  "; receivers.csv has them all.");
+  return html + element("div",
+                        element("table",
+                                table_head({"receiver", "x, m", "y, m", "z, m", word + ", " + irradiance,
+                                            "standard error, " + irradiance, "direct, " + irradiance,
+                                            "reflected, " + irradiance, "gain, dB"}) +
+                                    element("tbody", rows),
+                                " class=\"sortable\" id=\"receivers\""),
+                        " class=\"scroll\"");
+}
+
+std::string balance_section(const Result& result) {
+  if (result.tiles.empty()) return {};
+  const std::string power(power_unit(result.quantity));
+  const Balance& b = result.balance;
+  constexpr std::size_t most_surfaces = 8;
+  constexpr const char* absorbed = "#0072B2";
+  std::vector<Share> shares;
+  for (const SurfaceResult& s : result.surfaces)
+    shares.push_back({"absorbed by " + s.name, s.power * (1.0 - s.reflectance), absorbed});
+  std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& c) { return a.power > c.power; });
+  if (shares.size() > most_surfaces) {
+    Share others{"absorbed by " + to_text(shares.size() - most_surfaces + 1, "other surface"), 0.0, "#56B4E9"};
+    for (std::size_t k = most_surfaces - 1; k < shares.size(); ++k) others.power += shares[k].power;
+    shares.resize(most_surfaces - 1);
+    shares.push_back(others);
+  }
+  std::string note =
+      "What surfaces absorb is what arrives there times 1 − reflectance, with the errors of the surfaces' table.";
+  if (std::isfinite(b.absorbed)) {
+    if (b.escaped > 0.0) shares.push_back({"left the room through openings", b.escaped, "#E69F00"});
+    if (b.residual != 0.0) shares.push_back({"cut off, or taken and given by chance", b.residual, "#CC79A7"});
+    if (b.lost > 0.0) shares.push_back({"lost to numerical faults", b.lost, "#D55E00"});
+    note += " Counted photon by photon: emitted " + short_number(b.emitted) + " " + power + " = absorbed " +
+            short_number(b.absorbed) + " + left the room " + short_number(b.escaped) + " + residual " +
+            short_number(b.residual) + " + lost " + short_number(b.lost) + ".";
+  }
+  return heading("Balance of power") + element("figure", shares_svg(shares, b.emitted, power)) +
+         text_element("p", note, " class=\"muted\"");
+}
+
+std::string convergence_section(const Result& result) {
+  LineChart chart;
+  chart.title = "How the error falls";
+  chart.x_label = "photons, or walks of all receivers together";
+  chart.y_label = "relative standard error (rms), %";
+  if (!result.tiles.empty()) chart.series.push_back(series_of("tiles", result.convergence));
+  if (!result.receiver_results.empty()) chart.series.push_back(series_of("receivers", result.backward.convergence));
+  const bool known = std::any_of(chart.series.begin(), chart.series.end(), [](const ChartSeries& series) {
+    return std::any_of(series.points.begin(), series.points.end(),
+                       [](const ChartPoint& p) { return std::isfinite(p.y) && p.y > 0.0; });
+  });
+  if (!known) return {};
+  std::string sentence = "Four times the photons halve the error";
+  sentence += result.tiles_without_hits > 0
+                  ? ", once all tiles are hit; until then it falls more slowly, as tiles with few hits join. " +
+                        to_text(result.tiles_without_hits, "tile") + " got no light yet."
+                  : ".";
+  return heading("Convergence") + element("figure", to_svg(chart)) + text_element("p", sentence, " class=\"muted\"");
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,76 @@
+#include "output/report_origin.hpp"
+
+#include <string_view>
+#include <vector>
+
+#include "base/message.hpp"
+#include "lichtmc/units.hpp"
+#include "lichtmc/version.hpp"
+#include "output/html.hpp"
+#include "output/json.hpp"
+#include "output/readable.hpp"
+
+namespace lichtmc {
+
+std::string settings_section(const Room& room, const Result& result) {
+  const Settings& s = result.settings;
+  std::string rows;
+  const auto row = [&rows](std::string_view name, const std::string& value) {
+    rows += "<tr>" + text_cell(name) + text_cell(value) + "</tr>\n";
+  };
+  row("estimator", std::string(to_string(result.tiles.empty() ? result.backward.estimator : result.estimator)));
+  row("engine", std::string(to_string(result.engine)));
+  row("seed", std::to_string(s.seed));
+  if (!result.tiles.empty()) {
+    row("edge of a tile", short_number(s.tile_edge_m) + " m");
+    row("tiles measured",
+        s.tiles == TileWalk::forward ? "by photons from the emitters" : "by walks back from the tiles");
+    row("direct light", direct_is_apart(result) ? "integrated" : "counted with all other light");
+    row("photons", std::to_string(result.histories));
+    row("impacts", std::to_string(result.impacts));
+    row("ended by", std::string(to_string(result.stopped_by)));
+  }
+  if (!result.receiver_results.empty()) {
+    row("walks from receivers", std::to_string(result.backward.histories));
+    row("ended by (receivers)", std::string(to_string(result.backward.stopped_by)));
+  }
+  if (s.target_error) row("target error", percent(*s.target_error));
+  if (s.max_seconds) row("time limit", short_number(*s.max_seconds) + " s");
+  if (s.max_bounces) row("cut off after", std::to_string(*s.max_bounces) + " flights");
+  row("threads", std::to_string(result.threads));
+  std::string emitters;
+  for (const Emitter& e : room.emitters)
+    emitters += "<tr>" + text_cell(e.name) + text_cell(kind_of(e)) + number_cell(e.power) + "</tr>\n";
+  std::string html = heading("What was simulated") + element("table", rows);
+  if (!result.choices.empty()) html += list_of(result.choices);
+  if (!result.mended.empty()) html += text_element("p", "Changed after reading:") + list_of(result.mended);
+  return html + heading("Emitters") +
+         element("table",
+                 table_head({"emitter", "kind", "power, " + std::string(power_unit(result.quantity))}) +
+                     element("tbody", emitters),
+                 " class=\"sortable\" id=\"emitters\"");
+}
+
+std::string left_out_section(const Result& result) {
+  std::vector<std::string> sentences;
+  for (const Ignored& thing : result.ignored)
+    sentences.push_back(thing.what + (thing.effect == Effect::figures ? " (may change figures)" : ""));
+  if (sentences.empty()) return {};
+  return heading("In the file, but not modelled") + list_of(sentences);
+}
+
+std::string reproduction_section(const Result& result, const std::string& command) {
+  std::string html = heading("To reproduce this");
+  if (!command.empty()) html += text_element("pre", command);
+  if (result.stopped_by == StopReason::max_time || result.stopped_by == StopReason::interrupt) {
+    html += text_element("p", "The clock ended this run, and clocks differ. To get the same digits give it --photons " +
+                                  std::to_string(result.histories) + " instead of a time.");
+  }
+  return html + text_element("p",
+                             "lichtmc " + std::string(version()) +
+                                 ". The same room, settings, seed and number of photons give the same figures to the "
+                                 "last digit, for any number of threads.",
+                             " class=\"muted\"");
+}
+
+}  // namespace lichtmc
