@@ -13,9 +13,11 @@
 //   score(wave)               all photons score; what land() asked of memory has had time to come
 //   watches_absorption        constant: whether absorb() is to be called
 //   absorb(wave, i, ρ)        photon i ends on its surface
-//   in_lanes                  constant: photons have nothing that move() must move, and absorb_all() may replace
-//   absorb() absorb_all(wave, at, n)   n photons, at the places `at`, end on their surfaces reflect(wave, flight) all
-//   photons left have been reflected and are about to fly on cut_off(wave, i)          the walk ends for photon i
+//   in_lanes                  constant: photons have nothing that move() must move, and absorb_all() may take the
+//                             place of absorb()
+//   absorb_all(wave, at, n)   n photons, at the places `at`, end on their surfaces
+//   reflect(wave, flight)     all photons left have been reflected and are about to fly on
+//   cut_off(wave, i)          the walk ends for photon i
 //   cosines()                 where to put the cosines of the angles to the normals that photons fly off at, or null
 //   move(wave, from, to)      photon `from` takes place `to` of the wave, which itself has moved what flying on needs
 #pragma once
