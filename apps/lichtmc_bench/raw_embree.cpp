@@ -63,6 +63,10 @@ struct RawEmbree::Data {
   std::vector<RTCRayHit16> sixteen, sixteen_fresh;
   EmbreeQuery query;
 
+  void take_in(const Stage& stage);
+  // Flights as Embree takes them, singly and in packets.
+  void prepare(const std::vector<Flight>& flights);
+
   ~Data() {
     rtcReleaseScene(scene);
     rtcReleaseDevice(device);
@@ -72,9 +76,14 @@ struct RawEmbree::Data {
 RawEmbree::~RawEmbree() = default;
 
 RawEmbree::RawEmbree(const Stage& stage, std::size_t count) : data_(std::make_unique<Data>()) {
-  // The room as the engine gives it to Embree: one mesh, moved and scaled, robust.
-  rtcSetSceneFlags(data_->scene, RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry mesh = rtcNewGeometry(data_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  data_->take_in(stage);
+  data_->prepare(flights_of(stage, count));
+}
+
+// The room as the engine gives it to Embree: one mesh, moved and scaled, robust.
+void RawEmbree::Data::take_in(const Stage& stage) {
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   std::vector<glm::vec3> corners;
   for (const Surface& surface : stage.room().surfaces) {
     for (const glm::uvec3& t : surface.triangles) {
@@ -90,11 +99,12 @@ RawEmbree::RawEmbree(const Stage& stage, std::size_t count) : data_(std::make_un
     indices[k] = static_cast<unsigned>(k);
   }
   rtcCommitGeometry(mesh);
-  rtcAttachGeometry(data_->scene, mesh);
+  rtcAttachGeometry(scene, mesh);
   rtcReleaseGeometry(mesh);
-  rtcCommitScene(data_->scene);
+  rtcCommitScene(scene);
+}
 
-  const std::vector<Flight> flights = flights_of(stage, count);
+void RawEmbree::Data::prepare(const std::vector<Flight>& flights) {
   const auto fill = [](auto& ray, std::size_t lane, const Flight& flight) {
     ray.ray.org_x[lane] = flight.start.x;
     ray.ray.org_y[lane] = flight.start.y;
@@ -122,11 +132,11 @@ RawEmbree::RawEmbree(const Stage& stage, std::size_t count) : data_(std::make_un
                0,
                0};
     one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    data_->single_fresh.push_back(one);
-    if (k % 8 == 0) data_->eight_fresh.emplace_back();
-    if (k % 16 == 0) data_->sixteen_fresh.emplace_back();
-    fill(data_->eight_fresh.back(), k % 8, flights[k]);
-    fill(data_->sixteen_fresh.back(), k % 16, flights[k]);
+    single_fresh.push_back(one);
+    if (k % 8 == 0) eight_fresh.emplace_back();
+    if (k % 16 == 0) sixteen_fresh.emplace_back();
+    fill(eight_fresh.back(), k % 8, flights[k]);
+    fill(sixteen_fresh.back(), k % 16, flights[k]);
   }
 }
 

@@ -158,6 +158,33 @@ std::uint8_t face_of(const std::array<glm::dvec3, 3>& p, const glm::dvec3& toler
   return 6;
 }
 
+// Triangles in the axes of a cuboid, from one corner of it on so that distance from the origin costs no digits.
+struct AlongAxes {
+  glm::dvec3 origin{0.0};
+  std::vector<std::array<glm::dvec3, 3>> corners;  // of each triangle
+  glm::dvec3 low{std::numeric_limits<double>::infinity()};
+  glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+  glm::dvec3 largest{0.0};  // size of a coordinate in the room's own axes
+};
+
+AlongAxes lay_along(const std::array<glm::dvec3, 3>& axes, const std::vector<Corners>& triangles) {
+  AlongAxes along;
+  along.origin = triangles.front().position[0];
+  const auto in_axes = [&](const glm::dvec3& p) {
+    const glm::dvec3 d = p - along.origin;
+    return glm::dvec3(glm::dot(d, axes[0]), glm::dot(d, axes[1]), glm::dot(d, axes[2]));
+  };
+  for (const Corners& t : triangles) {
+    along.corners.push_back({in_axes(t.position[0]), in_axes(t.position[1]), in_axes(t.position[2])});
+    for (const glm::dvec3& p : along.corners.back()) {
+      along.low = glm::min(along.low, p);
+      along.high = glm::max(along.high, p);
+    }
+    for (const glm::dvec3& p : t.position) along.largest = glm::max(along.largest, glm::abs(p));
+  }
+  return along;
+}
+
 // Tolerances as shares of the edges, from the largest coordinates' sizes. Rounding mixes a rotated room's coordinates,
 // so that its shortest edge suffers from its longest; not so where the edges lie along the world's axes.
 glm::dvec3 tolerances(const std::array<glm::dvec3, 3>& axes, const glm::dvec3& size, const glm::dvec3& largest) {
@@ -177,26 +204,9 @@ std::optional<CuboidShape> recognise_cuboid(const Room& room) {
   const auto axes = find_axes(triangles);
   if (!axes) return std::nullopt;
 
-  // Corners in the cuboid's axes, from one corner of it on so that distance from the origin costs no digits.
-  const glm::dvec3 origin = triangles.front().position[0];
-  const auto in_axes = [&](const glm::dvec3& p) {
-    const glm::dvec3 d = p - origin;
-    return glm::dvec3(glm::dot(d, (*axes)[0]), glm::dot(d, (*axes)[1]), glm::dot(d, (*axes)[2]));
-  };
-  glm::dvec3 low(std::numeric_limits<double>::infinity());
-  glm::dvec3 high = -low;
-  glm::dvec3 largest(0.0);
-  std::vector<std::array<glm::dvec3, 3>> local;
-  for (const Corners& t : triangles) {
-    local.push_back({in_axes(t.position[0]), in_axes(t.position[1]), in_axes(t.position[2])});
-    for (const glm::dvec3& p : local.back()) {
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
-    for (const glm::dvec3& p : t.position) largest = glm::max(largest, glm::abs(p));
-  }
-  const glm::dvec3 size = high - low;
-  const glm::dvec3 tolerance = tolerances(*axes, size, largest);
+  AlongAxes along = lay_along(*axes, triangles);
+  const glm::dvec3 size = along.high - along.low;
+  const glm::dvec3 tolerance = tolerances(*axes, size, along.largest);
   // An edge that is not well above the rounding has no length to speak of.
   if (!(std::min({size.x, size.y, size.z}) > 0.0) ||
       std::max({tolerance.x, tolerance.y, tolerance.z}) > largest_tolerance)
@@ -207,8 +217,8 @@ std::optional<CuboidShape> recognise_cuboid(const Room& room) {
     shape.face_of_triangle.emplace_back(surface.triangles.size(), std::uint8_t{0});
   std::array<std::vector<Flat>, 6> faces;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    auto& p = local[i];
-    for (glm::dvec3& corner : p) corner = (corner - low) / size;
+    auto& p = along.corners[i];
+    for (glm::dvec3& corner : p) corner = (corner - along.low) / size;
     const std::uint8_t face = face_of(p, tolerance);
     if (face == 6) return std::nullopt;
     shape.face_of_triangle[triangles[i].surface][triangles[i].triangle] = face;
@@ -220,7 +230,8 @@ std::optional<CuboidShape> recognise_cuboid(const Room& room) {
     const int axis = static_cast<int>(face / 2);
     if (!tile_the_square(faces[face], {tolerance[(axis + 1) % 3], tolerance[(axis + 2) % 3]})) return std::nullopt;
   }
-  shape.corner = origin + low.x * (*axes)[0] + low.y * (*axes)[1] + low.z * (*axes)[2];
+  const glm::dvec3& low = along.low;
+  shape.corner = along.origin + low.x * (*axes)[0] + low.y * (*axes)[1] + low.z * (*axes)[2];
   for (int k = 0; k < 3; ++k) shape.edges[static_cast<std::size_t>(k)] = size[k] * (*axes)[static_cast<std::size_t>(k)];
   return shape;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,24 +17,16 @@
 #include "lichtmc/picture.hpp"
 #include "room/nearest_tile.hpp"
 #include "view/colours.hpp"
-#include "view/flat_pieces.hpp"
 #include "view/isolines.hpp"
+#include "view/plan_subjects.hpp"
 
 namespace lichtmc {
 
 namespace {
 
-constexpr double least_share = 0.02;       // of the room's surface that a plan is worth
 constexpr std::size_t field_side = 240;    // points along the longer side of the field that isolines are drawn from
 constexpr double noise_of_a_step = 6.0;    // steps between isolines are at least so many standard errors of the field
 constexpr double shortest_line_px = 36.0;  // shorter ones are specks
-
-// A piece that gets a plan, seen from one side.
-struct Subject {
-  std::size_t map = 0;
-  FlatPiece piece;  // no triangles: the tile map as a whole
-  bool from_behind = false;
-};
 
 struct Axes {
   glm::dvec3 across{1.0, 0.0, 0.0};  // length 1
@@ -58,63 +51,6 @@ Axes axes_for(const glm::dvec3& normal) {
   return axes;
 }
 
-// What plans are drawn of.
-class Subjects {
- public:
-  Subjects(const Room& room, const Result& result, const LitSides& lit) : room_(&room), result_(&result), lit_(&lit) {
-    double area = 0.0;
-    for (const Surface& surface : room.surfaces) area += surface_area(surface);
-    for (std::size_t m = 0; m < result.tiling.maps.size(); ++m) add(m, least_share * area);
-    std::stable_sort(list.begin(), list.end(),
-                     [](const Subject& a, const Subject& b) { return a.piece.area_m2 > b.piece.area_m2; });
-  }
-
-  std::vector<Subject> list;
-
- private:
-  void add(std::size_t m, double least_m2) {
-    const TileMap& map = result_->tiling.maps[m];
-    const Surface& surface = room_->surfaces[map.surface];
-    const double area = result_->surfaces[m].area_m2;
-    if (area < least_m2) return;
-    double flat = 0.0;
-    for (FlatPiece& piece : flat_pieces(surface, least_m2)) {
-      flat += piece.area_m2;
-      const auto [front, back] = lit_areas(map.surface, piece);
-      if (surface.sides == Sides::both) {
-        if ((map.side == Side::front ? front : back) > 0.0)
-          list.push_back({m, std::move(piece), map.side == Side::back});
-      } else if (front > 0.0 || back > 0.0) {
-        list.push_back({m, std::move(piece), back > front});
-      }
-    }
-    if (flat >= 0.5 * area) return;
-    Subject whole{m, {}, false};
-    whole.piece.area_m2 = area;
-    list.push_back(std::move(whole));
-  }
-
-  // Area whose front, and whose back, gets light, in m².
-  std::pair<double, double> lit_areas(std::size_t surface, const FlatPiece& piece) const {
-    double front = 0.0;
-    double back = 0.0;
-    for (const std::uint32_t n : piece.triangles) {
-      const SideLight& side = (*lit_)[surface][n];
-      const Surface& own = room_->surfaces[surface];
-      const glm::dvec3 a = own.positions[own.triangles[n].x];
-      const double area =
-          0.5 * glm::length(glm::cross(own.positions[own.triangles[n].y] - a, own.positions[own.triangles[n].z] - a));
-      front += side.front ? area : 0.0;
-      back += side.back ? area : 0.0;
-    }
-    return {front, back};
-  }
-
-  const Room* room_;
-  const Result* result_;
-  const LitSides* lit_;
-};
-
 Picture empty_picture(double width, double height) {
   Picture picture;
   picture.width = static_cast<std::size_t>(std::max(1.0, std::round(width)));
@@ -129,7 +65,7 @@ class PlanDrawer {
   PlanDrawer(const Room& room, const Result& result, const ColourScale& scale, double longest)
       : room_(&room), result_(&result), scale_(&scale), longest_(longest) {}
 
-  SurfacePlan draw(const Subject& subject) {
+  SurfacePlan draw(const PlanSubject& subject) {
     SurfacePlan plan;
     plan.map = subject.map;
     plan.area_m2 = subject.piece.area_m2;
@@ -152,10 +88,18 @@ class PlanDrawer {
     glm::dvec2 cell{0.0};
   };
 
-  void draw_piece(const Subject& subject, SurfacePlan& plan);
+  // Error and edge of a tile in the picture, as roots of the mean squares over its pixels.
+  struct TypicalTile {
+    double error = 0.0;
+    double edge_m = 0.0;
+  };
+
+  void draw_piece(const PlanSubject& subject, SurfacePlan& plan);
   void draw_map(SurfacePlan& plan);
   void fill(const std::array<Corner, 3>& triangle, SurfacePlan& plan);
+  void sum_up_seen(SurfacePlan& plan) const;
   void set_pixel(SurfacePlan& plan, std::size_t pixel, std::uint32_t tile);
+  std::optional<TypicalTile> typical_tile() const;  // none where no tile is in the picture
   void add_isolines(SurfacePlan& plan) const;
   Field field_of(const SurfacePlan& plan, double step) const;
 
@@ -205,7 +149,7 @@ void PlanDrawer::fill(const std::array<Corner, 3>& t, SurfacePlan& plan) {
   }
 }
 
-void PlanDrawer::draw_piece(const Subject& subject, SurfacePlan& plan) {
+void PlanDrawer::draw_piece(const PlanSubject& subject, SurfacePlan& plan) {
   const TileMap& map = result_->tiling.maps[subject.map];
   const Surface& surface = room_->surfaces[map.surface];
   const Axes axes = axes_for(subject.from_behind ? -subject.piece.normal : subject.piece.normal);
@@ -236,6 +180,11 @@ void PlanDrawer::draw_piece(const Subject& subject, SurfacePlan& plan) {
     }
     fill(triangle, plan);
   }
+  sum_up_seen(plan);
+}
+
+// What the tiles in the picture get, each counted as a whole.
+void PlanDrawer::sum_up_seen(SurfacePlan& plan) const {
   double power = 0.0;
   double area = 0.0;
   std::vector<bool> counted(result_->tiles.size());
@@ -316,39 +265,43 @@ double length_of(const Isoline& line) {
   return length;
 }
 
+std::optional<PlanDrawer::TypicalTile> PlanDrawer::typical_tile() const {
+  double variance = 0.0;
+  double area = 0.0;
+  double count = 0.0;
+  for (const std::uint32_t tile : seen_) {
+    if (tile == no_tile) continue;
+    variance += std::pow(result_->tiles[tile].standard_error, 2);
+    area += result_->tiling.tiles[tile].area_m2;
+    count += 1.0;
+  }
+  if (count == 0.0) return std::nullopt;
+  return TypicalTile{std::sqrt(variance / count), std::sqrt(area / count)};
+}
+
 void PlanDrawer::add_isolines(SurfacePlan& plan) const {
   const double metre = 1.0 / glm::length(plan.across);  // pixels
   const auto longer = static_cast<double>(std::max(plan.picture.width, plan.picture.height));
   const auto shorter = static_cast<double>(std::min(plan.picture.width, plan.picture.height));
   const double step = std::max(1.0, longer / field_side);  // pixels between points of the field
 
-  // Error and edge of a tile here, as root of the mean square over the piece.
-  double variance = 0.0;
-  double tile_area = 0.0;
-  double count = 0.0;
-  for (const std::uint32_t tile : seen_) {
-    if (tile == no_tile) continue;
-    variance += std::pow(result_->tiles[tile].standard_error, 2);
-    tile_area += result_->tiling.tiles[tile].area_m2;
-    count += 1.0;
-  }
-  if (count == 0.0) {
+  const auto tile = typical_tile();
+  if (!tile) {
     plan.why_no_isolines = "No isolines: the surface is too narrow for them.";
     return;
   }
-  const double error = std::sqrt(variance / count);
-  const double edge = std::sqrt(tile_area / count);  // m
-  if (!std::isfinite(error)) {
+  if (!std::isfinite(tile->error)) {
     plan.why_no_isolines = "No isolines: the errors of the tiles are not known. Simulate more photons.";
     return;
   }
   const Field field = field_of(plan, step);
   // Averaged over a Gaussian of radius r, tiles of edge h with an error σ have the error σ·h/(2√π·r).
-  const double one = error * edge / (2.0 * std::sqrt(std::numbers::pi));
-  const double most_radius = std::max(0.1 * shorter / metre, 0.5 * edge);  // m
+  const double one = tile->error * tile->edge_m / (2.0 * std::sqrt(std::numbers::pi));
+  const double most_radius = std::max(0.1 * shorter / metre, 0.5 * tile->edge_m);  // m
   const Range coarse = range_of(smoothed(field, std::clamp(most_radius * metre / step, 0.5, 1e3)));
   const double wanted_step = (coarse.high - coarse.low) / 6.0;
-  const double radius = std::clamp(noise_of_a_step * one / std::max(wanted_step, 1e-300), 0.6 * edge, most_radius);
+  const double radius =
+      std::clamp(noise_of_a_step * one / std::max(wanted_step, 1e-300), 0.6 * tile->edge_m, most_radius);
   if (one / radius > 0.5 * wanted_step) {
     plan.why_no_isolines =
         "No isolines: the differences over this surface are no larger than their errors. They appear with more "
@@ -378,7 +331,7 @@ std::vector<SurfacePlan> draw_plans(const Room& room, const Result& result, cons
                      " pixels (allowed: 16 to 4096). Ask for another size.");
   std::vector<SurfacePlan> plans;
   PlanDrawer drawer(room, result, scale, static_cast<double>(longest));
-  for (const Subject& subject : Subjects(room, result, lit).list) {
+  for (const PlanSubject& subject : plan_subjects(room, result, lit)) {
     if (plans.size() == most) break;
     plans.push_back(drawer.draw(subject));
   }
