@@ -33,7 +33,7 @@ enum class ScaleType { automatic, linear, logarithmic };
 struct ScaleOptions {
   ColourMap colours = ColourMap::viridis;
   ScaleType type = ScaleType::automatic;  // logarithmic where the bright tiles would leave the others in the dark
-  std::optional<double> high;             // W/m² or lx that the top colour stands for, > 0; default: from the tiles
+  std::optional<double> high;  // W/m² or lx that the top colour stands for, 1e-300 to 1e300; default: from the tiles
 };
 
 // Which irradiance has which colour.
@@ -48,7 +48,7 @@ struct ColourScale {
 };
 
 // A scale for the tiles of a result, and the same for all its pictures: up to a round number that all but a fiftieth
-// of the lit area stays below. Throws InputError where the asked top is no finite number above 0.
+// of the lit area stays below. Throws InputError where the asked top is out of its range.
 ColourScale choose_scale(const Result& result, const ScaleOptions& options = {});
 
 // sRGB, 0 … 255.

@@ -39,7 +39,9 @@ std::string image_of(const std::string& png, double x, double y, double width, d
 std::vector<double> ticks_of(const ColourScale& scale) {
   std::vector<double> ticks;
   if (scale.logarithmic) {
-    for (double decade = std::pow(10.0, std::floor(std::log10(scale.low))); decade <= scale.high; decade *= 10.0) {
+    const int last = static_cast<int>(std::floor(std::log10(scale.high)));
+    for (int exponent = static_cast<int>(std::floor(std::log10(scale.low))); exponent <= last; ++exponent) {
+      const double decade = std::pow(10.0, exponent);
       for (const double step : {1.0, 2.0, 5.0}) {
         const double value = step * decade;
         if (value >= scale.low * 0.999 && value <= scale.high * 1.001) ticks.push_back(value);

@@ -89,7 +89,7 @@ TEST_CASE("picture: the scale ends at a round number that all but a fiftieth of 
   CHECK(choose_scale(result_of(irradiances), {ColourMap::inferno, ScaleType::linear, 750.0}).high == 750.0);
   CHECK(choose_scale(result_of(irradiances), {ColourMap::inferno, ScaleType::linear, 750.0}).low == 0.0);
   CHECK(choose_scale(result_of({0.0, 0.0})).high == 1.0);
-  for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::infinity()})
+  for (const double wrong : {0.0, -1.0, 1e-323, 1e301, std::numeric_limits<double>::infinity()})
     CHECK_THROWS_AS(choose_scale(result_of({1.0}), {ColourMap::viridis, ScaleType::automatic, wrong}), InputError);
 }
 
