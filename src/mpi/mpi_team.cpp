@@ -19,10 +19,11 @@ constexpr std::size_t longest = std::size_t{1} << 24;
 void add_pairs(void* in, void* in_out, int* n, MPI_Datatype* /*type*/) {
   const auto* a = static_cast<const std::uint64_t*>(in);
   auto* b = static_cast<std::uint64_t*>(in_out);
-  for (int i = 0; i < *n; ++i) {
-    const std::uint64_t low = a[2 * i] + b[2 * i];
-    b[2 * i + 1] += a[2 * i + 1] + (low < b[2 * i] ? 1 : 0);
-    b[2 * i] = low;
+  const std::size_t words = 2 * static_cast<std::size_t>(*n);
+  for (std::size_t i = 0; i < words; i += 2) {
+    const std::uint64_t low = a[i] + b[i];
+    b[i + 1] += a[i + 1] + (low < b[i] ? 1 : 0);
+    b[i] = low;
   }
 }
 

@@ -47,7 +47,7 @@ class Axis {
     std::vector<double> ticks;
     if (scale_ == Scale::logarithmic) {
       const double step = std::ceil((high_ - low_) / 10.0);
-      for (double k = low_; k <= high_; k += step) ticks.push_back(std::pow(10.0, k));
+      for (int k = 0; low_ + k * step <= high_; ++k) ticks.push_back(std::pow(10.0, low_ + k * step));
       return ticks;
     }
     const double rough = (high_ - low_) / 6.0;

@@ -31,6 +31,7 @@ Chart make_engine_chart(const Surface& surface, const std::vector<TriangleShape>
     std::move(parts.begin(), parts.end(), std::back_inserter(laid));
   }
   std::vector<glm::dvec2> sizes;
+  sizes.reserve(laid.size() + 1);
   for (const LaidPatch& part : laid) sizes.push_back(part.cells);
   if (any_area(cut.slivers, shapes)) sizes.emplace_back(1.0, 1.0);
   const Packing packing = pack(sizes);
