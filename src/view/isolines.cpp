@@ -125,7 +125,8 @@ class March {
     const std::size_t a = edge / 2;
     const std::size_t b = edge % 2 == 0 ? a + 1 : a + columns;
     const double share = (level_ - field_->values[a]) / (field_->values[b] - field_->values[a]);
-    const glm::dvec2 start(static_cast<double>(a % columns), static_cast<double>(a / columns));
+    const std::size_t row = a / columns;
+    const glm::dvec2 start(static_cast<double>(a % columns), static_cast<double>(row));
     return edge % 2 == 0 ? start + glm::dvec2(share, 0.0) : start + glm::dvec2(0.0, share);
   }
 
@@ -139,8 +140,7 @@ class March {
 
 Field smoothed(const Field& field, double radius) {
   std::vector<double> kernel;
-  for (double k = 0.0; k <= std::max(1.0, 3.0 * radius); k += 1.0)
-    kernel.push_back(std::exp(-0.5 * k * k / (radius * radius)));
+  for (int k = 0; k <= std::max(1.0, 3.0 * radius); ++k) kernel.push_back(std::exp(-0.5 * k * k / (radius * radius)));
   Field result = field;
   for (std::size_t k = 0; k < field.values.size(); ++k)
     result.values[k] = field.weight[k] > 0.0 ? field.weight[k] * field.values[k] : 0.0;
@@ -157,7 +157,8 @@ std::vector<double> round_levels(double low, double high, bool logarithmic) {
   if (logarithmic) {
     // Down to a hundredth of the highest: below that lines would crowd.
     const double least = std::max(low, 0.01 * high);
-    for (double decade = std::pow(10.0, std::floor(std::log10(least))); decade < high; decade *= 10.0) {
+    for (int exponent = static_cast<int>(std::floor(std::log10(least))); std::pow(10.0, exponent) < high; ++exponent) {
+      const double decade = std::pow(10.0, exponent);
       for (const double step : {1.0, 2.0, 5.0}) {
         if (step * decade > least && step * decade < high) levels.push_back(step * decade);
       }

@@ -254,12 +254,13 @@ class Band {
     return sample_at(pixel % pixel_columns_, pixel / pixel_columns_, k);
   }
   Ray middle_ray(const Camera& camera, std::size_t pixel, double first_row) const {
-    return camera.ray(static_cast<double>(pixel % pixel_columns_) + 0.5,
-                      static_cast<double>(pixel / pixel_columns_) + 0.5 + first_row);
+    const std::size_t row = pixel / pixel_columns_;
+    return camera.ray(static_cast<double>(pixel % pixel_columns_) + 0.5, static_cast<double>(row) + 0.5 + first_row);
   }
   Ray sample_ray(const Camera& camera, std::size_t sample, double first_row) const {
+    const std::size_t row = sample / columns();
     return camera.ray((static_cast<double>(sample % columns()) + 0.5) / samples,
-                      (static_cast<double>(sample / columns()) + 0.5) / samples + first_row);
+                      (static_cast<double>(row) + 0.5) / samples + first_row);
   }
   // Whether a pixel and the eight about it all show one triangle and one tile.
   bool is_even(std::size_t pixel) const {

@@ -106,7 +106,9 @@ namespace {
 
 // Where sample k of n lies from 0 to 1: two in each of n/2 strata.
 double in_stratum(std::uint32_t k, std::uint32_t n, double u) {
-  return std::min((k / 2 + u) / (n / 2), 1.0 - 0x1p-53);
+  const std::uint32_t stratum = k / 2;
+  const std::uint32_t strata = n / 2;
+  return std::min((stratum + u) / strata, 1.0 - 0x1p-53);
 }
 
 }  // namespace

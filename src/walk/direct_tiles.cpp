@@ -182,8 +182,9 @@ Seen share_seen(const Take& take, const Sure& sure, const Stream& stream, std::u
     samples.clear();
     for (std::uint32_t k = 0; k < 2 * s * s; ++k, ++drawn) {
       const Words words = stream.draw(number, drawn, Purpose::direct_place);
-      const std::uint32_t stratum = k / 2;
-      samples.push_back(take((stratum % s + unit_open(words[0])) / s, (stratum / s + unit_open(words[1])) / s, drawn));
+      const std::uint32_t column = k / 2 % s;
+      const std::uint32_t row = k / 2 / s;
+      samples.push_back(take((column + unit_open(words[0])) / s, (row + unit_open(words[1])) / s, drawn));
     }
     result = ratio_of(samples);
     if (result.standard_error > allowed) continue;
