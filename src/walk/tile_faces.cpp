@@ -48,8 +48,9 @@ Outlook TileFaces::start(std::uint64_t face, std::uint64_t sample, std::uint64_t
                          std::size_t i) const {
   const Words words = stream.draw(id, 0, Purpose::place);
   const std::uint64_t quarter = sample % group;
+  const std::uint64_t upper = quarter / 2;
   const double u = 0.5 * (static_cast<double>(quarter % 2) + unit_open(words[0]));
-  const double v = 0.5 * (static_cast<double>(quarter / 2) + unit_open(words[1]));
+  const double v = 0.5 * (static_cast<double>(upper) + unit_open(words[1]));
   const SurfacePlace spot = place(face, u, v);
   const TriangleOnFacet& facet = facets_[surface_number(face)][spot.triangle];
   const glm::vec2 st =
