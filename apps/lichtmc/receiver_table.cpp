@@ -48,7 +48,7 @@ Receiver parse_row(const std::string& where, const std::vector<std::string_view>
   Receiver receiver;
   for (int k = 0; k < 3; ++k) {
     receiver.position[k] = parse_number(fields[static_cast<std::size_t>(k)], where);
-    receiver.normal[k] = parse_number(fields[static_cast<std::size_t>(k + 3)], where);
+    receiver.normal[k] = parse_number(fields[static_cast<std::size_t>(k) + 3], where);
   }
   if (receiver.normal == glm::dvec3(0.0)) {
     throw InputError(where +
