@@ -2,6 +2,7 @@
 
 #include <array>
 #include <mutex>
+#include <system_error>
 #include <utility>
 
 #include <hdf5.h>
@@ -53,6 +54,13 @@ Handle space_of(Shape shape) {
   return {H5Screate_simple(shape.columns == 1 ? 1 : 2, sizes.data(), nullptr), H5Sclose, "describe an array"};
 }
 
+// A member of the group, and not a link to something elsewhere.
+void require_member(hid_t group, const char* name) {
+  H5L_info_t info{};
+  check(H5Lget_info(group, name, &info, H5P_DEFAULT), (std::string("find ") + name).c_str());
+  if (info.type != H5L_TYPE_HARD) throw Hdf5Error(std::string(name) + " is a link to something elsewhere");
+}
+
 Handle file_access() {
   Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up HDF5");
   check(H5Pset_fclose_degree(list, H5F_CLOSE_STRONG), "set up HDF5");
@@ -70,6 +78,7 @@ struct Hdf5File::Handles {
   Handle group;
   bool writes = false;
   std::uint64_t user_bytes = 0;
+  std::uint64_t file_bytes = 0;  // of a file to read
 
   Handles() {
     H5Eget_auto2(H5E_DEFAULT, &old_report, &old_data);
@@ -92,8 +101,15 @@ struct Hdf5File::Handles {
   Handle attribute(const char* name) const {
     Handle found(H5Aopen(group, name, H5P_DEFAULT), H5Aclose, "find an attribute");
     const Handle space(H5Aget_space(found), H5Sclose, "read an attribute");
-    if (H5Sget_simple_extent_npoints(space) != 1) throw Hdf5Error(std::string("attribute ") + name + " is no scalar");
+    if (H5Sget_simple_extent_type(space) != H5S_SCALAR)
+      throw Hdf5Error(std::string("attribute ") + name + " is no scalar");
     return found;
+  }
+  void read_attribute(const char* name, hid_t type, void* value) const {
+    const Handle found = attribute(name);
+    const Handle own(H5Aget_type(found), H5Tclose, "read an attribute");
+    if (H5Tequal(own, type) <= 0) throw Hdf5Error(std::string("attribute ") + name + " is of another type");
+    check(H5Aread(found, type, value), "read an attribute");
   }
   void write_array(const char* name, hid_t type, const void* values, Shape shape) const {
     const Handle space = space_of(shape);
@@ -104,10 +120,25 @@ struct Hdf5File::Handles {
                        "make an array");
     if (shape.rows > 0) check(H5Dwrite(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write an array");
   }
-  Handle array(const char* name) const { return {H5Dopen2(group, name, H5P_DEFAULT), H5Dclose, "find an array"}; }
+  Handle array(const char* name) const {
+    require_member(group, name);
+    return {H5Dopen2(group, name, H5P_DEFAULT), H5Dclose, "find an array"};
+  }
   void read_array(const char* name, hid_t type, void* values, Shape shape) const {
     const Handle found = array(name);
+    const Handle own(H5Dget_type(found), H5Tclose, "read an array");
+    if (H5Tequal(own, type) <= 0) throw Hdf5Error(std::string("array ") + name + " is of another type");
     if (shape.rows > 0) check(H5Dread(found, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "read an array");
+  }
+  // Whether the file itself has all that an array says it has, in one piece, as arrays are written.
+  bool is_stored(const Handle& array, std::uint64_t rows, std::uint64_t columns) const {
+    const Handle creation(H5Dget_create_plist(array), H5Pclose, "read an array");
+    if (H5Pget_layout(creation) != H5D_CONTIGUOUS || H5Pget_external_count(creation) != 0) return false;
+    if (rows == 0) return true;
+    if (rows > file_bytes / (columns * sizeof(std::uint64_t))) return false;
+    const std::uint64_t bytes = rows * columns * sizeof(std::uint64_t);
+    const haddr_t first = H5Dget_offset(array);
+    return H5Dget_storage_size(array) == bytes && first != HADDR_UNDEF && first <= file_bytes - bytes;
   }
 };
 
@@ -136,6 +167,9 @@ Hdf5File Hdf5File::in_memory(std::uint64_t user_bytes, std::uint64_t about) {
 Hdf5File::Hdf5File(const std::filesystem::path& file) : Hdf5File() {
   const Handle access = file_access();
   check(H5Pset_file_locking(access, false, true), "set up HDF5");
+  std::error_code unknown;
+  handles_->file_bytes = std::filesystem::file_size(file, unknown);
+  if (unknown) throw Hdf5Error("cannot open the file");
   handles_->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "open the file");
 }
 
@@ -155,6 +189,7 @@ std::string_view Hdf5File::image() {
 void Hdf5File::enter(const std::string& group) {
   Handles& h = *handles_;
   if (!h.writes || group == "/") {
+    if (group != "/") require_member(h.file, group.c_str());
     h.group = Handle(H5Gopen2(h.file, group.c_str(), H5P_DEFAULT), H5Gclose, "find a group");
     return;
   }
@@ -164,11 +199,15 @@ void Hdf5File::enter(const std::string& group) {
 }
 
 bool Hdf5File::has_group(const std::string& group) const {
-  return H5Lexists(handles_->file, group.c_str(), H5P_DEFAULT) > 0;
+  const htri_t exists = H5Lexists(handles_->file, group.c_str(), H5P_DEFAULT);
+  if (exists < 0) throw Hdf5Error("cannot look for a group");
+  return exists > 0;
 }
 
-bool Hdf5File::has_array(const char* array) const {
-  return H5Lexists(handles_->group, array, H5P_DEFAULT) > 0;
+std::uint64_t Hdf5File::members() const {
+  H5G_info_t info{};
+  check(H5Gget_info(handles_->file, &info), "list the groups");
+  return info.nlinks;
 }
 
 void Hdf5File::write(const char* attribute, std::uint64_t value) {
@@ -191,17 +230,19 @@ void Hdf5File::write(const char* array, const double* values, Shape shape) {
 }
 
 void Hdf5File::read(const char* attribute, std::uint64_t& value) {
-  check(H5Aread(handles_->attribute(attribute), H5T_NATIVE_UINT64, &value), "read an attribute");
+  handles_->read_attribute(attribute, H5T_NATIVE_UINT64, &value);
 }
 void Hdf5File::read(const char* attribute, double& value) {
-  check(H5Aread(handles_->attribute(attribute), H5T_NATIVE_DOUBLE, &value), "read an attribute");
+  handles_->read_attribute(attribute, H5T_NATIVE_DOUBLE, &value);
 }
 void Hdf5File::read(const char* attribute, std::string& text) {
   const Handle found = handles_->attribute(attribute);
   const Handle type(H5Aget_type(found), H5Tclose, "read text");
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
     throw Hdf5Error(std::string("attribute ") + attribute + " is no text of fixed length");
-  text.assign(H5Tget_size(type), '\0');
+  const std::size_t size = H5Tget_size(type);
+  if (size > handles_->file_bytes) throw Hdf5Error(std::string("attribute ") + attribute + " is longer than the file");
+  text.assign(size, '\0');
   check(H5Aread(found, type, text.data()), "read text");
   text.resize(text.find_first_of('\0') == std::string::npos ? text.size() : text.find_first_of('\0'));
 }
@@ -214,6 +255,9 @@ std::uint64_t Hdf5File::rows(const char* array, std::uint64_t columns) const {
   if (H5Sget_simple_extent_ndims(space) != wanted || H5Sget_simple_extent_dims(space, sizes.data(), nullptr) < 0 ||
       (columns != 1 && sizes[1] != columns))
     throw Hdf5Error(std::string("array ") + array + " has another shape");
+  if (!handles_->is_stored(found, sizes[0], columns))
+    throw Hdf5Error(std::string("array ") + array + " has " + std::to_string(sizes[0]) +
+                    " rows, which are not in the file as they should be");
   return sizes[0];
 }
 

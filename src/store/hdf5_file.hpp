@@ -2,6 +2,10 @@
 //
 // HDF5 keeps state for the whole process and may be called by one thread at a time: an Hdf5File holds a lock as long as
 // it lives. A file is made in memory: where a disk is full HDF5 1.10 cannot let go of a file on it any more.
+//
+// Reading takes only what writing makes: whole numbers, reals and text of the types that are written, groups and arrays
+// that are members of the file itself, arrays all of whose rows are in it. HDF5 would convert other types, follow links
+// to other files, and promise rows that nobody has written.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +18,7 @@
 
 namespace lichtmc {
 
-// What HDF5 has refused, a short text.
+// What HDF5 has refused, or what is not as states have it: a short text, the middle of a message.
 class Hdf5Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -42,6 +46,8 @@ class Hdf5File {
   // What follows is inside this group; "/" is the outermost. When writing it is made.
   void enter(const std::string& group);
   bool has_group(const std::string& group) const;
+  // How many groups and arrays the outermost group has.
+  std::uint64_t members() const;
 
   void write(const char* attribute, std::uint64_t value);
   void write(const char* attribute, double value);
@@ -52,8 +58,7 @@ class Hdf5File {
   void read(const char* attribute, std::uint64_t& value);
   void read(const char* attribute, double& value);
   void read(const char* attribute, std::string& text);
-  bool has_array(const char* array) const;
-  // How many rows there are; throws where columns or numbers are others.
+  // How many rows of so many columns there are, no more than the file has bytes for.
   std::uint64_t rows(const char* array, std::uint64_t columns) const;
   void read(const char* array, std::uint64_t* values, Shape shape);
   void read(const char* array, double* values, Shape shape);

@@ -1,4 +1,5 @@
 #include <memory>
+#include <new>
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
@@ -16,6 +17,9 @@ State read_state(const std::filesystem::path& file) {
   } catch (const Hdf5Error& error) {
     throw InputError("Cannot read the state " + in_quotes(file.string()) + ": " + error.what() +
                      " (allowed: a file state.h5 that lichtmc has written). Run anew.");
+  } catch (const std::bad_alloc&) {
+    throw RuntimeError("There is not enough memory to read the state " + in_quotes(file.string()) +
+                       ". Free some, or use a machine that has more.");
   }
 }
 

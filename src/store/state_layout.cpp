@@ -8,7 +8,8 @@
 #include <string_view>
 #include <type_traits>
 
-#include "base/checksum.hpp"
+#include "base/message.hpp"
+#include "store/state_check.hpp"
 
 namespace lichtmc {
 
@@ -19,6 +20,16 @@ static_assert(std::endian::native == std::endian::little, "integers of 128 bits 
 // A field of a thing that holds only 64-bit numbers, as rows of them.
 template <class Number, class Thing>
 constexpr std::uint64_t columns_of = sizeof(Thing) / sizeof(Number);
+
+// The beginning of a text, for messages.
+std::string printable(const std::string& text) {
+  constexpr std::size_t most = 40;
+  std::string shown = text.substr(0, most);
+  for (char& c : shown) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return in_quotes(shown);
+}
 
 class Writer {
  public:
@@ -77,12 +88,13 @@ class Reader {
   void field(const char* name, std::uint32_t& value) {
     std::uint64_t wide = 0;
     file_.read(name, wide);
-    if (wide > std::numeric_limits<std::uint32_t>::max()) refuse(name);
+    if (wide > std::numeric_limits<std::uint32_t>::max()) refuse(name, std::to_string(wide));
     value = static_cast<std::uint32_t>(wide);
   }
   void field(const char* name, bool& value) {
     std::uint64_t word = 0;
     file_.read(name, word);
+    if (word > 1) refuse(name, std::to_string(word));
     value = word != 0;
   }
   void field(const char* name, double& value) { file_.read(name, value); }
@@ -106,7 +118,7 @@ class Reader {
       value = one;
       return;
     }
-    refuse(name);
+    refuse(name, printable(word));
   }
   template <class Number, class Thing>
   void rows(const char* name, std::vector<Thing>& things) {
@@ -117,13 +129,14 @@ class Reader {
   template <class Thing>
   void wide(const char* name, Thing& thing) {
     constexpr std::uint64_t columns = columns_of<std::uint64_t, Thing>;
-    if (file_.rows(name, columns) != 1) refuse(name);
+    const std::uint64_t rows = file_.rows(name, columns);
+    if (rows != 1) throw Hdf5Error(std::string("array ") + name + " has " + std::to_string(rows) + " rows, not one");
     file_.read(name, reinterpret_cast<std::uint64_t*>(&thing), {1, columns});
   }
 
  private:
-  [[noreturn]] static void refuse(const char* name) {
-    throw Hdf5Error(std::string("the value of ") + name + " is not known");
+  [[noreturn]] static void refuse(const char* name, const std::string& value) {
+    throw Hdf5Error(std::string("the value of ") + name + " is not known: " + value);
   }
   Hdf5File& file_;
 };
@@ -151,6 +164,7 @@ void exchange_traced(Archive& archive, Count& traced) {
 // ErrorLook has an integer among its numbers: three columns of double hold it to 2⁵³.
 void exchange_looks(Writer& archive, const std::vector<ErrorLook>& looks) {
   std::vector<std::array<double, 3>> rows;
+  rows.reserve(looks.size());
   for (const ErrorLook& look : looks)
     rows.push_back({static_cast<double>(look.histories), look.seconds, look.rms_relative_error});
   archive.rows<double>("convergence", rows);
@@ -158,8 +172,11 @@ void exchange_looks(Writer& archive, const std::vector<ErrorLook>& looks) {
 void exchange_looks(Reader& archive, std::vector<ErrorLook>& looks) {
   std::vector<std::array<double, 3>> rows;
   archive.rows<double>("convergence", rows);
-  for (const auto& [histories, seconds, error] : rows)
+  for (const auto& [histories, seconds, error] : rows) {
+    if (!(histories >= 0.0 && histories < 0x1p64))
+      throw Hdf5Error("array convergence has a look after " + to_text(histories) + " histories");
     looks.push_back({static_cast<std::uint64_t>(histories), seconds, error});
+  }
 }
 
 template <class Archive, class Sums>
@@ -243,14 +260,12 @@ void exchange(Archive& archive, Data& data) {
   exchange_walks(archive, "/receivers", data.receivers);
 }
 
-// What other parts rely on: at least one range, in order, none within another.
-void check_ranges(const Walked& walked, const char* what) {
-  std::uint64_t end = 0;
-  for (const HistoryRange& range : walked.ranges) {
-    if (range.first < end || range.last < range.first) throw Hdf5Error(std::string("ranges of ") + what + " overlap");
-    end = range.last;
-  }
-  if (walked.ranges.empty()) throw Hdf5Error(std::string("ranges of ") + what + " are missing");
+// Groups and arrays that nobody has asked for would go unnoticed: what is missing may only have another name.
+void check_members(const Hdf5File& file, const StateData& data) {
+  const std::uint64_t known = 1U + (data.photons ? 1U : 0U) + (data.tile_walks ? 1U : 0U) + (data.receivers ? 1U : 0U);
+  if (file.members() != known)
+    throw Hdf5Error("it has " + std::to_string(file.members()) + " groups, of which " + std::to_string(known) +
+                    " are known");
 }
 
 }  // namespace
@@ -264,9 +279,8 @@ StateData read_layout(Hdf5File& file) {
   StateData data;
   Reader reader(file);
   exchange(reader, data);
-  if (data.photons) check_ranges(*data.photons, "photons");
-  if (data.tile_walks) check_ranges(*data.tile_walks, "tile_walks");
-  if (data.receivers) check_ranges(*data.receivers, "receivers");
+  check_members(file, data);
+  check_state(data);
   return data;
 }
 

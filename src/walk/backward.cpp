@@ -15,8 +15,6 @@ namespace lichtmc {
 
 namespace {
 
-constexpr std::uint64_t largest_score = std::uint64_t{1} << 50;
-
 // What backward photons are for, see kernel.hpp.
 template <class Policy, class Origins>
 class ReceiverGoal {

@@ -40,6 +40,8 @@ struct ReceiverSums {
 // most 2⁵⁰ units, 6·10⁷ times that; the sum of the squares of 2²⁴ rounds of four of the largest stays below 2¹²⁸.
 struct ReceiverScale {
   explicit ReceiverScale(const Room& room);
+  static constexpr std::uint64_t largest_score = std::uint64_t{1} << 50;
+
   double unit = 1.0;  // W/m² or lx
   std::uint64_t score(double irradiance) const;
 };

@@ -1,0 +1,153 @@
+#include "store/state_check.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "base/message.hpp"
+#include "chance/moments.hpp"
+#include "lichtmc/error.hpp"
+#include "run/settings_check.hpp"
+#include "store/hdf5_file.hpp"
+#include "store/photons_check.hpp"
+#include "store/possible_sums.hpp"
+#include "walk/tile_faces.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr std::uint64_t most_histories = std::uint64_t{1} << 63;  // as check_settings() allows
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw Hdf5Error(what);
+}
+
+// The same rules as for options. What their messages say after the value is about options.
+void check_settings_of(const StateData& data) {
+  try {
+    check_settings(data.settings);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    refuse("its settings are not sound. " + message.substr(0, message.find(" (")));
+  }
+  if (data.settings.ways == Ways::backward && data.settings.tiles == TileWalk::backward)
+    refuse("its settings ask for tiles to be walked from, and for no tiles");
+  if (data.engine == Engine::automatic) refuse("the engine that was used is given as 'auto'");
+}
+
+// Photons come first: a state that should have them does. Walks back from tiles or receivers may be missing where the
+// run was stopped before their first round.
+void check_groups(const StateData& data) {
+  const Settings& settings = data.settings;
+  const bool tiles = settings.ways != Ways::backward;
+  const bool photons = tiles && settings.tiles == TileWalk::forward;
+  if (data.photons && !photons) refuse("it has /photons, which its settings do not ask for");
+  if (data.tile_walks && (!tiles || photons)) refuse("it has /tile_walks, which its settings do not ask for");
+  if (data.receivers && settings.ways == Ways::forward) refuse("it has /receivers, which its settings do not ask for");
+  if (!data.photons && !data.tile_walks && !data.receivers)
+    refuse("it holds no walks: the run was stopped before the first were done");
+  if (photons && !data.photons) refuse("it has no /photons, which its settings ask for");
+}
+
+std::string in_words(const HistoryRange& range) {
+  return std::to_string(range.first) + ":" + std::to_string(range.last);
+}
+
+// In order, apart from each other, of whole batches but for the end of the last one.
+void check_ranges(const Walked& walked, const std::string& group, std::uint64_t batch) {
+  if (walked.ranges.empty()) refuse("ranges of " + group + " are missing");
+  for (std::size_t k = 0; k < walked.ranges.size(); ++k) {
+    const HistoryRange& range = walked.ranges[k];
+    if (range.last < range.first || range.last > most_histories)
+      refuse("the range " + in_words(range) + " of " + group + " does not end between its beginning and 2^63");
+    if (k > 0 && range.first <= walked.ranges[k - 1].last) {
+      refuse("the ranges " + in_words(walked.ranges[k - 1]) + " and " + in_words(range) + " of " + group +
+             " overlap or touch");
+    }
+    const bool is_last = k + 1 == walked.ranges.size();
+    if (range.first % batch != 0 || (!is_last && range.last % batch != 0))
+      refuse("the range " + in_words(range) + " of " + group + " is not one of whole batches of " +
+             std::to_string(batch));
+  }
+}
+
+// What walks in either direction have.
+void check_walked(const Settings& settings, const Walked& walked, const TraceCount& traced, const std::string& group) {
+  const std::string estimator(to_string(walked.estimator));
+  if (walked.estimator == Estimator::automatic) refuse("the estimator that " + group + " used is given as 'auto'");
+  // Parts that are merged are all cut off, or none is.
+  if (settings.max_bounces && walked.estimator != Estimator::weight)
+    refuse(group + " has the estimator '" + estimator + "', and its settings a number of bounces");
+  const auto is_time = [](double seconds) { return std::isfinite(seconds) && seconds >= 0.0; };
+  if (!is_time(walked.seconds)) refuse(group + " took " + to_text(walked.seconds) + " s");
+  for (const ErrorLook& look : walked.convergence) {
+    if (!is_time(look.seconds) || look.rms_relative_error < 0.0)
+      refuse("in convergence of " + group + " is an error of " + to_text(look.rms_relative_error) + " after " +
+             to_text(look.seconds) + " s");
+  }
+  if (traced.retraced > traced.rays || traced.shadow_rays > traced.rays - traced.retraced)
+    refuse(group + " has " + std::to_string(traced.rays) + " rays, fewer than of some kinds");
+}
+
+// The estimator that was asked for, where one was. (Receivers may have another: a sum of parts has the settings of the
+// first, and that one may have been stopped before it came to them.)
+void check_estimator(const Settings& settings, const Walked& walked, const std::string& group) {
+  if (settings.estimator == Estimator::automatic || settings.estimator == walked.estimator) return;
+  refuse(group + " has the estimator '" + std::string(to_string(walked.estimator)) + "', its settings have '" +
+         std::string(to_string(settings.estimator)) + "'");
+}
+
+void check_photons_of(const StateData& data) {
+  const Counted& photons = *data.photons;
+  const std::string group = "/photons";
+  check_walked(data.settings, photons, photons.totals->traced, group);
+  check_estimator(data.settings, photons, group);
+  check_ranges(photons, group, batch_histories);
+  if (photons.ranges.front().first != data.settings.first_history)
+    refuse("the range " + in_words(photons.ranges.front()) + " of " + group + " does not begin at first_history, " +
+           std::to_string(data.settings.first_history));
+  if (photons.pilot > most_histories || (photons.pilot > 0 && data.settings.estimator != Estimator::automatic))
+    refuse(group + " has a pilot of " + std::to_string(photons.pilot) +
+           " histories, which its settings do not ask for");
+  check_photons(photons, data.settings.direct, data.settings.max_bounces.has_value());
+}
+
+void check_walks(const Settings& settings, const BackwardState& walks, std::uint32_t group_size,
+                 const std::string& group) {
+  check_walked(settings, walks, walks.count.traced, group);
+  check_ranges(walks, group, 1);
+  if (walks.group != group_size)
+    refuse(group + " has rounds of " + std::to_string(walks.group) + " walks, not of " + std::to_string(group_size));
+  const std::uint64_t origins = walks.sums->size();
+  const std::uint64_t rounds = walks.size();
+  if (origins == 0 || rounds == 0) refuse(group + " has no origin, or no round");
+  if (rounds > std::numeric_limits<std::uint64_t>::max() / group_size / origins)
+    refuse(group + " has " + std::to_string(rounds) + " rounds from " + std::to_string(origins) +
+           " origins, too many to count");
+  if (walks.count.impacts > walks.count.traced.rays)
+    refuse(group + " has " + std::to_string(walks.count.impacts) + " impacts of " +
+           std::to_string(walks.count.traced.rays) + " rays");
+  const uint128 most = uint128{rounds} * group_size * ReceiverScale::largest_score;
+  for (std::uint64_t k = 0; k < origins; ++k) {
+    const ReceiverSums& sums = (*walks.sums)[k];
+    if (sums.sum > most || !are_possible(sums.sum, sums.squares, rounds))
+      refuse("row " + std::to_string(k) + " of sums in " + group + " is not the sums of " + std::to_string(rounds) +
+             " rounds");
+  }
+}
+
+}  // namespace
+
+void check_state(const StateData& data) {
+  check_settings_of(data);
+  check_groups(data);
+  if (data.photons) check_photons_of(data);
+  if (data.tile_walks) {
+    check_estimator(data.settings, *data.tile_walks, "/tile_walks");
+    check_walks(data.settings, *data.tile_walks, TileFaces::group, "/tile_walks");
+  }
+  if (data.receivers) check_walks(data.settings, *data.receivers, ReceiverOrigins::group, "/receivers");
+}
+
+}  // namespace lichtmc
