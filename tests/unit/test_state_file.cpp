@@ -1,17 +1,13 @@
 // state.h5: what is written is what is read, and nothing that was damaged is read at all.
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
 
-#include <unistd.h>
-
 #include "lichtmc/error.hpp"
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
+#include "support/state_files.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
@@ -19,29 +15,6 @@ using namespace lichtmc::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-// A file for one test.
-class Scratch {
- public:
-  Scratch() { fs::create_directories(folder_); }
-  ~Scratch() { fs::remove_all(folder_); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  fs::path file() const { return folder_ / "state.h5"; }
-
- private:
-  fs::path folder_ = fs::temp_directory_path() / ("lichtmc_state_file_" + std::to_string(::getpid()));
-};
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write_bytes(const fs::path& file, const std::string& bytes) {
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
 
 // A state with every part: photons with weights, receivers, a choice.
 State small_state() {
