@@ -175,6 +175,22 @@ void fill_in(Result& result, const Totals& totals, const Scores& scores) {
   result.surfaces = scores.surfaces(totals, result.tiles);
 }
 
+// Rooms that have the same fingerprint have as many tiles; other programs may have changed the file.
+void check_totals(const Counted& log, const Tiling& tiling, const Scene& scene) {
+  const Totals& totals = *log.totals;
+  if (totals.tiles.size() != tiling.tiles.size() || totals.maps.size() != tiling.maps.size()) {
+    throw InputError("The state has " + std::to_string(totals.tiles.size()) + " tiles, the room has " +
+                     std::to_string(tiling.tiles.size()) +
+                     " (allowed: as many). The state is not one of this room; run anew.");
+  }
+  const bool hits_apart = score_law(log.estimator, scene.has_maps()).hits == Hits::apart;
+  if (hits_apart == totals.hits.empty()) {
+    throw InputError(std::string("The state counts hits ") + (hits_apart ? "as" : "apart from") +
+                     " scores (allowed in this room, with the estimator '" + std::string(to_string(log.estimator)) +
+                     "': " + (hits_apart ? "apart" : "as scores") + "). The state is not one of this room; run anew.");
+  }
+}
+
 }  // namespace
 
 void walk_from_emitters(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
@@ -201,11 +217,7 @@ void walk_from_emitters(const Room& room, const Scene& scene, const Settings& se
   std::vector<Contender> contenders = contenders_for(room, scene, own, control, watch, result, direct);
   bool chosen_well = true;
   if (log) {
-    if (log->totals->tiles.size() != result.tiling.tiles.size() ||
-        log->totals->maps.size() != result.tiling.maps.size())
-      throw InputError("The state has " + std::to_string(log->totals->tiles.size()) + " tiles, the room has " +
-                       std::to_string(result.tiling.tiles.size()) +
-                       " (allowed: as many). The state is not one of this room; run anew.");
+    check_totals(*log, result.tiling, scene);
     contenders.front().crew->go_on_from(log->ranges, std::move(log->totals));
   } else {
     chosen_well = keep_best(contenders, settings.photons, watch, control.team, logbook, result);

@@ -132,6 +132,9 @@ struct WaysToGo {
   bool backward = false;
 };
 
+constexpr const char* tiles_left_out =
+    "The state has no walk for the tiles: the run was stopped while it chose their estimator. They are not among the "
+    "results; going on from it begins them anew.";
 constexpr const char* receivers_not_measured =
     "The run was stopped before the first walks back from the receivers: they were not measured.";
 constexpr const char* receivers_left_out =
@@ -195,6 +198,8 @@ Result simulate_checked(const Room& room, const Settings& settings, const Contro
     }
   }
   complete(result, room);
+  const bool tiles_missing = settings.ways != Ways::backward && !go.forward;
+  if (tiles_missing) result.warnings.emplace_back(tiles_left_out);
   if (!receivers_told) result.warnings.emplace_back(receivers_known ? receivers_left_out : receivers_not_measured);
   result.checkpoint_seconds = logbook.spent();
   result.state = logbook.close();

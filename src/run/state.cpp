@@ -249,8 +249,11 @@ class Merger {
         continue;
       }
       check_same_walk(*sum.photons, *counted, k);
-      if (totals->tiles.size() != counted->totals->tiles.size()) refuse(k, "have different numbers of tiles");
-      totals->add(*counted->totals);
+      const Totals& more = *counted->totals;
+      if (totals->tiles.size() != more.tiles.size() || totals->maps.size() != more.maps.size() ||
+          totals->hits.size() != more.hits.size())
+        refuse(k, "have different numbers of tiles");
+      totals->add(more);
     }
     if (!sum.photons) return;
     sum.photons->ranges = join(std::move(owned), batch_histories, "histories");

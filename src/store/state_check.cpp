@@ -36,8 +36,8 @@ void check_settings_of(const StateData& data) {
   if (data.engine == Engine::automatic) refuse("the engine that was used is given as 'auto'");
 }
 
-// Photons come first: a state that should have them does. Walks back from tiles or receivers may be missing where the
-// run was stopped before their first round.
+// Photons come first: a state that should have them does, but where the run was stopped while it chose an estimator.
+// Walks back from tiles or receivers may be missing where it was stopped before their first round.
 void check_groups(const StateData& data) {
   const Settings& settings = data.settings;
   const bool tiles = settings.ways != Ways::backward;
@@ -45,9 +45,9 @@ void check_groups(const StateData& data) {
   if (data.photons && !photons) refuse("it has /photons, which its settings do not ask for");
   if (data.tile_walks && (!tiles || photons)) refuse("it has /tile_walks, which its settings do not ask for");
   if (data.receivers && settings.ways == Ways::forward) refuse("it has /receivers, which its settings do not ask for");
-  if (!data.photons && !data.tile_walks && !data.receivers)
-    refuse("it holds no walks: the run was stopped before the first were done");
+  if (settings.estimator == Estimator::automatic) return;
   if (photons && !data.photons) refuse("it has no /photons, which its settings ask for");
+  if (!data.photons && !data.tile_walks && !data.receivers) refuse("it holds no walks");
 }
 
 std::string in_words(const HistoryRange& range) {

@@ -172,10 +172,11 @@ TEST_CASE("a state with other walks than its settings ask for is refused") {
                  {"it has /receivers, which", [](StateData& d) { d.settings.ways = Ways::forward; }},
                  {"it has no /photons, which", [](StateData& d) { d.photons.reset(); }},
                  {"it has /tile_walks, which", [](StateData& d) { d.tile_walks = d.receivers; }},
-                 {"it holds no walks: the run was stopped before",
+                 {"it holds no walks",
                   [](StateData& d) {
                     d.photons.reset();
                     d.receivers.reset();
+                    d.settings.ways = Ways::backward;
                   }},
                  {"the estimator that /photons used is given as 'auto'",
                   [](StateData& d) { d.photons->estimator = Estimator::automatic; }},
