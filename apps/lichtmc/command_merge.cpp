@@ -25,12 +25,38 @@ struct MergeOptions {
   AgainOptions again;
 };
 
-// One after the other, so that no more than two are in memory.
-State read_and_merge(const std::vector<fs::path>& files) {
+// Parts that were stopped before they had walked back from the receivers: beside parts that have they leave a gap.
+class Unfinished {
+ public:
+  void look_at(const State& state, const fs::path& file) {
+    if (state.receiver_histories() > 0) {
+      some_have_ = true;
+    } else {
+      files_.push_back(file);
+    }
+  }
+  void tell() const {
+    if (!some_have_) return;
+    for (const fs::path& file : files_)
+      std::cerr << "Warning: " << file.string()
+                << " has no walks back from the receivers, other parts have: it was stopped before. The results are "
+                   "sound without them. Go on with it by lichtmc resume, then merge again.\n";
+  }
+
+ private:
+  bool some_have_ = false;
+  std::vector<fs::path> files_;
+};
+
+// One after the other, so that no more than two and their sum are in memory.
+State read_and_merge(const std::vector<fs::path>& files, Unfinished& unfinished) {
   State sum = read_state(files.front());
+  unfinished.look_at(sum, files.front());
   std::string names = files.front().string();
   for (std::size_t k = 1; k < files.size(); ++k) {
-    sum = merge({std::move(sum), read_state(files[k])}, {names, files[k].string()});
+    State next = read_state(files[k]);
+    unfinished.look_at(next, files[k]);
+    sum = merge({std::move(sum), std::move(next)}, {names, files[k].string()});
     if (k < 3) names += ", " + files[k].string();
     if (k == 3) names += ", ...";
   }
@@ -49,16 +75,20 @@ void check_output(const fs::path& folder, const std::vector<fs::path>& files) {
 
 // A part that was forgotten makes the errors larger, nothing worse; but it should not go unnoticed.
 void tell_gaps(const State& state) {
-  const std::vector<HistoryRange> ranges = state.histories();
-  for (std::size_t k = 1; k < ranges.size(); ++k)
-    std::cerr << "The parts leave out histories " << ranges[k - 1].last << " to " << ranges[k].first - 1
-              << "; the results are sound without them.\n";
+  const auto tell = [](const std::vector<HistoryRange>& ranges, const std::string& what) {
+    for (std::size_t k = 1; k < ranges.size(); ++k)
+      std::cerr << "The parts leave out " << what << ' ' << ranges[k - 1].last << " to " << ranges[k].first - 1
+                << "; the results are sound without them.\n";
+  };
+  tell(state.histories(), "histories");
+  tell(state.receiver_rounds(), "walks back from the receivers, rounds");
 }
 
 void merge_states(const MergeOptions& options, const Started& started) {
   std::vector<fs::path> files;
   for (const std::string& name : options.states) files.push_back(state_file(name));
-  State state = read_and_merge(files);
+  Unfinished unfinished;
+  State state = read_and_merge(files, unfinished);
   const AgainOptions& again = options.again;
   const RunOptions run = options_of(state, files.front(), again);
   const fs::path folder =
@@ -67,6 +97,7 @@ void merge_states(const MergeOptions& options, const Started& started) {
   RunJob job = job_of(state, run, again, started.command_line);
   job.folder = folder;
   if (!job.quiet) tell_gaps(state);
+  unfinished.tell();
   const unsigned threads = parse_threads(again.threads);
   carry_out(job, [&](const Control& control) { return result_of(job.room, std::move(state), threads, control); });
 }

@@ -79,7 +79,23 @@ RunOptions options_of(const State& state, const fs::path& file, const AgainOptio
   return run;
 }
 
+namespace {
+
+// A file that the run was given and that is not where it was.
+void check_there(const std::string& file, const std::string& what, const std::string& option) {
+  std::error_code unknown;
+  if (fs::exists(file, unknown)) return;
+  throw InputError("Cannot find " + what + " " + file +
+                   ", which the run was given (allowed: the same, wherever it is). "
+                   "Say where it is with " +
+                   option + ".");
+}
+
+}  // namespace
+
 RunJob job_of(const State& state, const RunOptions& run, const AgainOptions& again, const std::string& command_line) {
+  if (!again.room) check_there(run.reading.file, "the room", "--room");
+  if (!again.receivers && run.receivers) check_there(*run.receivers, "the table of receivers", "--receivers");
   RunJob job;
   job.settings = state.settings();
   job.report = parse_report(run.looks, again.threads, command_line);

@@ -52,6 +52,8 @@ class State {
   const std::string& note() const;     // what write_state() was given
   // Histories from the emitters to the tiles, in order, apart from each other; none where no photon was counted.
   std::vector<HistoryRange> histories() const;
+  // Rounds of walks back, one from every receiver: in order, apart from each other.
+  std::vector<HistoryRange> receiver_rounds() const;
   // Histories back from the receivers, all together.
   std::uint64_t receiver_histories() const;
   double seconds() const;  // wall-clock time that it took, of all walks

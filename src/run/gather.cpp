@@ -25,8 +25,9 @@ constexpr std::uint64_t histories_at_a_time = 8192;
 
 [[noreturn]] void refuse_too_short() {
   throw StoppedTooSoon(
-      "The run was stopped before the direct light and the first walks back to it were done: there is no result. Give "
-      "it more time.");
+      "The run was stopped before its direct light and the first walks after it were done: there is no result, and "
+      "what "
+      "is in its folder stays as it was. Give it more time.");
 }
 
 // Rounds of a part of a run, so that parts side by side have every round once.
@@ -47,6 +48,20 @@ void check_rounds(const Settings& settings, std::uint64_t together, const std::s
   throw InputError("No walk back from " + name + " belongs to these histories (allowed: at least " +
                    std::to_string(together) +
                    " histories in a part, one round of all). Take greater parts, or --only forward.");
+}
+
+void check_whole(const Settings& settings, std::uint64_t together, const BackwardState& walks,
+                 const std::string& name) {
+  const std::uint64_t first = rounds_of(settings, together).first;
+  const HistoryRange& there = walks.ranges.front();
+  if (there.first == first && walks.ranges.size() == 1) return;
+  const std::uint64_t from = there.first == first ? there.last : first;
+  const std::uint64_t to = there.first == first ? walks.ranges[1].first : there.first;
+  throw InputError(
+      "The state has gaps: no walk back from " + name + " is there of rounds " + std::to_string(from) + " … " +
+      std::to_string(to - 1) +
+      " (allowed: rounds without gaps, to go on). Resume the part that was stopped before it had them, and "
+      "merge again.");
 }
 
 namespace {
@@ -131,6 +146,7 @@ void Gathering::go_on_from(const BackwardState& before) {
                      std::to_string(task_.origins) +
                      " (allowed: as many). The state is not one of this room; run anew.");
   }
+  if (!logbook_->only_read()) check_whole(settings_, together_, before, task_.name);
   found_.sums = before.sums.use_count() > 1 ? std::make_shared<std::vector<ReceiverSums>>(*before.sums)
                                             : std::const_pointer_cast<std::vector<ReceiverSums>>(before.sums);
   found_.count.traced.add(before.count.traced);

@@ -95,6 +95,10 @@ void check_receiver_rounds(const Room& room, const Settings& settings) {
   check_rounds(settings, room.receivers.size() * ReceiverOrigins::group, "the receivers");
 }
 
+void check_receivers_whole(const Room& room, const Settings& settings, const BackwardState& walks) {
+  check_whole(settings, room.receivers.size() * ReceiverOrigins::group, walks, "the receivers");
+}
+
 void receive(const Room& room, const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
              Logbook& logbook, Result& result) {
   const DirectLight light(room, *scene.tracer);

@@ -6,6 +6,7 @@
 #include "lichtmc/settings.hpp"
 #include "lichtmc/simulate.hpp"
 #include "run/logbook.hpp"
+#include "run/state_data.hpp"
 #include "run/stop_watch.hpp"
 #include "walk/scene.hpp"
 
@@ -13,6 +14,9 @@ namespace lichtmc {
 
 // Throws InputError where no walk from the receivers belongs to the histories of a part.
 void check_receiver_rounds(const Room& room, const Settings& settings);
+
+// Throws InputError where walks from the receivers are missing before those that there are, or between them.
+void check_receivers_whole(const Room& room, const Settings& settings, const BackwardState& walks);
 
 // Fills in Result::receiver_results and Result::backward. The room has receivers. Throws InputError naming a receiver
 // that lies on an emitter. Goes on from the walks that the logbook has, and leaves there what was found, as gather()

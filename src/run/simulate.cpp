@@ -136,7 +136,8 @@ constexpr const char* tiles_left_out =
     "The state has no walk for the tiles: the run was stopped while it chose their estimator. They are not among the "
     "results; going on from it begins them anew.";
 constexpr const char* receivers_not_measured =
-    "The run was stopped before the first walks back from the receivers: they were not measured.";
+    "The run was stopped before the first walks back from the receivers: they were not measured. Go on with it, and "
+    "give it more time than integrating their direct light takes.";
 constexpr const char* receivers_left_out =
     "The run was stopped before the direct light of the receivers was found anew: they are not among the results. The "
     "state has the walks back from them; going on from it brings them back.";
@@ -145,11 +146,15 @@ constexpr const char* receivers_left_out =
 // tell of the receivers: false then.
 bool receive_after_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
                          const Control& control, StopWatch& watch, Logbook& logbook) {
-  if (votes_for(control.team, control.stop.stop_requested()) > 0) return false;
+  if (votes_for(control.team, control.stop.stop_requested()) > 0) {
+    result.stopped_by = StopReason::interrupt;
+    return false;
+  }
   try {
     receive(room, scene, settings, control, watch, logbook, result);
     return true;
   } catch (const StoppedTooSoon&) {
+    result.stopped_by = watch.reason().value_or(StopReason::interrupt);
     return false;
   }
 }
@@ -255,8 +260,8 @@ void check_state_for(const Room& room, const State& state) {
   check_version(state);
   if (state.room() != fingerprint(room)) {
     throw InputError("The state is of another room than " + room.source +
-                     " as it is now (allowed: the same surfaces, reflectances, lamps and receivers). Give the room's "
-                     "file as it was, or run anew.");
+                     " as it is now (allowed: the same surfaces, reflectances, lamps and receivers, those of a table "
+                     "or a grid too). Give the files as they were, or run anew.");
   }
 }
 
@@ -270,7 +275,7 @@ StateData data_of(State&& state) {
 void refuse_gaps(const std::vector<HistoryRange>& ranges) {
   if (ranges.size() < 2) return;
   throw InputError(
-      "The state has gaps: nothing is there of " + std::to_string(ranges[0].last) + " … " +
+      "The state has gaps: nothing is there of histories " + std::to_string(ranges[0].last) + " … " +
       std::to_string(ranges[1].first - 1) +
       " (allowed: histories without gaps, to go on). Simulate what is missing with --histories, and merge.");
 }
@@ -291,8 +296,7 @@ Result resume(const Room& room, State state, const Settings& rules, const Contro
   settings.threads = rules.threads;
   StateData data = data_of(std::move(state));
   if (data.photons) refuse_gaps(data.photons->ranges);
-  if (data.tile_walks) refuse_gaps(data.tile_walks->ranges);
-  if (data.receivers) refuse_gaps(data.receivers->ranges);
+  if (data.receivers) check_receivers_whole(room, settings, *data.receivers);
   data.settings = settings;
   // Of all sessions: a later one subtracts what they have taken.
   if (settings.max_seconds) data.settings.max_seconds = seconds_before + *settings.max_seconds;

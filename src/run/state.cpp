@@ -35,6 +35,9 @@ std::uint64_t State::receiver_histories() const {
   const std::optional<BackwardState>& walks = data_->receivers;
   return walks ? walks->size() * walks->group * walks->sums->size() : 0;
 }
+std::vector<HistoryRange> State::receiver_rounds() const {
+  return data_->receivers ? data_->receivers->ranges : std::vector<HistoryRange>{};
+}
 double State::seconds() const {
   double sum = 0.0;
   if (data_->photons) sum += data_->photons->seconds;

@@ -128,6 +128,11 @@ class LongRuns(ProgramTest):
         self.assertFalse((out / "receivers.csv").exists())
         summary = json.loads((out / "summary.json").read_text())
         self.assertGreater(summary["histories"], 0)
+        self.assertEqual(summary["stopped_by"], "max-time")
+        # Beside a part that has them it leaves a gap, of which merge tells.
+        one = self.run_to("one", "--histories", "0:20480")
+        two = self.run_to("two", "--histories", "20480:40960")
+        self.assertNotIn("Warning", self.succeeds("merge", one, two, "-o", self.folder / "both"))
 
     def test_resume_after_the_time_is_over_keeps_what_there_is(self):
         """Time may be over when a run is killed: going on must not need more of it, though direct light is found anew."""

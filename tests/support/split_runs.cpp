@@ -68,8 +68,8 @@ Room room_to_split(Furniture furniture) {
   return room;
 }
 
-std::vector<Way> ways() {
-  std::vector<Way> all;
+std::vector<SplitRun> ways() {
+  std::vector<SplitRun> all;
   for (const Estimator estimator : {Estimator::weight, Estimator::collision, Estimator::absorption})
     all.push_back({Furniture::none, settings_of(estimator, Engine::cuboid, 50'001, 7)});
   for (const Estimator estimator : {Estimator::weight, Estimator::collision})
@@ -82,7 +82,7 @@ std::vector<Way> ways() {
   all.back().settings.max_bounces = 4;
   all.push_back({Furniture::board, settings_of(Estimator::collision, Engine::embree, 50'001, 10, 0.3)});
   all.back().settings.tiles = TileWalk::backward;
-  for (Way& way : all) way.settings.ways = Ways::all;
+  for (SplitRun& way : all) way.settings.ways = Ways::all;
   return all;
 }
 

@@ -18,14 +18,14 @@ enum class Furniture { none, board, textured_board };
 // Two emitters, different walls, two receivers.
 Room room_to_split(Furniture furniture);
 
-struct Way {
+struct SplitRun {
   Furniture kind = Furniture::none;
   Settings settings;
 };
 
 // Both tracers, all estimators, cut off or not, few tiles and many, direct light counted and integrated, tiles walked
 // from backward, textures and openings.
-std::vector<Way> ways();
+std::vector<SplitRun> ways();
 
 // The state as another process finds it.
 State written_and_read(const State& state);

@@ -84,7 +84,7 @@ TEST_CASE("a stop within the first walks back from the receivers keeps the tiles
 }
 
 TEST_CASE("where the time is over already, going on brings back all that the state has") {
-  for (const Way& way : ways()) {
+  for (const SplitRun& way : ways()) {
     const Room room = room_to_split(way.kind);
     const Result whole = simulate(room, way.settings);
     Settings over = way.settings;

@@ -1,10 +1,12 @@
 // However a run is split (into sessions, parts, members of a team), its figures are the same to the last bit. Nothing
 // here is a matter of chance: one history counted twice, or not at all, changes bits.
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "run/state_data.hpp"
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
 #include "support/split_runs.hpp"
@@ -14,7 +16,7 @@ using namespace lichtmc;
 using namespace lichtmc::test;
 
 TEST_CASE("a run that is resumed, from within a batch too, ends as one without interruption") {
-  for (const Way& way : ways()) {
+  for (const SplitRun& way : ways()) {
     const Room room = room_to_split(way.kind);
     const Result whole = simulate(room, way.settings);
     for (const std::uint64_t first : {std::uint64_t{1}, std::uint64_t{10'240}, std::uint64_t{33'333}}) {
@@ -31,7 +33,7 @@ TEST_CASE("a run that is resumed, from within a batch too, ends as one without i
 }
 
 TEST_CASE("every checkpoint of a run is a state that ends as the run does") {
-  for (const Way& way : ways()) {
+  for (const SplitRun& way : ways()) {
     const Room room = room_to_split(way.kind);
     Settings settings = way.settings;
     settings.photons = 400'000;
@@ -87,7 +89,7 @@ TEST_CASE("a run whose estimator was chosen keeps its choice and its looks") {
 }
 
 TEST_CASE("parts add up to one run, in any order and grouping") {
-  for (const Way& way : ways()) {
+  for (const SplitRun& way : ways()) {
     const Room room = room_to_split(way.kind);
     const Result whole = simulate(room, way.settings);
     std::vector<State> parts;
@@ -168,7 +170,8 @@ TEST_CASE("states that do not belong together are refused by what sets them apar
   // To go on there must be the same room, and no gap.
   CHECK_THROWS_WITH(resume(darker, one, settings), ContainsSubstring("another room"));
   const State gap = merge({one, part(room, settings, 20'480, 30'720).state}, {"one.h5", "two.h5"});
-  CHECK_THROWS_WITH(resume(room, gap, settings), ContainsSubstring("gaps: nothing is there of 10240 … 20479"));
+  CHECK_THROWS_WITH(resume(room, gap, settings),
+                    ContainsSubstring("gaps: nothing is there of histories 10240 … 20479"));
   CHECK(result_of(room, gap).histories == 20'480);
   // A part begins with a batch.
   CHECK_THROWS_WITH(part(room, settings, 1000, 20'480), ContainsSubstring("Begin at 0 or 1024"));
@@ -177,13 +180,35 @@ TEST_CASE("states that do not belong together are refused by what sets them apar
   CHECK_THROWS_WITH(part(room, other, 1024, 20'480), ContainsSubstring("'auto'"));
 }
 
+TEST_CASE("a sum that lacks walks back from the receivers cannot go on") {
+  const Room room = room_to_split(Furniture::none);
+  Settings settings = settings_of(Estimator::collision, Engine::cuboid, 10'240, 1);
+  settings.ways = Ways::all;
+  const std::vector<State> parts{part(room, settings, 0, 10'240).state, part(room, settings, 10'240, 20'480).state,
+                                 part(room, settings, 20'480, 30'720).state};
+  // Of one of them the receivers were not reached.
+  for (std::size_t missing = 0; missing < 2; ++missing) {
+    std::vector<State> some = parts;
+    StateData data = parts[missing].data();
+    data.receivers.reset();
+    some[missing] = State(std::make_shared<const StateData>(data));
+    const State sum = merge(some, {"a", "b", "c"});
+    CHECK(result_of(room, sum).histories == 30'720);
+    CHECK_THROWS_WITH(resume(room, sum, settings),
+                      ContainsSubstring(missing == 0 ? "rounds 0 … 5119" : "rounds 5120 … 10239"));
+  }
+  Settings longer = settings;
+  longer.photons = 40'960;
+  CHECK(same_figures(simulate(room, longer), resume(room, merge(parts, {"a", "b", "c"}), longer)));
+}
+
 TEST_CASE("a team of any size finds the same figures, and all its members do") {
-  std::vector<Way> all = ways();
-  Way chosen{Furniture::board, settings_of(Estimator::automatic, Engine::embree, 200'000, 4, 0.3)};
+  std::vector<SplitRun> all = ways();
+  SplitRun chosen{Furniture::board, settings_of(Estimator::automatic, Engine::embree, 200'000, 4, 0.3)};
   chosen.settings.target_error = 0.05;
   chosen.settings.ways = Ways::all;
   all.push_back(chosen);
-  for (const Way& way : all) {
+  for (const SplitRun& way : all) {
     const Room room = room_to_split(way.kind);
     const Result alone = simulate(room, way.settings);
     for (const unsigned size : {1U, 2U, 3U}) {
