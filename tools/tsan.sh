@@ -17,6 +17,6 @@ ctest --preset tsan -R "^($(IFS='|'; echo "${tests[*]}")):" -E "$statistics" "$@
 export TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp halt_on_error=1 second_deadlock_stack=1"
 out=build/tsan/run
 rm -rf "$out"
-timeout -s INT 10 build/tsan/bin/lichtmc run scenes/living_room.glb --tile 0.5 --photons 1G --checkpoint 0.2s -o "$out"
+timeout --preserve-status -s INT 10 build/tsan/bin/lichtmc run scenes/living_room.glb --tile 0.5 --photons 1G --checkpoint 0.2s -o "$out"
 build/tsan/bin/lichtmc resume "$out" --photons 1M
 echo "The program ran under the thread sanitizer without a report of it."
