@@ -151,7 +151,7 @@ ReportOptions parse_report(const LookOptions& looks, const std::optional<int>& t
   report.scale.colours = parse_colour_map(looks.colour_map.value_or("viridis"));
   if (looks.scale_max) {
     report.scale.high = parse_number(*looks.scale_max, "--scale-max");
-    if (!(*report.scale.high >= 1e-300 && *report.scale.high <= 1e300))
+    if (!(*report.scale.high >= least_scale_top && *report.scale.high <= greatest_scale_top))
       throw InputError("The top of the colour scale is " + *looks.scale_max +
                        " (allowed: a number above 0, from 1e-300 to 1e300, in lx or W/m^2). Give --scale-max such a "
                        "number, or leave it out.");

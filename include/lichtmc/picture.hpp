@@ -30,6 +30,10 @@ enum class ColourMap {
 
 enum class ScaleType { automatic, linear, logarithmic };
 
+// What the top of a scale may stand for: beyond, its legend would not have all its digits.
+inline constexpr double least_scale_top = 1e-300;
+inline constexpr double greatest_scale_top = 1e300;
+
 struct ScaleOptions {
   ColourMap colours = ColourMap::viridis;
   ScaleType type = ScaleType::automatic;  // logarithmic where the bright tiles would leave the others in the dark

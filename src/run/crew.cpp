@@ -51,9 +51,7 @@ void Crew::keep(Logbook& logbook) {
 }
 
 std::uint64_t Crew::histories() const {
-  std::uint64_t sum = range_.last - range_.first + ends_;
-  for (const HistoryRange& range : before_) sum += range.last - range.first;
-  return sum;
+  return range_.last - range_.first + ends_ + count_of(before_);
 }
 
 void Crew::simulate_up_to(std::uint64_t count) {
@@ -201,11 +199,7 @@ Counted Crew::state() {
   counted.ranges = before_;
   HistoryRange range = range_;
   // Where the last step was abandoned, what was collected before it: the sum counts its histories.
-  if (abandoned()) {
-    std::uint64_t before = 0;
-    for (const HistoryRange& earlier : before_) before += earlier.last - earlier.first;
-    range.last = range.first + (whole_->histories - before);
-  }
+  if (abandoned()) range.last = range.first + (whole_->histories - count_of(before_));
   range.last += ends_;
   counted.ranges.push_back(range);
   counted.totals = whole_;

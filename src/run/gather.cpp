@@ -14,6 +14,7 @@
 #include "run/forecast.hpp"
 #include "run/pilot.hpp"
 #include "run/reporter.hpp"
+#include "run/rounds.hpp"
 #include "run/team_work.hpp"
 
 namespace lichtmc {
@@ -29,42 +30,6 @@ constexpr std::uint64_t histories_at_a_time = 8192;
       "what "
       "is in its folder stays as it was. Give it more time.");
 }
-
-// Rounds of a part of a run, so that parts side by side have every round once.
-HistoryRange rounds_of(const Settings& settings, std::uint64_t together) {
-  const auto rounds = [together](std::uint64_t histories) {
-    return histories / together + (histories % together != 0 ? 1 : 0);
-  };
-  HistoryRange range{rounds(settings.first_history), rounds(settings.first_history + settings.photons)};
-  if (!settings.part) range.last = std::max<std::uint64_t>(2, range.last);
-  return range;
-}
-
-}  // namespace
-
-void check_rounds(const Settings& settings, std::uint64_t together, const std::string& name) {
-  const HistoryRange range = rounds_of(settings, together);
-  if (range.first < range.last) return;
-  throw InputError("No walk back from " + name + " belongs to these histories (allowed: at least " +
-                   std::to_string(together) +
-                   " histories in a part, one round of all). Take greater parts, or --only forward.");
-}
-
-void check_whole(const Settings& settings, std::uint64_t together, const BackwardState& walks,
-                 const std::string& name) {
-  const std::uint64_t first = rounds_of(settings, together).first;
-  const HistoryRange& there = walks.ranges.front();
-  if (there.first == first && walks.ranges.size() == 1) return;
-  const std::uint64_t from = there.first == first ? there.last : first;
-  const std::uint64_t to = there.first == first ? walks.ranges[1].first : there.first;
-  throw InputError(
-      "The state has gaps: no walk back from " + name + " is there of rounds " + std::to_string(from) + " … " +
-      std::to_string(to - 1) +
-      " (allowed: rounds without gaps, to go on). Resume the part that was stopped before it had them, and "
-      "merge again.");
-}
-
-namespace {
 
 class Gathering {
  public:
@@ -158,7 +123,7 @@ void Gathering::go_on_from(const BackwardState& before) {
   range_.first = before_.back().first;
   range_.last = std::max(range_.last, before_.back().last);
   before_.pop_back();
-  for (const HistoryRange& range : before_) rounds_before_ += range.last - range.first;
+  rounds_before_ = count_of(before_);
   reporter_.set_before(histories_of(found_.rounds));
 }
 

@@ -70,14 +70,6 @@ struct GatherTask {
   std::optional<BackwardState> StateData::*slot = nullptr;  // where the logbook has these walks
 };
 
-// Throws InputError where no round belongs to the histories of a part. together: walks in a round of all origins, which
-// are called `name`.
-void check_rounds(const Settings& settings, std::uint64_t together, const std::string& name);
-
-// Throws InputError where rounds are missing before those that there are, or between them: to go on is not possible
-// then. together, name: as above.
-void check_whole(const Settings& settings, std::uint64_t together, const BackwardState& walks, const std::string& name);
-
 // Walks until the first stop rule is met; goes on from the walks that the logbook has, and leaves there what was found.
 // Every origin gets as many walks; Settings::photons is the number of all
 // together. The same settings give the same sums for any number of threads. Estimator::automatic is replaced by the one

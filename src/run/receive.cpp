@@ -7,6 +7,7 @@
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
 #include "run/gather.hpp"
+#include "run/rounds.hpp"
 #include "run/surface_results.hpp"
 #include "run/tile_light.hpp"
 #include "walk/backward.hpp"

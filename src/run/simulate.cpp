@@ -89,10 +89,8 @@ void complete(Result& result, const Room& room) {
       "with --estimator weight --max-bounces N.");
 }
 
-double seconds_of(const std::optional<Counted>& walk) {
-  return walk ? walk->seconds : 0.0;
-}
-double seconds_of(const std::optional<BackwardState>& walk) {
+template <class Walk>
+double seconds_of(const std::optional<Walk>& walk) {
   return walk ? walk->seconds : 0.0;
 }
 

@@ -46,7 +46,7 @@ double State::seconds() const {
   return sum;
 }
 
-std::uint64_t Walked::size() const {
+std::uint64_t count_of(const std::vector<HistoryRange>& ranges) {
   std::uint64_t sum = 0;
   for (const HistoryRange& range : ranges) sum += range.last - range.first;
   return sum;

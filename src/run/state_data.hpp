@@ -15,6 +15,9 @@
 
 namespace lichtmc {
 
+// How many histories, or rounds, ranges have together.
+std::uint64_t count_of(const std::vector<HistoryRange>& ranges);
+
 // Of a walk in either direction.
 struct Walked {
   Estimator estimator = Estimator::collision;  // as used
@@ -24,7 +27,7 @@ struct Walked {
   std::vector<ErrorLook> convergence;
 
   // Histories, or rounds, of all ranges.
-  std::uint64_t size() const;
+  std::uint64_t size() const { return count_of(ranges); }
 };
 
 // Photons counted on tiles. Ranges are of histories; the totals are those of their whole batches.

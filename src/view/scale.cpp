@@ -51,9 +51,6 @@ constexpr double most_decades = 3.0;
 // Shares of the lit area that are brighter than the scale's top, and darker than the bottom of a logarithmic one.
 constexpr double above_top = 0.02;
 constexpr double below_bottom = 0.05;
-// Beyond these the bottom of a logarithmic scale, or a step above the top, would not be a number with all its digits.
-constexpr double least_top = 1e-300;
-constexpr double greatest_top = 1e300;
 
 }  // namespace
 
@@ -64,7 +61,7 @@ double ColourScale::share(double irradiance) const {
 }
 
 ColourScale choose_scale(const Result& result, const ScaleOptions& options) {
-  if (options.high && !(*options.high >= least_top && *options.high <= greatest_top)) {
+  if (options.high && !(*options.high >= least_scale_top && *options.high <= greatest_scale_top)) {
     throw InputError(
         "The top of the colour scale is " + to_text(*options.high) + " " +
         std::string(irradiance_unit(result.quantity)) +
