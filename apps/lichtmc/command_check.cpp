@@ -1,4 +1,4 @@
-// lichtmc check: what is in a room's file, what will be modelled, and what looks wrong.
+// lichtmc check: what is in a room's file, what will be modelled, and what report_arguments wrong.
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -146,8 +146,8 @@ int check(const CheckOptions& options) {
 }  // namespace
 
 void add_check_command(CLI::App& program, int& status) {
-  CLI::App* command =
-      program.add_subcommand("check", "Look a room over: what will be modelled, what looks wrong, what to do");
+  CLI::App* command = program.add_subcommand(
+      "check", "Look a room over: what will be modelled, what report_arguments wrong, what to do");
   auto options = std::make_shared<CheckOptions>();
   add_room_argument(*command, options->reading);
   command->add_flag("--json", options->json, "Everything as JSON, for programs");

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "go_on.hpp"
+#include "continue_run.hpp"
 #include "lichtmc/error.hpp"
 #include "quantities.hpp"
 #include "run_job.hpp"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct MergeOptions {
   std::vector<std::string> states;
-  AgainOptions again;
+  OverrideOptions overrides;
 };
 
 // Parts that were stopped before they had walked back from the receivers: beside parts that have they leave a gap.
@@ -84,33 +84,33 @@ void tell_gaps(const State& state) {
   tell(state.receiver_rounds(), "walks back from the receivers, rounds");
 }
 
-void merge_states(const MergeOptions& options, const Started& started) {
+void merge_states(const MergeOptions& options, const Invocation& invocation) {
   std::vector<fs::path> files;
   for (const std::string& name : options.states) files.push_back(state_file(name));
   Unfinished unfinished;
   State state = read_and_merge(files, unfinished);
-  const AgainOptions& again = options.again;
-  const RunOptions run = options_of(state, files.front(), again);
+  const OverrideOptions& overrides = options.overrides;
+  const RunOptions run = options_of(state, files.front(), overrides);
   const fs::path folder =
-      again.output.empty() ? fs::path(run.reading.file).stem().concat(".merged") : fs::path(again.output);
+      overrides.output.empty() ? fs::path(run.reading.file).stem().concat(".merged") : fs::path(overrides.output);
   check_output(folder, files);
-  RunJob job = job_of(state, run, again, started.command_line);
+  RunJob job = job_of(state, run, overrides, invocation.command_line);
   job.folder = folder;
   if (!job.quiet) tell_gaps(state);
   unfinished.tell();
-  const unsigned threads = parse_threads(again.threads);
-  carry_out(job, [&](const Control& control) { return result_of(job.room, std::move(state), threads, control); });
+  const unsigned threads = parse_threads(overrides.threads);
+  carry_out_run(job, [&](const Control& control) { return result_of(job.room, std::move(state), threads, control); });
 }
 
 }  // namespace
 
-void add_merge_command(CLI::App& program, const Started& started) {
+void add_merge_command(CLI::App& program, const Invocation& invocation) {
   CLI::App* command = program.add_subcommand("merge", "Add up the parts of a run that other machines have simulated");
   auto options = std::make_shared<MergeOptions>();
   command->add_option("states", options->states, "state.h5 of each part, or the folder that it is in")
       ->required()
       ->type_name("STATE");
-  add_again_options(*command, options->again, "Folder for the results [name of the room with .merged]", "How");
+  add_override_options(*command, options->overrides, "Folder for the results [name of the room with .merged]", "How");
   command->footer(
       "Parts are runs of the same room with the same settings and --histories A:B that do not overlap. In any order "
       "and\n"
@@ -120,7 +120,7 @@ void add_merge_command(CLI::App& program, const Started& started) {
       "  lichtmc run room.glb --histories 0:10240000 -o one            on one machine\n"
       "  lichtmc run room.glb --histories 10240000:20480000 -o two     on another\n"
       "  lichtmc merge one two -o both");
-  command->callback([options, &started] { merge_states(*options, started); });
+  command->callback([options, &invocation] { merge_states(*options, invocation); });
 }
 
 }  // namespace lichtmc::app

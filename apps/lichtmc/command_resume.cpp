@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "commands.hpp"
-#include "go_on.hpp"
+#include "continue_run.hpp"
 #include "lichtmc/error.hpp"
 #include "quantities.hpp"
 #include "run_job.hpp"
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct ResumeOptions {
   std::string state;
-  AgainOptions again;
+  OverrideOptions overrides;
   StopOptions stop;
   std::string checkpoint = "60s";
 };
@@ -39,13 +39,13 @@ Settings rules_for(const ResumeOptions& options, const State& state) {
     constexpr double at_once = 1e-9;
     rules.max_seconds = std::max(*rules.max_seconds - state.seconds(), at_once);
   }
-  rules.threads = parse_threads(options.again.threads);
+  rules.threads = parse_threads(options.overrides.threads);
   return rules;
 }
 
 // Where the results go. A copy of a state must not replace the state that it lies beside.
 fs::path folder_for(const ResumeOptions& options, const fs::path& file) {
-  if (!options.again.output.empty()) return options.again.output;
+  if (!options.overrides.output.empty()) return options.overrides.output;
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   std::error_code unknown;
   if (fs::exists(folder / "state.h5", unknown) && !fs::equivalent(folder / "state.h5", file, unknown))
@@ -55,23 +55,23 @@ fs::path folder_for(const ResumeOptions& options, const fs::path& file) {
   return folder;
 }
 
-void resume_run(const ResumeOptions& options, const Started& started) {
+void resume_run(const ResumeOptions& options, const Invocation& invocation) {
   const fs::path file = state_file(options.state);
   State state = read_state(file);
-  const RunOptions run = options_of(state, file, options.again);
+  const RunOptions run = options_of(state, file, options.overrides);
   const Settings rules = rules_for(options, state);
   const fs::path folder = folder_for(options, file);
-  RunJob job = job_of(state, run, options.again, started.command_line);
+  RunJob job = job_of(state, run, options.overrides, invocation.command_line);
   job.settings = rules;
   job.checkpoint_seconds = parse_checkpoint(options.checkpoint);
   job.folder = folder;
-  job.team = started.team;
-  carry_out(job, [&](const Control& control) { return resume(job.room, std::move(state), rules, control); });
+  job.communicator = invocation.communicator;
+  carry_out_run(job, [&](const Control& control) { return resume(job.room, std::move(state), rules, control); });
 }
 
 }  // namespace
 
-void add_resume_command(CLI::App& program, const Started& started) {
+void add_resume_command(CLI::App& program, const Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("resume", "Go on with a run that was interrupted, or that is to go further");
   auto options = std::make_shared<ResumeOptions>();
@@ -82,7 +82,7 @@ void add_resume_command(CLI::App& program, const Started& started) {
   add_stop_options(*command, options->stop);
   command->get_option("--photons")->description("Go on until there are so many light packets in all: 10M, 2G");
   add_checkpoint_option(*command, options->checkpoint, machine);
-  add_again_options(*command, options->again, "Folder for the results [that of STATE]", machine);
+  add_override_options(*command, options->overrides, "Folder for the results [that of STATE]", machine);
   command->footer(
       "Photons are counted from the start of the run: --photons 10M goes on until there are 10 million in all. Time "
       "is\n"
@@ -93,7 +93,7 @@ void add_resume_command(CLI::App& program, const Started& started) {
       "  lichtmc resume room.out                         after a power cut\n"
       "  lichtmc resume room.out --target-error 1%       further than before\n"
       "  lichtmc resume room.out --max-time 8h -o night");
-  command->callback([options, &started] { resume_run(*options, started); });
+  command->callback([options, &invocation] { resume_run(*options, invocation); });
 }
 
 }  // namespace lichtmc::app

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "commands.hpp"
-#include "go_on.hpp"
+#include "continue_run.hpp"
 #include "light_spec.hpp"
 #include "run_job.hpp"
 #include "run_options.hpp"
@@ -13,25 +13,25 @@ namespace lichtmc::app {
 
 namespace {
 
-void run(const RunOptions& options, const Started& started) {
+void run(const RunOptions& options, const Invocation& invocation) {
   const Settings settings = parse_settings(options);
   RunJob job;
   job.settings = settings;
-  job.report = parse_report(options.looks, options.threads, started.command_line);
-  job.with_report = wants_report(options.looks);
+  job.report = parse_report(options.report_arguments, options.threads, invocation.command_line);
+  job.with_report = wants_report(options.report_arguments);
   job.checkpoint_seconds = parse_checkpoint(options.checkpoint);
-  job.note = note_of(started.arguments);
+  job.note = note_of(invocation.arguments);
   job.quiet = options.quiet;
   job.folder = options.output.empty() ? std::filesystem::path(options.reading.file).stem().concat(".out")
                                       : std::filesystem::path(options.output);
-  job.team = started.team;
+  job.communicator = invocation.communicator;
   job.room = read_run_room(options);
-  carry_out(job, [&](const Control& control) { return simulate(job.room, settings, control); });
+  carry_out_run(job, [&](const Control& control) { return simulate(job.room, settings, control); });
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& program, const Started& started) {
+void add_run_command(CLI::App& program, const Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("run", "Simulate a room: irradiance of every tile, with its standard error");
   auto options = std::make_shared<RunOptions>();
@@ -48,7 +48,7 @@ void add_run_command(CLI::App& program, const Started& started) {
       "  lichtmc run office.glb --grid 0.85 --only backward --target-error 2%      desk height, nothing else\n"
       "  lichtmc run hall.glb --light point:5,3,5:8000lm --max-reflectance 0.9 -o out/hall\n"
       "Ctrl-C ends a run early and keeps what was simulated; a second Ctrl-C ends the program at once.");
-  command->callback([options, &started] { run(*options, started); });
+  command->callback([options, &invocation] { run(*options, invocation); });
 }
 
 }  // namespace lichtmc::app

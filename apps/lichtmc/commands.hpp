@@ -7,20 +7,20 @@
 
 #include <CLI/CLI.hpp>
 
-#include "lichtmc/team.hpp"
+#include "lichtmc/communicator.hpp"
 
 namespace lichtmc::app {
 
 // How the program was started. It outlives the commands.
-struct Started {
-  std::string command_line;            // such that a shell reads it as the same words
-  std::vector<std::string> arguments;  // the words behind the command's name
-  Team* team = nullptr;                // the processes that it shares a run with
+struct Invocation {
+  std::string command_line;              // such that a shell reads it as the same words
+  std::vector<std::string> arguments;    // the words behind the command's name
+  Communicator* communicator = nullptr;  // the processes that it shares a run with
 };
 
-void add_run_command(CLI::App& program, const Started& started);
-void add_resume_command(CLI::App& program, const Started& started);
-void add_merge_command(CLI::App& program, const Started& started);
+void add_run_command(CLI::App& program, const Invocation& invocation);
+void add_resume_command(CLI::App& program, const Invocation& invocation);
+void add_merge_command(CLI::App& program, const Invocation& invocation);
 void add_cuboid_command(CLI::App& program);
 void add_paths_command(CLI::App& program);
 void add_study_command(CLI::App& program);

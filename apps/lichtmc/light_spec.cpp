@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "lichtmc/error.hpp"
-#include "lichtmc/mend.hpp"
+#include "lichtmc/overrides.hpp"
 #include "quantities.hpp"
 
 namespace lichtmc::app {

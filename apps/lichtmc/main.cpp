@@ -6,9 +6,9 @@
 #include <string>
 
 #include "commands.hpp"
-#include "join_team.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/version.hpp"
+#include "process_group.hpp"
 
 namespace {
 
@@ -28,23 +28,23 @@ void check_command(CLI::App& program, int argc, char** argv) {
 }
 
 // Only runs are shared; other commands would be carried out by every process.
-void check_team(int argc, char** argv, const lichtmc::Team* team) {
-  if (team == nullptr || team->size() == 1 || argc < 2) return;
+void check_ranks_agree(int argc, char** argv, const lichtmc::Communicator* communicator) {
+  if (communicator == nullptr || communicator->size() == 1 || argc < 2) return;
   const std::string command = argv[1];
   if (command == "run" || command == "resume" || command[0] == '-') return;
   throw lichtmc::InputError("The command '" + command + "' is the work of one process, and " +
-                            std::to_string(team->size()) +
+                            std::to_string(communicator->size()) +
                             " were started (allowed: run and resume share their work). Start it without mpirun.");
 }
 
 // Slurm's srun connects the processes that it starts where it has PMIx; without, each believes to be alone.
-void warn_of_strangers(int argc, char** argv, const lichtmc::Team* team) {
+void warn_of_strangers(int argc, char** argv, const lichtmc::Communicator* communicator) {
   const auto number = [](const char* name) {
     const char* text = std::getenv(name);
     return text == nullptr ? -1 : std::atoi(text);
   };
   const bool runs = argc > 1 && (std::string(argv[1]) == "run" || std::string(argv[1]) == "resume");
-  if (!runs || team != nullptr || number("SLURM_STEP_NUM_TASKS") < 2 || number("SLURM_PROCID") != 0) return;
+  if (!runs || communicator != nullptr || number("SLURM_STEP_NUM_TASKS") < 2 || number("SLURM_PROCID") != 0) return;
   std::cerr << "Warning: srun has started " << number("SLURM_STEP_NUM_TASKS")
             << " processes that do not know of each other: each does all of the work. For one run together give srun "
                "--mpi=pmix, or use mpirun; for runs of their own give each another --output.\n";
@@ -67,7 +67,7 @@ std::string command_line(int argc, char** argv) {
   return line;
 }
 
-int run_program(int argc, char** argv, lichtmc::Team* team) {
+int run_program(int argc, char** argv, lichtmc::Communicator* communicator) {
   int status = 0;
   CLI::App program{
       "How much light arrives where in a room, and how sure is that number: lichtmc follows light packets from the\n"
@@ -80,13 +80,13 @@ int run_program(int argc, char** argv, lichtmc::Team* team) {
       "Start with:  lichtmc check room.glb, then lichtmc run room.glb\n"
       "More on a command:  lichtmc COMMAND --help\n"
       "Exit status: 0 done; 1 the run failed; 2 the command line or an input is wrong.");
-  lichtmc::app::Started started;
-  started.command_line = command_line(argc, argv);
-  if (argc > 2) started.arguments.assign(argv + 2, argv + argc);
-  started.team = team;
-  lichtmc::app::add_run_command(program, started);
-  lichtmc::app::add_resume_command(program, started);
-  lichtmc::app::add_merge_command(program, started);
+  lichtmc::app::Invocation invocation;
+  invocation.command_line = command_line(argc, argv);
+  if (argc > 2) invocation.arguments.assign(argv + 2, argv + argc);
+  invocation.communicator = communicator;
+  lichtmc::app::add_run_command(program, invocation);
+  lichtmc::app::add_resume_command(program, invocation);
+  lichtmc::app::add_merge_command(program, invocation);
   lichtmc::app::add_paths_command(program);
   lichtmc::app::add_study_command(program);
   lichtmc::app::add_cuboid_command(program);
@@ -94,8 +94,8 @@ int run_program(int argc, char** argv, lichtmc::Team* team) {
   lichtmc::app::add_compare_command(program, status);
   try {
     check_command(program, argc, argv);
-    check_team(argc, argv, team);
-    warn_of_strangers(argc, argv, team);
+    check_ranks_agree(argc, argv, communicator);
+    warn_of_strangers(argc, argv, communicator);
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help and --version
     program.exit(asked);
@@ -128,12 +128,12 @@ Fault fault_in_hand() {
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow further is a failed write, with a message
   try {
-    const lichtmc::app::ProcessTeam team;
+    const lichtmc::app::ProcessGroup communicator;
     try {
-      return run_program(argc, argv, team.get());
+      return run_program(argc, argv, communicator.get());
     } catch (...) {
       const Fault fault = fault_in_hand();
-      team.end(fault.message.c_str(), fault.status);
+      communicator.end(fault.message.c_str(), fault.status);
       throw;
     }
   } catch (...) {

@@ -79,7 +79,7 @@ void print_balance(const Result& result) {
 }
 
 void print_tiles(const Result& result) {
-  const bool forward = result.settings.tiles == TileWalk::forward;
+  const bool forward = result.settings.tile_walk == WalkDirection::forward;
   std::cerr << short_count(static_cast<double>(result.histories))
             << (forward ? " photons, " : " walks back from the tiles, ")
             << short_count(static_cast<double>(result.impacts)) << " impacts in " << figure(result.seconds) << " s ("

@@ -65,7 +65,7 @@ double ProgressLine::share_done(const Progress& progress) const {
 // What has been simulated, and how fast.
 std::string ProgressLine::work(const Progress& progress) const {
   const bool receivers = progress.stage == Progress::Stage::receivers;
-  const bool backward = receivers || settings_.tiles == TileWalk::backward;
+  const bool backward = receivers || settings_.tile_walk == WalkDirection::backward;
   const bool limited = progress.target < std::uint64_t{1} << 62;
   return short_count(static_cast<double>(progress.histories)) +
          (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") +

@@ -43,7 +43,7 @@ bool is_heading(const std::vector<std::string_view>& fields) {
 Receiver parse_row(const std::string& where, const std::vector<std::string_view>& fields, std::size_t number) {
   if (fields.size() < 6) {
     throw InputError(where + " has " + std::to_string(fields.size()) + " fields (allowed: " + form +
-                     "). Give the position in metres and the direction that the receiver looks to.");
+                     "). Give the position in metres and the direction that the receiver report_arguments to.");
   }
   Receiver receiver;
   for (int k = 0; k < 3; ++k) {
@@ -51,9 +51,10 @@ Receiver parse_row(const std::string& where, const std::vector<std::string_view>
     receiver.normal[k] = parse_number(fields[static_cast<std::size_t>(k) + 3], where);
   }
   if (receiver.normal == glm::dvec3(0.0)) {
-    throw InputError(where +
-                     " looks in the direction 0,0,0 (allowed: any other). Give the direction that the receiver "
-                     "looks to, for example 0,1,0 for upwards.");
+    throw InputError(
+        where +
+        " report_arguments in the direction 0,0,0 (allowed: any other). Give the direction that the receiver "
+        "report_arguments to, for example 0,1,0 for upwards.");
   }
   receiver.name = fields.size() > 6 ? std::string(fields[6]) : "";
   if (receiver.name.empty()) receiver.name = "receiver_" + std::to_string(number);

@@ -4,7 +4,7 @@
 
 #include "lichtmc/error.hpp"
 #include "lichtmc/gltf.hpp"
-#include "lichtmc/mend.hpp"
+#include "lichtmc/overrides.hpp"
 #include "light_spec.hpp"
 #include "quantities.hpp"
 

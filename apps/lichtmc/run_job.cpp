@@ -28,7 +28,7 @@ void write_checkpoint(const State& state, const RunJob& job) {
 }
 
 bool is_first(const RunJob& job) {
-  return job.team == nullptr || job.team->rank() == 0;
+  return job.communicator == nullptr || job.communicator->rank() == 0;
 }
 
 Result simulate_with(const RunJob& job, const std::stop_token& stop, ProgressLine::Show show,
@@ -36,7 +36,7 @@ Result simulate_with(const RunJob& job, const std::stop_token& stop, ProgressLin
   ProgressLine line(is_first(job) ? show : ProgressLine::Show::no, job.settings);
   Control control;
   control.stop = stop;
-  control.team = job.team;
+  control.communicator = job.communicator;
   if (is_first(job)) {
     control.progress = [&line](const Progress& progress) { line.update(progress); };
     control.checkpoint = [&job](const State& state) { write_checkpoint(state, job); };
@@ -80,7 +80,7 @@ void write_all(RunJob& job, Result& result, ProgressLine::Show show) {
 
 }  // namespace
 
-void carry_out(RunJob& job, const std::function<Result(const Control&)>& simulate) {
+void carry_out_run(RunJob& job, const std::function<Result(const Control&)>& simulate) {
   const InterruptWatch interrupt;
   const auto show = job.quiet ? ProgressLine::Show::no : ProgressLine::Show::yes;
   if (!is_first(job)) {
@@ -94,7 +94,7 @@ void carry_out(RunJob& job, const std::function<Result(const Control&)>& simulat
   }
   // A member that a signal ends while the first still writes would take it along.
   std::byte written{};
-  if (job.team != nullptr) job.team->share(std::span(&written, 1));
+  if (job.communicator != nullptr) job.communicator->broadcast(std::span(&written, 1));
 }
 
 }  // namespace lichtmc::app

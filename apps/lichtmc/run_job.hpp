@@ -21,12 +21,12 @@ struct RunJob {
   std::string note;  // for the state
   std::filesystem::path folder;
   bool quiet = false;
-  Team* team = nullptr;
+  Communicator* communicator = nullptr;
 };
 
 // Calls simulate with a control and writes what it returns: state.h5 first, for the work must not be lost. A signal to
 // stop does not keep it from writing. In a team the first member writes and speaks; the others only simulate, and wait
 // until it has written. A folder that was made for a run that is refused is removed again.
-void carry_out(RunJob& job, const std::function<Result(const Control&)>& simulate);
+void carry_out_run(RunJob& job, const std::function<Result(const Control&)>& simulate);
 
 }  // namespace lichtmc::app

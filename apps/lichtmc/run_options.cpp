@@ -31,23 +31,24 @@ Engine parse_engine(const std::string& text) {
                    "' is not known (allowed: auto, cuboid, embree, embree-fast). Give one of these to --engine.");
 }
 
-Ways parse_ways(const std::string& text) {
-  if (text == "forward") return Ways::forward;
-  if (text == "backward") return Ways::backward;
-  throw InputError(
-      "The way '" + text +
-      "' is not known (allowed: forward, backward). Give one of these to --only, or leave it out for both.");
+// "forward" and "backward" are the words of earlier versions.
+Measured parse_measured(const std::string& text) {
+  if (text == "tiles" || text == "forward") return Measured::tiles;
+  if (text == "receivers" || text == "backward") return Measured::receivers;
+  throw InputError("The value '" + text +
+                   "' of --only is not known (allowed: tiles, receivers). Give one of these, or leave --only out to "
+                   "measure both.");
 }
 
-TileWalk parse_tiles(const std::string& text) {
-  if (text == "forward") return TileWalk::forward;
-  if (text == "backward") return TileWalk::backward;
-  throw InputError("The way '" + text +
-                   "' to measure tiles is not known (allowed: forward, backward). Give one of these to --tiles.");
+WalkDirection parse_tiles(const std::string& text) {
+  if (text == "forward") return WalkDirection::forward;
+  if (text == "backward") return WalkDirection::backward;
+  throw InputError("The direction '" + text +
+                   "' of the walk for tiles is not known (allowed: forward, backward). Give one of these to --tiles.");
 }
 
-Direct parse_direct(const std::string& text, TileWalk tiles) {
-  if (text == "sampled" && tiles == TileWalk::backward) {
+Direct parse_direct(const std::string& text, WalkDirection tiles) {
+  if (text == "sampled" && tiles == WalkDirection::backward) {
     throw InputError(
         "Walks from the tiles do not count direct light (--direct sampled with --tiles backward; allowed: analytic). "
         "Leave out --direct.");
@@ -118,9 +119,9 @@ Settings parse_settings(const RunOptions& options) {
   settings.seed = parse_seed(options.seed, "--seed");
   settings.threads = parse_threads(options.threads);
   settings.engine = parse_engine(options.engine);
-  if (options.only) settings.ways = parse_ways(*options.only);
-  settings.tiles = parse_tiles(options.tiles);
-  if (options.direct) settings.direct = parse_direct(*options.direct, settings.tiles);
+  if (options.only) settings.measured = parse_measured(*options.only);
+  settings.tile_walk = parse_tiles(options.tiles);
+  if (options.direct) settings.direct = parse_direct(*options.direct, settings.tile_walk);
   return settings;
 }
 
@@ -143,30 +144,30 @@ ColourMap parse_colour_map(const std::string& text) {
 
 }  // namespace
 
-ReportOptions parse_report(const LookOptions& looks, const std::optional<int>& threads,
+ReportOptions parse_report(const ReportArguments& report_arguments, const std::optional<int>& threads,
                            const std::string& command_line) {
   ReportOptions report;
   report.command = command_line;
-  report.scale.type = parse_scale_type(looks.scale_type.value_or("auto"));
-  report.scale.colours = parse_colour_map(looks.colour_map.value_or("viridis"));
-  if (looks.scale_max) {
-    report.scale.high = parse_number(*looks.scale_max, "--scale-max");
+  report.scale.type = parse_scale_type(report_arguments.scale_type.value_or("auto"));
+  report.scale.colours = parse_colour_map(report_arguments.colour_map.value_or("viridis"));
+  if (report_arguments.scale_max) {
+    report.scale.high = parse_number(*report_arguments.scale_max, "--scale-max");
     if (!(*report.scale.high >= least_scale_top && *report.scale.high <= greatest_scale_top))
-      throw InputError("The top of the colour scale is " + *looks.scale_max +
+      throw InputError("The top of the colour scale is " + *report_arguments.scale_max +
                        " (allowed: a number above 0, from 1e-300 to 1e300, in lx or W/m^2). Give --scale-max such a "
                        "number, or leave it out.");
   }
-  if (looks.pictures && *looks.pictures != "exr")
-    throw InputError("The form of pictures '" + *looks.pictures +
+  if (report_arguments.pictures && *report_arguments.pictures != "exr")
+    throw InputError("The form of pictures '" + *report_arguments.pictures +
                      "' is not known (allowed: exr). Give it to --pictures, or leave it out for SVG and PNG.");
-  report.exr_pictures = looks.pictures.has_value();
+  report.exr_pictures = report_arguments.pictures.has_value();
   constexpr std::uint64_t most_paths = 10'000;
-  if (looks.paths) report.paths = parse_count(*looks.paths, "--paths");
+  if (report_arguments.paths) report.paths = parse_count(*report_arguments.paths, "--paths");
   if (report.paths > most_paths)
-    throw InputError("The number of photon paths is " + *looks.paths +
+    throw InputError("The number of photon paths is " + *report_arguments.paths +
                      " (allowed: 1 to 10000). Give --paths a smaller number.");
-  const bool asked = looks.scale_max || looks.pictures || looks.paths;
-  if (!wants_report(looks) && asked)
+  const bool asked = report_arguments.scale_max || report_arguments.pictures || report_arguments.paths;
+  if (!wants_report(report_arguments) && asked)
     throw InputError("--scale-max, --pictures and --paths are about the report (--no-report is given). Leave one out.");
   report.threads = parse_threads(threads);
   return report;
@@ -187,7 +188,7 @@ Room read_run_room(const RunOptions& options) {
   return room;
 }
 
-void LookOptions::override_with(const LookOptions& other) {
+void ReportArguments::override_with(const ReportArguments& other) {
   const auto take = [](auto& mine, const auto& theirs) {
     if (theirs) mine = theirs;
   };
@@ -229,7 +230,7 @@ void add_checkpoint_option(CLI::App& command, std::string& checkpoint, const std
       ->group(group);
 }
 
-void add_look_options(CLI::App& command, LookOptions& options) {
+void add_report_options(CLI::App& command, ReportArguments& options) {
   const std::string group = "The report: report.html, room_lit.glb and pictures/";
   command.add_flag("--report,!--no-report", options.report, "Write it [yes]")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
@@ -328,11 +329,9 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("--grid-spacing", options.grid_spacing, "Distance between points of the grid in metres [0.5]")
       ->type_name("M")
       ->group(points);
-  command.add_option("--only", options.only, "forward: tiles only; backward: receivers only")
-      ->type_name("WAY")
-      ->group(points);
+  command.add_option("--only", options.only, "Measure only these: tiles or receivers")->type_name("WAY")->group(points);
 
-  add_look_options(command, options.looks);
+  add_report_options(command, options.report_arguments);
   add_room_options(command, options.reading);
   command.add_flag("--quiet", options.quiet, "No progress, no summary; only errors");
 }

@@ -20,12 +20,12 @@ struct StopOptions {
 };
 
 // The report of a run. What is not given is empty, so that another command may keep what the run was given.
-struct LookOptions {
+struct ReportArguments {
   std::string report;  // "true" or "false"
   std::optional<std::string> pictures, paths, scale_max, scale_type, colour_map;
 
   // What is given there comes before what is given here.
-  void override_with(const LookOptions& other);
+  void override_with(const ReportArguments& other);
 };
 
 struct RunOptions {
@@ -42,14 +42,14 @@ struct RunOptions {
   std::optional<std::string> direct;
   std::string tiles = "forward";
   std::optional<std::string> receivers, grid, grid_spacing, only;
-  LookOptions looks;
+  ReportArguments report_arguments;
   std::string checkpoint = "60s";
   bool quiet = false;
 };
 
 void add_run_options(CLI::App& command, RunOptions& options);
 void add_stop_options(CLI::App& command, StopOptions& options);
-void add_look_options(CLI::App& command, LookOptions& options);
+void add_report_options(CLI::App& command, ReportArguments& options);
 void add_threads_option(CLI::App& command, std::optional<int>& threads, const std::string& group);
 void add_checkpoint_option(CLI::App& command, std::string& checkpoint, const std::string& group);
 
@@ -57,10 +57,10 @@ void add_checkpoint_option(CLI::App& command, std::string& checkpoint, const std
 Settings parse_settings(const RunOptions& options);
 // Into settings that are there: rules that are not given end nothing.
 void apply_stop_options(const StopOptions& options, Settings& settings);
-ReportOptions parse_report(const LookOptions& looks, const std::optional<int>& threads,
+ReportOptions parse_report(const ReportArguments& report_arguments, const std::optional<int>& threads,
                            const std::string& command_line);
-inline bool wants_report(const LookOptions& looks) {
-  return looks.report != "false";
+inline bool wants_report(const ReportArguments& report_arguments) {
+  return report_arguments.report != "false";
 }
 double parse_checkpoint(const std::string& text);
 

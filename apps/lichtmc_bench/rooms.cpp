@@ -87,7 +87,8 @@ Stage::Stage(Room room, const Settings& settings, double tile_edge_m)
     : room_(std::move(room)), tiling_(make_tiling(room_, tile_edge_m)) {
   scene_ = std::make_unique<Scene>(room_, tiling_, settings.engine);
   walk_ = make_walk(*scene_, settings);
-  tally_ = std::make_unique<Tally>(scene_->first_tile, score_law(settings.estimator, scene_->has_maps()).hits);
+  tally_ =
+      std::make_unique<Tally>(scene_->first_tile, score_law(settings.estimator, scene_->has_reflectance_maps()).hits);
 }
 
 double Stage::walk(double impacts) {

@@ -61,7 +61,7 @@ struct ReceiverResult {
 };
 
 // How far a run had come at some time.
-struct ErrorLook {
+struct ConvergencePoint {
   std::uint64_t histories = 0;
   double seconds = 0.0;             // as Result::seconds
   double rms_relative_error = 0.0;  // as Result::rms_relative_error, or BackwardResult's
@@ -78,7 +78,7 @@ struct BackwardResult {
   double rms_relative_error = 0.0;  // rms of the receivers' relative standard errors, over those that get light
   double figure_of_merit = 0.0;     // 1 / (rms_relative_error² · seconds), 1/s
   double histories_to_target = std::numeric_limits<double>::quiet_NaN();  // as Result::histories_to_target
-  std::vector<ErrorLook> convergence;                                     // on the way, the end as the last
+  std::vector<ConvergencePoint> convergence;                              // on the way, the end as the last
 };
 
 // Where the emitted power went, in W or lm: emitted = absorbed + escaped + residual + lost. Only photons from the
@@ -121,8 +121,8 @@ struct Result {
   // Histories that Settings::target_error is forecast to take, from the errors on the way; NaN where none was asked for
   // or no error is known.
   double histories_to_target = std::numeric_limits<double>::quiet_NaN();
-  std::vector<ErrorLook> convergence;    // of the tiles, on the way, the end as the last
-  std::uint64_t tiles_without_hits = 0;  // that no photon hit, or no walk found light from
+  std::vector<ConvergencePoint> convergence;  // of the tiles, on the way, the end as the last
+  std::uint64_t tiles_without_hits = 0;       // that no photon hit, or no walk found light from
 
   std::vector<TileResult> tiles;        // as Tiling::tiles; none where only the backward walk was run
   std::vector<SurfaceResult> surfaces;  // as Tiling::maps

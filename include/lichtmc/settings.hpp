@@ -5,6 +5,8 @@
 #include <optional>
 #include <string_view>
 
+#include "lichtmc/walk_direction.hpp"
+
 namespace lichtmc {
 
 // What a photon scores on its way (Wasow 1950; Forsythe and Leibler 1950). All three estimate the same irradiance.
@@ -23,11 +25,11 @@ enum class Engine {
   embree_fast,  // as embree, somewhat faster; a photon may slip between triangles that share an edge
 };
 
-// Which walks are run.
-enum class Ways {
-  all,       // forward to the tiles; backward from the receivers, where there are any
-  forward,   // tiles only
-  backward,  // receivers only
+// What is measured.
+enum class Measured {
+  all,        // tiles; and receivers, where there are any
+  tiles,      // tiles only
+  receivers,  // receivers only
 };
 
 // How the light that comes to a tile straight from the emitters is found.
@@ -36,20 +38,12 @@ enum class Direct {
   analytic,  // integrated over the tile, outside the statistics; the photons count what was reflected at least once
 };
 
-// Which walk measures the tiles.
-enum class TileWalk {
-  forward,   // photons from the emitters are counted where they land
-  backward,  // walks from random points of each tile back to the light; the direct light is integrated
-};
-
-// "weight", "collision", "absorption", "auto"; "auto", "cuboid", "embree", "embree-fast"; "all", "forward",
-// "backward"; "sampled", "analytic";
-// "forward", "backward".
+// "weight", "collision", "absorption", "auto"; "auto", "cuboid", "embree", "embree-fast"; "all", "tiles", "receivers";
+// "sampled", "analytic".
 std::string_view to_string(Estimator estimator);
 std::string_view to_string(Engine engine);
-std::string_view to_string(Ways ways);
+std::string_view to_string(Measured measured);
 std::string_view to_string(Direct direct);
-std::string_view to_string(TileWalk tiles);
 
 // The first stop rule to be met ends the run.
 struct Settings {
@@ -58,13 +52,13 @@ struct Settings {
   std::uint64_t first_history = 0;    // simulate those from this one on: a multiple of State::batch
   bool part = false;  // these histories are a part of a run that merge() completes: receivers get their share alone
   std::optional<double> target_error;  // stop when the rms_relative_error of the walk is at most this, > 0
-  std::optional<double>
-      max_seconds;  // stop after this wall-clock time, > 0; where both ways are walked, half of it each
-  Ways ways = Ways::all;
-  TileWalk tiles = TileWalk::forward;
+  std::optional<double> max_seconds;   // stop after this wall-clock time, > 0; half of it each for tiles and receivers
+  Measured measured = Measured::all;
+  WalkDirection tile_walk = WalkDirection::forward;  // of the walk that measures the tiles
   Direct direct = Direct::sampled;  // of forward tiles; that of backward tiles and receivers is always computed
-  std::optional<std::uint32_t>
-      max_bounces;           // weight only: end every history after this many flights, ≥ 1; default: roulette
+  // weight only: end every history after this many flights, ≥ 1; none: Russian roulette. (A bounce is a flight: the
+  // first one, from the emitter, counts.)
+  std::optional<std::uint32_t> max_bounces;
   double tile_edge_m = 0.1;  // m, > 0
   std::uint64_t seed = 1;
   unsigned threads = 0;  // 0: one per processor

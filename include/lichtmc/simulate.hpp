@@ -6,11 +6,11 @@
 #include <limits>
 #include <stop_token>
 
+#include "lichtmc/communicator.hpp"
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/state.hpp"
-#include "lichtmc/team.hpp"
 
 namespace lichtmc {
 
@@ -46,7 +46,7 @@ struct Control {
   double checkpoint_seconds = 60.0;
   // Members that share the run, or null. All get the result; callbacks are called by the first alone. A stop that one
   // of them asks for, or whose time is over, ends the run of all, within a second or so.
-  Team* team = nullptr;
+  Communicator* communicator = nullptr;
 };
 
 // Follows Settings::photons light packets through a room and returns the irradiance of every tile; and where the room
@@ -57,7 +57,7 @@ struct Control {
 // no state: several simulations may run at once in one process.
 //
 // Throws InputError where the room or a setting is not sound: see check_room(); ρ = 1 with the absorption estimator; a
-// closed room in which nothing absorbs; a receiver that lies on an emitter; Ways::backward without receivers;
+// closed room in which nothing absorbs; a receiver that lies on an emitter; Measured::receivers without receivers;
 // Engine::cuboid for a room that is no cuboid. Throws RuntimeError where memory or the tracing device fails.
 Result simulate(const Room& room, const Settings& settings = {}, const Control& control = {});
 

@@ -35,7 +35,7 @@ struct StudyOptions {
 // One run. Errors are relative, of the tiles' irradiance, area-weighted, over the tiles whose reference is known to
 // 10 % or better.
 struct StudyRow {
-  TileWalk direction = TileWalk::forward;
+  WalkDirection direction = WalkDirection::forward;
   Estimator estimator = Estimator::collision;
   Engine engine = Engine::embree;
   std::uint64_t histories = 0;

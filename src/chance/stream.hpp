@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "chance/philox.hpp"
+#include "lichtmc/walk_direction.hpp"
 
 namespace lichtmc {
 
@@ -21,14 +22,11 @@ enum class Purpose : std::uint32_t {
   direct_place = 7,   // words 0, 1: where on a tile.
 };
 
-// Which way a history goes: each has words of its own, so that results of both are independent.
-enum class Way : std::uint32_t { forward = 0, backward = 1 };
-
 class Stream {
  public:
-  explicit Stream(std::uint64_t seed, Way way = Way::forward)
+  explicit Stream(std::uint64_t seed, WalkDirection direction = WalkDirection::forward)
       : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
-        way_(static_cast<std::uint32_t>(way) << 16) {}
+        direction_(static_cast<std::uint32_t>(direction) << 16) {}
 
   Words draw(std::uint64_t history, std::uint32_t flight, Purpose purpose) const {
     return philox4x32_10(
@@ -38,11 +36,11 @@ class Stream {
 
   // What draw() feeds to Philox besides history and flight.
   const std::array<std::uint32_t, 2>& key() const { return key_; }
-  std::uint32_t word_of(Purpose purpose) const { return static_cast<std::uint32_t>(purpose) | way_; }
+  std::uint32_t word_of(Purpose purpose) const { return static_cast<std::uint32_t>(purpose) | direction_; }
 
  private:
   std::array<std::uint32_t, 2> key_;
-  std::uint32_t way_;
+  std::uint32_t direction_;
 };
 
 // Uniform in the open interval (0, 1), in steps of 2⁻³²: never 0, so that its logarithm is finite, and never 1.

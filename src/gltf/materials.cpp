@@ -135,8 +135,8 @@ void note_ignored_materials(const Document& document, const std::vector<bool>& u
     const auto note = [&](bool present, Effect effect, const char* what) {
       if (present) ignored.push_back({where + what, effect});
     };
-    const bool shines = read_emission(document, material, where).has_value();
-    note(material.emissiveTexture.index >= 0 && shines, Effect::figures,
+    const bool is_area_light = read_emission(document, material, where).has_value();
+    note(material.emissiveTexture.index >= 0 && is_area_light, Effect::figures,
          "its emissive texture is not read; it shines evenly, as its emissive factor says.");
     note(material.normalTexture.index >= 0, Effect::none, "its normal map is not modelled; surfaces are flat.");
     note(material.alphaMode == "BLEND" || material.alphaMode == "MASK", Effect::figures,

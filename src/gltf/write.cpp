@@ -180,7 +180,7 @@ void Writer::add_receiver(const Receiver& receiver) {
 
 // What a Room may hold and glTF cannot.
 void check_writable(const Room& room) {
-  std::vector<bool> shines(room.surfaces.size(), false);
+  std::vector<bool> is_area_light(room.surfaces.size(), false);
   for (const Emitter& emitter : room.emitters) {
     const auto* lambert = std::get_if<LambertEmitter>(&emitter.shape);
     const auto* surface = std::get_if<SurfaceEmitter>(&emitter.shape);
@@ -189,12 +189,12 @@ void check_writable(const Room& room) {
       throw InputError("The power or exponent of emitter " + in_quotes(emitter.name) +
                        " is not finite (a file holds finite numbers only). Use a large number, for example 1e30.");
     }
-    if (surface == nullptr || surface->surface >= shines.size()) continue;
-    if (shines[surface->surface]) {
+    if (surface == nullptr || surface->surface >= is_area_light.size()) continue;
+    if (is_area_light[surface->surface]) {
       throw InputError("Surface " + in_quotes(room.surfaces[surface->surface].name) +
                        " has two emitters (a file holds one for each surface). Add their powers.");
     }
-    shines[surface->surface] = true;
+    is_area_light[surface->surface] = true;
   }
 }
 

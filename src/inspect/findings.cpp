@@ -43,9 +43,9 @@ class Names {
   std::string text_;
 };
 
-class Reporter {
+class ProgressReporter {
  public:
-  Reporter(const Room& room, Inspection& facts) : room_(room), facts_(facts) {}
+  ProgressReporter(const Room& room, Inspection& facts) : room_(room), facts_(facts) {}
 
   void report() {
     size();
@@ -88,7 +88,7 @@ class Reporter {
   Inspection& facts_;
 };
 
-void Reporter::size() {
+void ProgressReporter::size() {
   const glm::dvec3 size = facts_.high - facts_.low;
   const std::string is = "The room is " + size_text(size) + " (x, height y, z)";
   if (const auto unit = guess_unit(size)) {
@@ -107,14 +107,14 @@ void Reporter::size() {
   add(Severity::note, "size", is + ".", "Where it is not, give --scale the length of the file's unit in metres.");
 }
 
-void Reporter::up_axis() {
+void ProgressReporter::up_axis() {
   if (!facts_.looks_z_up) return;
   add(Severity::warning, "up-axis",
       "Most of what is flat lies across Z, not across Y: the room seems to lie on its side.",
       "Give --up z where Z is up in the program it comes from, or export it with Y up.");
 }
 
-void Reporter::emitters() {
+void ProgressReporter::emitters() {
   // What check_room() said of it, with a place for a lamp.
   const auto fault = std::find_if(facts_.findings.begin(), facts_.findings.end(),
                                   [](const Finding& f) { return f.topic == "emitters"; });
@@ -150,14 +150,14 @@ void Reporter::emitters() {
       "'power' says it in lm.");
 }
 
-void Reporter::receivers() {
+void ProgressReporter::receivers() {
   if (room_.receivers.empty()) return;
   add(Severity::note, "receivers",
       to_text(room_.receivers.size(), "receiver") + ", the first " + in_quotes(room_.receivers.front().name) + ".",
       "A run measures the tiles and at the receivers.");
 }
 
-void Reporter::not_modelled() {
+void ProgressReporter::not_modelled() {
   for (const Ignored& thing : room_.ignored) {
     const bool matters = thing.effect == Effect::figures;
     add(matters ? Severity::warning : Severity::note, "not-modelled", thing.what,
@@ -166,7 +166,7 @@ void Reporter::not_modelled() {
   }
 }
 
-void Reporter::openings() {
+void ProgressReporter::openings() {
   if (facts_.flights == 0) return;
   if (facts_.flights_that_left == 0) {
     add(Severity::note, "openings", "None of " + std::to_string(facts_.flights) + " flights of light left the room.",
@@ -185,7 +185,7 @@ void Reporter::openings() {
       "Light that leaves does not come back. Where that is no window, door or open side, close the room there.");
 }
 
-void Reporter::open_edges() {
+void ProgressReporter::open_edges() {
   if (facts_.open_edges == 0) return;
   Names places;
   for (const glm::dvec3& p : facts_.open_edge_places) places.add(text_of(p));
@@ -197,7 +197,7 @@ void Reporter::open_edges() {
             : "Nothing to do: no light left the room through them.");
 }
 
-void Reporter::seen_from_behind() {
+void ProgressReporter::seen_from_behind() {
   constexpr double mostly = 0.5;
   Names away;
   for (const SurfaceFacts& surface : facts_.surfaces) {
@@ -223,7 +223,7 @@ void Reporter::seen_from_behind() {
   }
 }
 
-void Reporter::duplicates() {
+void ProgressReporter::duplicates() {
   if (facts_.duplicate_triangles == 0) return;
   add(Severity::warning, "duplicates",
       to_text(facts_.duplicate_triangles, "triangle") +
@@ -232,7 +232,7 @@ void Reporter::duplicates() {
       "all where they have different materials.");
 }
 
-void Reporter::zero_area() {
+void ProgressReporter::zero_area() {
   if (facts_.triangles_without_area == 0) return;
   add(Severity::note, "zero-area",
       to_text(facts_.triangles_without_area, "triangle") + " of " +
@@ -240,7 +240,7 @@ void Reporter::zero_area() {
       "Nothing to do: no light can fall on them.");
 }
 
-void Reporter::reflectances() {
+void ProgressReporter::reflectances() {
   constexpr double doubtful = 0.95;  // fresh snow; white paint has 0.85
   std::map<std::string, double> high;
   for (const SurfaceFacts& surface : facts_.surfaces) {
@@ -260,7 +260,7 @@ void Reporter::reflectances() {
       "with 1/(1 − ρ): from 0.9 to 0.99 tenfold.");
 }
 
-void Reporter::texture_coordinates() {
+void ProgressReporter::texture_coordinates() {
   // By what is wrong with them: the first words of the reason.
   std::map<std::string, Names> by_fault;
   for (const SurfaceFacts& surface : facts_.surfaces) {
@@ -275,7 +275,7 @@ void Reporter::texture_coordinates() {
   }
 }
 
-void Reporter::tiles() {
+void ProgressReporter::tiles() {
   if (facts_.tiles == 0) return;
   constexpr double large = 2e9;
   add(facts_.memory_bytes > large ? Severity::warning : Severity::note, "tiles",
@@ -285,7 +285,7 @@ void Reporter::tiles() {
                                   : "Give --tile another length for more or fewer of them.");
 }
 
-void Reporter::shape() {
+void ProgressReporter::shape() {
   const std::string closed = facts_.closed ? "It is closed" : "It is not closed, or not all light starts inside";
   if (facts_.cuboid) {
     add(Severity::note, "shape", "The room is an empty cuboid.", "Nothing to do: flights have a closed form.");
@@ -300,7 +300,7 @@ void Reporter::shape() {
 }  // namespace
 
 void add_findings(const Room& room, Inspection& facts) {
-  Reporter(room, facts).report();
+  ProgressReporter(room, facts).report();
 }
 
 void add_fault(const std::string& message, const std::string& topic, std::vector<Finding>& findings) {

@@ -14,8 +14,8 @@
 #include "room/reflectance.hpp"
 #include "room/room_check.hpp"
 #include "room/welded_mesh.hpp"
+#include "walk/non_absorbing_enclosure.hpp"
 #include "walk/scene.hpp"
-#include "walk/trap.hpp"
 
 namespace lichtmc {
 
@@ -104,7 +104,7 @@ void shoot_rays(const Room& room, const Tiling& tiling, bool own_light, Inspecti
     if (result.impacts[k] == 0) continue;
     facts.surfaces[k].seen_from_behind = static_cast<double>(result.behind[k]) / static_cast<double>(result.impacts[k]);
   }
-  if (traps_light(scene, 1)) add_trap(facts.findings);
+  if (has_non_absorbing_enclosure(scene, 1)) add_trap(facts.findings);
 }
 
 }  // namespace

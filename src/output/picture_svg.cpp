@@ -116,9 +116,9 @@ class Overlay {
       svg += circle(p, 5.0, "fill=\"#fff7c2\" stroke=\"#000\" stroke-width=\"1.5\"", emitter.name + ": " + power);
       for (int ray = 0; ray < 8; ++ray) {
         const double angle = 0.785398163 * ray;
-        const glm::dvec2 way(std::cos(angle), std::sin(angle));
-        svg += svg_line(p.x + 7.0 * way.x, p.y + 7.0 * way.y, p.x + 11.0 * way.x, p.y + 11.0 * way.y,
-                        "stroke=\"#000\" stroke-width=\"1.5\"");
+        const glm::dvec2 direction(std::cos(angle), std::sin(angle));
+        svg += svg_line(p.x + 7.0 * direction.x, p.y + 7.0 * direction.y, p.x + 11.0 * direction.x,
+                        p.y + 11.0 * direction.y, "stroke=\"#000\" stroke-width=\"1.5\"");
       }
       if (n <= most_names) svg += svg_text(p.x + 14.0, p.y + 4.0, power, " class=\"halo\" font-size=\"12\"");
     }

@@ -37,7 +37,7 @@ std::string opening(const Room& room, const Result& result) {
     figures += figure("± " + percent(result.rms_relative_error),
                       "standard error of a tile (rms), " + to_text(result.tiles.size(), "tile"));
     figures += figure(short_count(result.histories),
-                      (result.settings.tiles == TileWalk::forward ? "photons in " : "walks in ") +
+                      (result.settings.tile_walk == WalkDirection::forward ? "photons in " : "walks in ") +
                           short_number(result.seconds) + " s");
   }
   if (!result.receiver_results.empty()) {

@@ -67,10 +67,10 @@ std::string shares_svg(const std::vector<Share>& shares, double emitted, const s
   return svg + "</svg>\n";
 }
 
-ChartSeries series_of(const std::string& name, const std::vector<ErrorLook>& looks) {
+ChartSeries series_of(const std::string& name, const std::vector<ConvergencePoint>& points) {
   ChartSeries series{name, {}};
-  for (const ErrorLook& look : looks)
-    series.points.push_back({static_cast<double>(look.histories), 100.0 * look.rms_relative_error});
+  for (const ConvergencePoint& point : points)
+    series.points.push_back({static_cast<double>(point.histories), 100.0 * point.rms_relative_error});
   return series;
 }
 

@@ -24,7 +24,7 @@ std::string settings_section(const Room& room, const Result& result) {
   if (!result.tiles.empty()) {
     row("edge of a tile", short_number(s.tile_edge_m) + " m");
     row("tiles measured",
-        s.tiles == TileWalk::forward ? "by photons from the emitters" : "by walks back from the tiles");
+        s.tile_walk == WalkDirection::forward ? "by photons from the emitters" : "by walks back from the tiles");
     row("direct light", direct_is_apart(result) ? "integrated" : "counted with all other light");
     row("photons", std::to_string(result.histories));
     row("impacts", std::to_string(result.impacts));

@@ -151,7 +151,7 @@ void write_summary(const Room& room, const Result& result, const Sink& sink) {
       {"ignored", texts_of(result.ignored)}};
   summary["processes"] = result.processes;
   summary["checkpoint_seconds"] = number(result.checkpoint_seconds);
-  summary["tiles_by"] = std::string(to_string(result.settings.tiles));
+  summary["tiles_by"] = std::string(to_string(result.settings.tile_walk));
   summary["direct"] = std::string(to_string(direct_is_apart(result) ? Direct::analytic : Direct::sampled));
   summary["shadow_rays"] = result.shadow_rays + result.backward.shadow_rays;
   summary["choices"] = result.choices;

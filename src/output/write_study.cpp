@@ -31,7 +31,7 @@ std::string csv_of(const Study& study) {
 
 std::string name_of(const StudyRow& row) {
   std::string name = std::string(to_string(row.direction)) + ", " + std::string(to_string(row.estimator));
-  if (row.direction == TileWalk::forward && row.direct == Direct::analytic) name += ", direct integrated";
+  if (row.direction == WalkDirection::forward && row.direct == Direct::analytic) name += ", direct integrated";
   return name + ", " + std::string(to_string(row.engine));
 }
 

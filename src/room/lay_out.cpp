@@ -70,7 +70,7 @@ class Parts {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
   double cost(const Bounds& bounds) const;
-  void offer(std::size_t a, std::size_t b);
+  void consider(std::size_t a, std::size_t b);
   void join(std::size_t a, std::size_t b);
 
   double edge_m_;
@@ -96,7 +96,7 @@ Parts::Parts(const Patch& patch, const std::vector<bool>& counts, const MeshLink
   }
   for (std::size_t n = 0; n < parts_.size(); ++n) {
     for (const std::size_t other : parts_[n].neighbours) {
-      if (other > n) offer(n, other);
+      if (other > n) consider(n, other);
     }
   }
 }
@@ -108,7 +108,7 @@ double Parts::cost(const Bounds& bounds) const {
   return cells.x * cells.y;
 }
 
-void Parts::offer(std::size_t a, std::size_t b) {
+void Parts::consider(std::size_t a, std::size_t b) {
   Bounds both = parts_[a].bounds;
   both.add(parts_[b].bounds);
   // What is no more than rounding is no loss: slivers must find a place, and strips in line grow together.
@@ -136,7 +136,7 @@ void Parts::join(std::size_t a, std::size_t b) {
   }
   small.neighbours.clear();
   small.triangles.clear();
-  for (const std::size_t other : large.neighbours) offer(std::min(a, other), std::max(a, other));
+  for (const std::size_t other : large.neighbours) consider(std::min(a, other), std::max(a, other));
 }
 
 std::vector<std::vector<std::size_t>> Parts::grow() {

@@ -26,7 +26,7 @@ std::string options_of(const StudyRow& row) {
   std::string text =
       " --tile " + short_number(row.tile_edge_m) + " --estimator " + std::string(to_string(row.estimator));
   if (row.max_bounces) text += " --max-bounces " + std::to_string(*row.max_bounces);
-  if (row.direction == TileWalk::backward) {
+  if (row.direction == WalkDirection::backward) {
     text += " --tiles backward";
   } else if (row.direct == Direct::analytic) {
     text += " --direct analytic";

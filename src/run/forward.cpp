@@ -9,49 +9,49 @@
 
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
-#include "run/crew.hpp"
+#include "run/collectives.hpp"
 #include "run/forecast.hpp"
 #include "run/pilot.hpp"
 #include "run/scores.hpp"
 #include "run/surface_results.hpp"
-#include "run/team_work.hpp"
 #include "run/tile_light.hpp"
+#include "run/worker_threads.hpp"
 
 namespace lichtmc {
 
 namespace {
 
 // One estimator at work. Histories are numbered the same with all of them: those of a pilot are the first of the run.
-struct Contender {
+struct Candidate {
   Settings settings;
   Scores scores;
-  std::unique_ptr<Crew> crew;
+  std::unique_ptr<WorkerThreads> workers;
 };
 
-std::vector<Contender> contenders_for(const Room& room, const Scene& scene, const Settings& settings,
-                                      const Control& control, StopWatch& watch, const Result& result,
-                                      const std::vector<TileDirect>& direct) {
-  std::vector<Contender> contenders;
+std::vector<Candidate> make_candidates(const Room& room, const Scene& scene, const Settings& settings,
+                                       const Control& control, StopWatch& watch, const Result& result,
+                                       const std::vector<TileDirect>& direct) {
+  std::vector<Candidate> candidates;
   for (const Estimator estimator : candidates_for(room, settings)) {
     Settings own = settings;
     own.estimator = estimator;
-    contenders.push_back({own, Scores(room, result.tiling, score_law(estimator, scene.has_maps()), direct),
-                          std::make_unique<Crew>(scene, own, control, watch, result.threads)});
+    candidates.push_back({own, Scores(room, result.tiling, score_law(estimator, scene.has_reflectance_maps()), direct),
+                          std::make_unique<WorkerThreads>(scene, own, control, watch, result.threads)});
   }
-  return contenders;
+  return candidates;
 }
 
 double known_of(const TileResult& tile) {
   return std::isnan(tile.direct) ? 0.0 : tile.direct;
 }
 
-Pilot outcome(const Contender& contender) {
-  const Totals& totals = contender.crew->totals();
+Pilot outcome(const Candidate& candidate) {
+  const Totals& totals = candidate.workers->totals();
   Pilot pilot;
-  pilot.estimator = contender.settings.estimator;
+  pilot.estimator = candidate.settings.estimator;
   pilot.flights = static_cast<double>(totals.traced.rays);
   if (totals.histories == 0) return pilot;
-  for (const TileResult& tile : contender.scores.tiles(totals)) {
+  for (const TileResult& tile : candidate.scores.tiles(totals)) {
     pilot.values.push_back(tile.irradiance - known_of(tile));
     pilot.hits.push_back(static_cast<double>(tile.hits));
     pilot.errors.push_back(tile.hits > 0 ? tile.standard_error : 0.0);
@@ -59,7 +59,7 @@ Pilot outcome(const Contender& contender) {
   return pilot;
 }
 
-Choice choose_for_tiles(std::vector<Pilot>& pilots, const Contender& contender, const Tiling& tiling) {
+Choice choose_for_tiles(std::vector<Pilot>& pilots, const Candidate& candidate, const Tiling& tiling) {
   CountedTiles tiles;
   tiles.maps = tiling.maps.size();
   for (const Tile& tile : tiling.tiles) {
@@ -68,23 +68,23 @@ Choice choose_for_tiles(std::vector<Pilot>& pilots, const Contender& contender, 
   }
   std::vector<double> means = likely_values(pilots, tiles);
   make_errors_likely(pilots, means, tiles);
-  const std::vector<TileResult> found = contender.scores.tiles(contender.crew->totals());
+  const std::vector<TileResult> found = candidate.scores.tiles(candidate.workers->totals());
   for (std::size_t t = 0; t < means.size(); ++t) means[t] += known_of(found[t]);
   return choose_best(pilots, means, tiles.areas, "the tiles");
 }
 
 // Leaves the contender that does best; it goes on from where its pilot has ended. False where a stop came before that
 // was known: another session must not go on with what an uninterrupted run might not have chosen.
-bool keep_best(std::vector<Contender>& contenders, std::uint64_t photons, const StopWatch& watch, Team* team,
-               Logbook& logbook, Result& result) {
-  Counted& log = logbook.data().photons.emplace();
+bool keep_best(std::vector<Candidate>& candidates, std::uint64_t photons, const StopWatch& watch,
+               Communicator* communicator, RunRecord& record, Result& result) {
+  Counted& log = record.data().photons.emplace();
   bool chosen = true;
-  if (contenders.size() > 1) {
+  if (candidates.size() > 1) {
     std::vector<Pilot> pilots;
-    for (Contender& contender : contenders) {
-      contender.crew->set_stage(Progress::Stage::pilot);
-      contender.crew->simulate_up_to(std::min(pilot_histories(photons, contender.settings.estimator), photons));
-      pilots.push_back(outcome(contender));
+    for (Candidate& candidate : candidates) {
+      candidate.workers->set_stage(Progress::Stage::pilot);
+      candidate.workers->simulate_up_to(std::min(pilot_histories(photons, candidate.settings.estimator), photons));
+      pilots.push_back(outcome(candidate));
       if (watch.reason()) break;
     }
     Choice choice;
@@ -94,24 +94,24 @@ bool keep_best(std::vector<Contender>& contenders, std::uint64_t photons, const 
                       "' was taken for the tiles: the run ended before all were tried. To go on from there begins the "
                       "run anew.";
     } else {
-      choice = choose_for_tiles(pilots, contenders.front(), result.tiling);
+      choice = choose_for_tiles(pilots, candidates.front(), result.tiling);
     }
-    share(team, choice.best);
+    broadcast(communicator, choice.best);
     log.choice = choice.reason;
-    std::swap(contenders.front(), contenders[choice.best]);
-    contenders.erase(contenders.begin() + 1, contenders.end());
-    contenders.front().crew->set_stage(Progress::Stage::tiles);
-    log.pilot = contenders.front().crew->histories();
+    std::swap(candidates.front(), candidates[choice.best]);
+    candidates.erase(candidates.begin() + 1, candidates.end());
+    candidates.front().workers->set_stage(Progress::Stage::tiles);
+    log.pilot = candidates.front().workers->histories();
   }
-  log.estimator = contenders.front().settings.estimator;
+  log.estimator = candidates.front().settings.estimator;
   return chosen;
 }
 
 // Numbers of histories after which errors are looked at. They depend on nothing but the settings, the tiles and the
 // pilot, so that a run ends at the same history for any number of threads, members and sessions.
-class Looks {
+class CheckSchedule {
  public:
-  Looks(const Settings& settings, std::size_t tiles, std::uint64_t pilot)
+  CheckSchedule(const Settings& settings, std::size_t tiles, std::uint64_t pilot)
       : settings_(&settings), look_(std::min(std::max(first(tiles), pilot), settings.photons)) {}
 
   std::uint64_t now() const { return look_; }
@@ -137,28 +137,28 @@ class Looks {
 };
 
 // Simulates until the first stop rule is met.
-StopReason run_until_stopped(const Contender& contender, const StopWatch& watch, Team* team, Counted& log,
-                             Result& result) {
-  const Settings& settings = contender.settings;
-  Crew& crew = *contender.crew;
-  Looks looks(settings, result.tiling.tiles.size(), log.pilot);
+StopReason run_until_stopped(const Candidate& candidate, const StopWatch& watch, Communicator* communicator,
+                             Counted& log, Result& result) {
+  const Settings& settings = candidate.settings;
+  WorkerThreads& workers = *candidate.workers;
+  CheckSchedule looks(settings, result.tiling.tiles.size(), log.pilot);
   // What an earlier session has simulated it has looked at.
-  while (looks.now() < crew.histories() && !looks.is_last()) looks.advance();
+  while (looks.now() < workers.histories() && !looks.is_last()) looks.advance();
   Forecast forecast;
   for (;; looks.advance()) {
-    crew.simulate_up_to(looks.now());
+    workers.simulate_up_to(looks.now());
     if (watch.reason()) return *watch.reason();
     if (looks.is_last() && !settings.target_error) return StopReason::photons;
-    const double error = rms_relative_error(result.tiling, contender.scores.tiles(crew.totals()));
+    const double error = rms_relative_error(result.tiling, candidate.scores.tiles(workers.totals()));
     log.convergence.push_back({looks.now(), watch.seconds(), error});
     if (settings.target_error) {
       forecast.look(looks.now(), error);
       result.histories_to_target = forecast.histories_to(*settings.target_error);
       bool reached = error <= *settings.target_error;
-      share(team, reached);
+      broadcast(communicator, reached);
       if (reached) return StopReason::target_error;
     }
-    crew.set_error(error, result.histories_to_target);
+    workers.set_error(error, result.histories_to_target);
     if (looks.is_last()) return StopReason::photons;
   }
 }
@@ -183,7 +183,7 @@ void check_totals(const Counted& log, const Tiling& tiling, const Scene& scene) 
                      std::to_string(tiling.tiles.size()) +
                      " (allowed: as many). The state is not one of this room; run anew.");
   }
-  const bool hits_apart = score_law(log.estimator, scene.has_maps()).hits == Hits::apart;
+  const bool hits_apart = score_law(log.estimator, scene.has_reflectance_maps()).hits == Hits::apart;
   if (hits_apart == totals.hits.empty()) {
     throw InputError(std::string("The state counts hits ") + (hits_apart ? "as" : "apart from") +
                      " scores (allowed in this room, with the estimator '" + std::string(to_string(log.estimator)) +
@@ -194,16 +194,16 @@ void check_totals(const Counted& log, const Tiling& tiling, const Scene& scene) 
 }  // namespace
 
 void walk_from_emitters(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
-                        StopWatch& watch, Logbook& logbook, Result& result) {
-  std::optional<Counted>& log = logbook.data().photons;
+                        StopWatch& watch, RunRecord& record, Result& result) {
+  std::optional<Counted>& log = record.data().photons;
   std::vector<TileDirect> direct;
   if (settings.direct == Direct::analytic) {
     // Going on takes it anew, however little time there is left: without it the photons would be lost.
     if (log) watch.suspend_limit();
     TraceCount count;
     const double began = watch.seconds();
-    direct =
-        TileLight(room, result.tiling, scene, settings, Way::forward).of_tiles(control, result.threads, watch, count);
+    direct = TileLight(room, result.tiling, scene, settings, WalkDirection::forward)
+                 .of_tiles(control, result.threads, watch, count);
     result.rays = count.rays;
     result.shadow_rays = count.shadow_rays;
     result.direct_seconds = watch.seconds() - began;
@@ -214,24 +214,24 @@ void walk_from_emitters(const Room& room, const Scene& scene, const Settings& se
     own.estimator = log->estimator;
     own.photons = std::max(own.photons, log->size());
   }
-  std::vector<Contender> contenders = contenders_for(room, scene, own, control, watch, result, direct);
+  std::vector<Candidate> candidates = make_candidates(room, scene, own, control, watch, result, direct);
   bool chosen_well = true;
   if (log) {
     check_totals(*log, result.tiling, scene);
-    contenders.front().crew->go_on_from(log->ranges, std::move(log->totals));
+    candidates.front().workers->go_on_from(log->ranges, std::move(log->totals));
   } else {
-    chosen_well = keep_best(contenders, settings.photons, watch, control.team, logbook, result);
+    chosen_well = keep_best(candidates, settings.photons, watch, control.communicator, record, result);
   }
-  const Contender& chosen = contenders.front();
-  Crew& crew = *chosen.crew;
-  crew.keep(logbook);
-  if (logbook.only_read()) {
-    crew.simulate_ends();
+  const Candidate& chosen = candidates.front();
+  WorkerThreads& workers = *chosen.workers;
+  workers.keep(record);
+  if (record.only_read()) {
+    workers.simulate_ends();
     result.stopped_by = StopReason::photons;
   } else {
-    result.stopped_by = run_until_stopped(chosen, watch, control.team, *log, result);
+    result.stopped_by = run_until_stopped(chosen, watch, control.communicator, *log, result);
   }
-  const Totals& totals = crew.totals();
+  const Totals& totals = workers.totals();
   if (totals.histories == 0) {
     throw RuntimeError(
         "The run was stopped before the first photon was simulated: there is no result. Give it more time.");
@@ -240,7 +240,7 @@ void walk_from_emitters(const Room& room, const Scene& scene, const Settings& se
   result.estimator = log->estimator;
   if (!log->choice.empty()) result.choices.push_back(log->choice);
   fill_in(result, totals, chosen.scores);
-  const Counted counted = crew.state();
+  const Counted counted = workers.state();
   log->ranges = counted.ranges;
   log->totals = counted.totals;
   log->seconds = result.seconds;

@@ -5,7 +5,7 @@
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/simulate.hpp"
-#include "run/logbook.hpp"
+#include "run/run_record.hpp"
 #include "run/stop_watch.hpp"
 #include "walk/scene.hpp"
 
@@ -15,6 +15,6 @@ namespace lichtmc {
 // photons that the logbook has, and leaves there what was counted in the end. Throws RuntimeError where the run is
 // stopped before the first photon is simulated.
 void walk_from_emitters(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
-                        StopWatch& watch, Logbook& logbook, Result& result);
+                        StopWatch& watch, RunRecord& record, Result& result);
 
 }  // namespace lichtmc

@@ -11,11 +11,11 @@
 
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
+#include "run/collectives.hpp"
 #include "run/forecast.hpp"
 #include "run/pilot.hpp"
-#include "run/reporter.hpp"
+#include "run/progress_reporter.hpp"
 #include "run/rounds.hpp"
-#include "run/team_work.hpp"
 
 namespace lichtmc {
 
@@ -35,7 +35,7 @@ class Gathering {
  public:
   // logbook: null for a pilot.
   Gathering(const GatherTask& task, const Settings& settings, const Control& control, StopWatch& watch,
-            unsigned threads, Logbook* logbook)
+            unsigned threads, RunRecord* record)
       : task_(task),
         settings_(settings),
         control_(control),
@@ -43,9 +43,9 @@ class Gathering {
         threads_(threads),
         together_(task.origins * task.group),
         range_(rounds_of(settings, together_)),
-        logbook_(logbook),
+        record_(record),
         reporter_(control, watch, task.stage, histories_of(range_.last - range_.first)) {
-    found_.sums = std::make_shared<std::vector<ReceiverSums>>(task.origins);
+    found_.sums = std::make_shared<std::vector<BackwardSums>>(task.origins);
     found_.group = task.group;
     found_.unit = task.unit;
     found_.estimator = settings.estimator;
@@ -65,7 +65,7 @@ class Gathering {
   StopReason simulate();
   void simulate_up_to(std::uint64_t rounds);
   bool simulate_step(std::uint64_t rounds);
-  void take_rounds(std::uint64_t first, std::uint64_t last, std::vector<ReceiverSums>& step_sums,
+  void take_rounds(std::uint64_t first, std::uint64_t last, std::vector<BackwardSums>& step_sums,
                    BackwardCount& step_count);
   void write_down(StateData& data) const;
 
@@ -76,10 +76,10 @@ class Gathering {
   unsigned threads_;
   std::uint64_t together_;  // walks in a round of all origins
   HistoryRange range_;      // of rounds, that there are to simulate
-  Logbook* logbook_;
+  RunRecord* record_;
   std::vector<HistoryRange> before_;  // earlier ranges than the one that grows
   std::uint64_t rounds_before_ = 0;   // in them
-  Reporter reporter_;
+  ProgressReporter reporter_;
   Gathered found_;
   std::uint64_t step_ = 2;  // rounds of the next step
   std::atomic<std::uint64_t> next_{0};
@@ -87,7 +87,7 @@ class Gathering {
 };
 
 Gathered Gathering::run() {
-  std::optional<BackwardState>* log = logbook_ == nullptr ? nullptr : &(logbook_->data().*task_.slot);
+  std::optional<BackwardState>* log = record_ == nullptr ? nullptr : &(record_->data().*task_.slot);
   const bool goes_on = log != nullptr && log->has_value();
   if (!goes_on) check_rounds(settings_, together_, task_.name);
   // Going on takes the direct light anew, however little time there is left: without it the walks would be lost.
@@ -99,9 +99,9 @@ Gathered Gathering::run() {
     watch_.restart_limit();
     go_on_from(**log);
   }
-  found_.stopped_by = logbook_ != nullptr && logbook_->only_read() ? StopReason::photons : simulate();
+  found_.stopped_by = record_ != nullptr && record_->only_read() ? StopReason::photons : simulate();
   if (found_.rounds == 0) refuse_too_short();
-  if (log != nullptr) write_down(logbook_->data());
+  if (log != nullptr) write_down(record_->data());
   return std::move(found_);
 }
 
@@ -111,9 +111,9 @@ void Gathering::go_on_from(const BackwardState& before) {
                      std::to_string(task_.origins) +
                      " (allowed: as many). The state is not one of this room; run anew.");
   }
-  if (!logbook_->only_read()) check_whole(settings_, together_, before, task_.name);
-  found_.sums = before.sums.use_count() > 1 ? std::make_shared<std::vector<ReceiverSums>>(*before.sums)
-                                            : std::const_pointer_cast<std::vector<ReceiverSums>>(before.sums);
+  if (!record_->only_read()) check_whole(settings_, together_, before, task_.name);
+  found_.sums = before.sums.use_count() > 1 ? std::make_shared<std::vector<BackwardSums>>(*before.sums)
+                                            : std::const_pointer_cast<std::vector<BackwardSums>>(before.sums);
   found_.count.traced.add(before.count.traced);
   found_.count.impacts += before.count.impacts;
   found_.choice = before.choice;
@@ -163,7 +163,7 @@ StopReason Gathering::simulate() {
     if (settings_.target_error) found_.histories_to_target = forecast.histories_to(*settings_.target_error);
     reporter_.set_error(error, found_.histories_to_target);
     bool reached = settings_.target_error && error <= *settings_.target_error;
-    share(control_.team, reached);
+    broadcast(control_.communicator, reached);
     if (reached) return StopReason::target_error;
     if (look == last) return StopReason::photons;
   }
@@ -181,12 +181,12 @@ void Gathering::simulate_up_to(std::uint64_t rounds) {
       step_ = std::max<std::uint64_t>(
           1,
           static_cast<std::uint64_t>(static_cast<double>(step) * std::min(4.0, step_seconds / std::max(took, 1e-6))));
-    share(control_.team, step_);
-    bool due = logbook_ != nullptr && logbook_->due();
-    share(control_.team, due);
+    broadcast(control_.communicator, step_);
+    bool due = record_ != nullptr && record_->due();
+    broadcast(control_.communicator, due);
     if (due) {
-      logbook_->checkpoint([this](StateData& data) { write_down(data); });
-      (logbook_->data().*task_.slot)->sums.reset();  // or they would be copied before the next step is added
+      record_->checkpoint([this](StateData& data) { write_down(data); });
+      (record_->data().*task_.slot)->sums.reset();  // or they would be copied before the next step is added
     }
   }
 }
@@ -194,22 +194,22 @@ void Gathering::simulate_up_to(std::uint64_t rounds) {
 // What is simulated in part when a stop comes is thrown away: every origin has the same rounds. Whether it was whole.
 // A team agrees behind each step.
 bool Gathering::simulate_step(std::uint64_t rounds) {
-  std::vector<ReceiverSums> sums(task_.origins);
+  std::vector<BackwardSums> sums(task_.origins);
   BackwardCount count;
   next_ = 0;
   watch_.run_on_threads(threads_, [&](unsigned) { take_rounds(found_.rounds, rounds, sums, count); });
   watch_.agree();
   if (watch_.reason()) return false;
-  add_up(control_.team, sums);
-  add_up(control_.team, count);
-  if (found_.sums.use_count() > 1) found_.sums = std::make_shared<std::vector<ReceiverSums>>(*found_.sums);
+  reduce(control_.communicator, sums);
+  reduce(control_.communicator, count);
+  if (found_.sums.use_count() > 1) found_.sums = std::make_shared<std::vector<BackwardSums>>(*found_.sums);
   for (std::size_t k = 0; k < sums.size(); ++k) (*found_.sums)[k].add(sums[k]);
   found_.count.add(count);
   found_.rounds = rounds;
   return true;
 }
 
-void Gathering::take_rounds(std::uint64_t first, std::uint64_t last, std::vector<ReceiverSums>& step_sums,
+void Gathering::take_rounds(std::uint64_t first, std::uint64_t last, std::vector<BackwardSums>& step_sums,
                             BackwardCount& step_count) {
   const std::unique_ptr<BackwardWalk> walk = task_.make_walk(settings_);
   const std::uint64_t rounds = last - first;
@@ -218,9 +218,9 @@ void Gathering::take_rounds(std::uint64_t first, std::uint64_t last, std::vector
   const std::uint64_t together = std::max<std::uint64_t>(1, rounds_at_a_time / rounds);
   const std::uint64_t parts = together > 1 ? 1 : (rounds + rounds_at_a_time - 1) / rounds_at_a_time;
   // A member of a team takes its part of the pieces.
-  const Part mine = part_of(control_.team, (task_.origins + together - 1) / together * parts);
+  const Part mine = part_of(control_.communicator, (task_.origins + together - 1) / together * parts);
   const std::uint64_t skipped = range_.first - rounds_before_;  // rounds are numbered from the run's first
-  std::vector<ReceiverSums> sums;
+  std::vector<BackwardSums> sums;
   while (!watch_.wants_to_stop()) {
     const std::uint64_t piece = mine.first + next_.fetch_add(1);
     if (piece >= mine.last) break;
@@ -241,7 +241,7 @@ void Gathering::take_rounds(std::uint64_t first, std::uint64_t last, std::vector
       step_count.add(count);
     }
     const std::uint64_t walks = (work.last - work.first) * (work.last_sample - work.first_sample);
-    const unsigned alike = size_of(control_.team);  // the others are as far as this member
+    const unsigned alike = size_of(control_.communicator);  // the others are as far as this member
     reporter_.add(walks * alike, count.traced.rays * alike);
   }
 }
@@ -254,8 +254,8 @@ std::vector<DirectIrradiance> direct_light_of(std::size_t origins, const DirectO
   std::vector<DirectIrradiance> found(origins);
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
-  Reporter reporter(control, watch, Progress::Stage::direct_light, origins);
-  const Part mine = part_of(control.team, origins);
+  ProgressReporter reporter(control, watch, Progress::Stage::direct_light, origins);
+  const Part mine = part_of(control.communicator, origins);
   next = mine.first;
   BackwardCount traced_here;
   watch.run_on_threads(threads, [&](unsigned) {
@@ -272,8 +272,8 @@ std::vector<DirectIrradiance> direct_light_of(std::size_t origins, const DirectO
   });
   watch.agree();
   if (watch.reason()) refuse_too_short();
-  collect(control.team, found);
-  add_up(control.team, traced_here);
+  combine(control.communicator, found);
+  reduce(control.communicator, traced_here);
   traced.add(traced_here.traced);
   return found;
 }
@@ -329,7 +329,7 @@ std::optional<Gathered> choose_by_pilots(const GatherTask& task, const Room& roo
     pilots.push_back(outcome(found));
   }
   Choice choice = choose_best(pilots, pooled_values(pilots), task.weights, task.name);
-  share(control.team, choice.best);
+  broadcast(control.communicator, choice.best);
   settings.estimator = pilots[choice.best].estimator;
   reason = choice.reason;
   return std::nullopt;
@@ -338,11 +338,11 @@ std::optional<Gathered> choose_by_pilots(const GatherTask& task, const Room& roo
 }  // namespace
 
 Gathered gather(GatherTask task, const Room& room, Settings settings, const Control& control, StopWatch& watch,
-                unsigned threads, Logbook& logbook) {
-  const std::optional<BackwardState>& log = logbook.data().*task.slot;
+                unsigned threads, RunRecord& record) {
+  const std::optional<BackwardState>& log = record.data().*task.slot;
   if (log) settings.estimator = log->estimator;
   if (settings.estimator != Estimator::automatic)
-    return Gathering(task, settings, control, watch, threads, &logbook).run();
+    return Gathering(task, settings, control, watch, threads, &record).run();
   // Direct light is the same for all.
   TraceCount traced;
   const std::vector<DirectIrradiance> direct =
@@ -355,7 +355,7 @@ Gathered gather(GatherTask task, const Room& room, Settings settings, const Cont
   if (cut_short) {
     found = std::move(*cut_short);
   } else {
-    Gathering gathering(task, settings, control, watch, threads, &logbook);
+    Gathering gathering(task, settings, control, watch, threads, &record);
     gathering.set_choice(reason);
     found = gathering.run();
   }

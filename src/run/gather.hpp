@@ -14,7 +14,7 @@
 #include "lichtmc/result.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/simulate.hpp"
-#include "run/logbook.hpp"
+#include "run/run_record.hpp"
 #include "run/stop_watch.hpp"
 #include "walk/backward.hpp"
 #include "walk/direct_light.hpp"
@@ -37,7 +37,7 @@ std::vector<DirectIrradiance> direct_light_of(std::size_t origins, const DirectO
 // What walks from some origins have found.
 struct Gathered {
   std::vector<DirectIrradiance> direct;             // per origin
-  std::shared_ptr<std::vector<ReceiverSums>> sums;  // per origin, of all rounds
+  std::shared_ptr<std::vector<BackwardSums>> sums;  // per origin, of all rounds
   std::uint64_t rounds = 0;                         // per origin
   std::uint32_t group = 1;                          // walks in a round
   double unit = 1.0;                                // of the sums, W/m² or lx
@@ -47,7 +47,7 @@ struct Gathered {
   Estimator estimator = Estimator::collision;                             // as used
   std::string choice;                                                     // why, where it was chosen
   double histories_to_target = std::numeric_limits<double>::quiet_NaN();  // as Result::histories_to_target
-  std::vector<ErrorLook> convergence;
+  std::vector<ConvergencePoint> convergence;
 
   std::uint64_t histories() const { return rounds * group * sums->size(); }
   // Irradiance that reached origin k reflected, and its standard error: NaN where fewer than two rounds were simulated.
@@ -76,6 +76,6 @@ struct GatherTask {
 // that does best in a pilot, see pilot.hpp. Throws StoppedTooSoon where the run is stopped before the first round is
 // whole.
 Gathered gather(GatherTask task, const Room& room, Settings settings, const Control& control, StopWatch& watch,
-                unsigned threads, Logbook& logbook);
+                unsigned threads, RunRecord& record);
 
 }  // namespace lichtmc

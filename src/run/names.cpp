@@ -34,17 +34,24 @@ std::string_view to_string(Engine engine) {
   return "";
 }
 
-std::string_view to_string(Ways ways) {
-  if (ways == Ways::forward) return "forward";
-  return ways == Ways::backward ? "backward" : "all";
+std::string_view to_string(Measured measured) {
+  switch (measured) {
+    case Measured::all:
+      return "all";
+    case Measured::tiles:
+      return "tiles";
+    case Measured::receivers:
+      return "receivers";
+  }
+  return "";
 }
 
 std::string_view to_string(Direct direct) {
   return direct == Direct::sampled ? "sampled" : "analytic";
 }
 
-std::string_view to_string(TileWalk tiles) {
-  return tiles == TileWalk::forward ? "forward" : "backward";
+std::string_view to_string(WalkDirection direction) {
+  return direction == WalkDirection::forward ? "forward" : "backward";
 }
 
 std::string_view to_string(StopReason reason) {

@@ -101,11 +101,11 @@ void check_receivers_whole(const Room& room, const Settings& settings, const Bac
 }
 
 void receive(const Room& room, const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
-             Logbook& logbook, Result& result) {
+             RunRecord& record, Result& result) {
   const DirectLight light(room, *scene.tracer);
   const ReceiverOrigins origins(room.receivers, *scene.tracer);
-  const ReceiverScale scale(room);
-  const Stream stream(settings.seed, Way::backward);
+  const BackwardScale scale(room);
+  const Stream stream(settings.seed, WalkDirection::backward);
   GatherTask task;
   task.stage = Progress::Stage::receivers;
   task.origins = room.receivers.size();
@@ -114,16 +114,16 @@ void receive(const Room& room, const Scene& scene, const Settings& settings, con
   task.direct = [&](std::size_t k, TraceCount& count) -> DirectIrradiance {
     const Receiver& receiver = room.receivers[k];
     if (receiver.half_angle_deg == 0.0) return {};  // it sees nothing
-    const Outlook outlook = outlook_of(receiver);
-    if (const auto emitter = light.emitter_at(outlook)) refuse_on_emitter(room, k, *emitter);
-    return light.at(outlook, stream, k, count);
+    const ReferencePoint reference = reference_point_of(receiver);
+    if (const auto emitter = light.emitter_at(reference)) refuse_on_emitter(room, k, *emitter);
+    return light.at(reference, stream, k, count);
   };
   task.make_walk = [&](const Settings& own) { return make_backward_walk(scene, light, origins, scale, own); };
   task.error = error_of_receivers;
   task.weights.assign(task.origins, 1.0);
   task.name = "the receivers";
   task.slot = &StateData::receivers;
-  const Gathered found = gather(task, room, settings, control, watch, result.threads, logbook);
+  const Gathered found = gather(task, room, settings, control, watch, result.threads, record);
 
   const double power = total_power(room);
   result.receiver_results.resize(task.origins);
@@ -150,10 +150,10 @@ void receive(const Room& room, const Scene& scene, const Settings& settings, con
 }
 
 void walk_from_tiles(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
-                     StopWatch& watch, Logbook& logbook, Result& result) {
+                     StopWatch& watch, RunRecord& record, Result& result) {
   const Tiling& tiling = result.tiling;
-  const TileLight light(room, tiling, scene, settings, Way::backward);
-  const ReceiverScale scale(room);
+  const TileLight light(room, tiling, scene, settings, WalkDirection::backward);
+  const BackwardScale scale(room);
   GatherTask task;
   task.stage = Progress::Stage::tiles;
   task.origins = light.faces().size();
@@ -169,7 +169,7 @@ void walk_from_tiles(const Room& room, const Scene& scene, const Settings& setti
   for (std::size_t face = 0; face < task.origins; ++face) task.weights.push_back(light.faces().area_m2(face));
   task.name = "the tiles";
   task.slot = &StateData::tile_walks;
-  const Gathered found = gather(task, room, settings, control, watch, result.threads, logbook);
+  const Gathered found = gather(task, room, settings, control, watch, result.threads, record);
 
   result.estimator = found.estimator;
   if (!found.choice.empty()) result.choices.push_back(found.choice);

@@ -5,7 +5,7 @@
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/simulate.hpp"
-#include "run/logbook.hpp"
+#include "run/run_record.hpp"
 #include "run/state_data.hpp"
 #include "run/stop_watch.hpp"
 #include "walk/scene.hpp"
@@ -22,10 +22,10 @@ void check_receivers_whole(const Room& room, const Settings& settings, const Bac
 // that lies on an emitter. Goes on from the walks that the logbook has, and leaves there what was found, as gather()
 // does.
 void receive(const Room& room, const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
-             Logbook& logbook, Result& result);
+             RunRecord& record, Result& result);
 
 // Fills in the tiles' part of the result by walks from random points of every tile.
 void walk_from_tiles(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
-                     StopWatch& watch, Logbook& logbook, Result& result);
+                     StopWatch& watch, RunRecord& record, Result& result);
 
 }  // namespace lichtmc

@@ -88,15 +88,15 @@ void check_settings(const Settings& settings) {
 namespace {
 
 // Bytes per tile of a forward walk, at its worst time.
-double bytes_per_tile(const Settings& settings, unsigned threads, unsigned processes, bool has_maps) {
+double bytes_per_tile(const Settings& settings, unsigned threads, unsigned processes, bool has_reflectance_maps) {
   const bool automatic = settings.estimator == Estimator::automatic;
-  const bool hits_apart = automatic || score_law(settings.estimator, has_maps).hits == Hits::apart;
+  const bool hits_apart = automatic || score_law(settings.estimator, has_reflectance_maps).hits == Hits::apart;
   // Tile and its cell; Totals; a thread's Tally (see walk/many_hits.hpp and walk/many_scores.hpp).
   constexpr double of_tiling = sizeof(Tile) + sizeof(std::uint32_t);
   const double of_totals = sizeof(Moments) + (hits_apart ? sizeof(std::uint64_t) : 0);
   const double of_tally = sizeof(Moments) + (hits_apart ? 16 : 8);
-  const double contenders = automatic ? 3 : 1;
-  const double walking = (contenders + (processes > 1 ? 1 : 0)) * of_totals + threads * of_tally;
+  const double candidates = automatic ? 3 : 1;
+  const double walking = (candidates + (processes > 1 ? 1 : 0)) * of_totals + threads * of_tally;
   const double ending = 2 * of_totals + of_tally;             // a last batch that is not whole, counted apart
   const double writing = 2 * of_totals + sizeof(TileResult);  // the state, and its file as it is made
   return of_tiling + std::max({walking, ending, writing});
@@ -105,10 +105,10 @@ double bytes_per_tile(const Settings& settings, unsigned threads, unsigned proce
 }  // namespace
 
 void check_memory(const Room& room, const Tiling& tiling, const Settings& settings, unsigned threads,
-                  unsigned processes, bool has_maps) {
-  if (settings.tiles != TileWalk::forward || settings.ways == Ways::backward) return;
+                  unsigned processes, bool has_reflectance_maps) {
+  if (settings.tile_walk != WalkDirection::forward || settings.measured == Measured::receivers) return;
   const double tiles = static_cast<double>(tiling.tiles.size());
-  const double needed = tiles * bytes_per_tile(settings, threads, processes, has_maps);
+  const double needed = tiles * bytes_per_tile(settings, threads, processes, has_reflectance_maps);
   const double limit = memory_limit();
   if (needed <= limit) return;
   constexpr double gigabyte = 1e9;
@@ -119,13 +119,13 @@ void check_memory(const Room& room, const Tiling& tiling, const Settings& settin
 }
 
 void check_settings_for(const Room& room, const Settings& settings) {
-  if (settings.ways == Ways::backward && room.receivers.empty()) {
+  if (settings.measured == Measured::receivers && room.receivers.empty()) {
     throw InputError(
         "There is no receiver in " + room.source +
         " to walk back from (allowed: at least one). Give nodes of the room the custom property 'receiver', or "
         "give points with --receivers or --grid.");
   }
-  if (settings.ways == Ways::backward && settings.tiles == TileWalk::backward) {
+  if (settings.measured == Measured::receivers && settings.tile_walk == WalkDirection::backward) {
     throw InputError(
         "Tiles are to be walked from backward, and only receivers are to be measured (--tiles backward with --only "
         "backward; allowed: one of them). Leave out --only backward, or --tiles backward.");

@@ -20,6 +20,6 @@ const Surface* surface_that_absorbs_nothing(const Room& room);
 // Throws InputError where the tallies of so many threads of one of so many processes, and what a run keeps beside them,
 // need more memory than there is.
 void check_memory(const Room& room, const Tiling& tiling, const Settings& settings, unsigned threads,
-                  unsigned processes, bool has_maps);
+                  unsigned processes, bool has_reflectance_maps);
 
 }  // namespace lichtmc

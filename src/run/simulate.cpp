@@ -13,17 +13,17 @@
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/version.hpp"
+#include "run/collectives.hpp"
 #include "run/forward.hpp"
 #include "run/gather.hpp"
-#include "run/logbook.hpp"
 #include "run/receive.hpp"
+#include "run/run_record.hpp"
 #include "run/settings_check.hpp"
 #include "run/stop_watch.hpp"
 #include "run/surface_results.hpp"
-#include "run/team_work.hpp"
 #include "run/warnings.hpp"
+#include "walk/non_absorbing_enclosure.hpp"
 #include "walk/scene.hpp"
-#include "walk/trap.hpp"
 
 namespace lichtmc {
 
@@ -44,14 +44,14 @@ unsigned threads_for(const Settings& settings) {
   return static_cast<unsigned>(std::min<std::uint64_t>(asked, batches_of(settings.photons)));
 }
 
-std::vector<Ignored> ignored_by_run(const Room& room, Ways ways) {
+std::vector<Ignored> ignored_by_run(const Room& room, Measured measured) {
   std::vector<Ignored> ignored = room.ignored;
   std::size_t without_area = 0;
   for (const Surface& surface : room.surfaces) without_area += surface.without_area;
   if (without_area > 0) {
     ignored.push_back({to_text(without_area, "triangle") + " without area: no light can fall on them.", Effect::none});
   }
-  if (!room.receivers.empty() && ways == Ways::forward) {
+  if (!room.receivers.empty() && measured == Measured::tiles) {
     ignored.push_back({to_text(room.receivers.size(), "receiver") + " (" + in_quotes(room.receivers.front().name) +
                            (room.receivers.size() > 1 ? ", …" : "") + "): only tiles were asked for.",
                        Effect::none});
@@ -74,13 +74,13 @@ void complete(Result& result, const Room& room) {
   result.room = room.source;
   result.quantity = room.quantity;
   result.receivers = room.receivers;
-  result.ignored = ignored_by_run(room, result.settings.ways);
+  result.ignored = ignored_by_run(room, result.settings.measured);
   result.mended = room.mended;
   result.balance.emitted = total_power(room);
   result.warnings = warnings_of(room, result);
 }
 
-[[noreturn]] void refuse_trap(const Room& room) {
+[[noreturn]] void refuse_non_absorbing_enclosure(const Room& room) {
   throw InputError(
       "Nothing absorbs the light of an emitter in " + room.source +
       ": it is shut in by surfaces whose reflectance is 1 (allowed: at least one below 1, or an opening), so that the "
@@ -110,21 +110,22 @@ std::optional<double> half_of_time(const Settings& settings, const WalkedBefore&
 }
 
 void simulate_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
-                    const Control& control, StopWatch& watch, Logbook& logbook) {
-  if (settings.tiles == TileWalk::forward) {
-    walk_from_emitters(room, scene, settings, control, watch, logbook, result);
+                    const Control& control, StopWatch& watch, RunRecord& record) {
+  if (settings.tile_walk == WalkDirection::forward) {
+    walk_from_emitters(room, scene, settings, control, watch, record, result);
   } else {
-    walk_from_tiles(room, scene, settings, control, watch, logbook, result);
+    walk_from_tiles(room, scene, settings, control, watch, record, result);
   }
   rate(result);
 }
 
 // Which walks there are to do. A state that is only read may hold one of them, or both.
 struct WaysToGo {
-  WaysToGo(const Room& room, const Settings& settings, const Logbook& logbook) {
-    const StateData& data = logbook.data();
-    forward = settings.ways != Ways::backward && (!logbook.only_read() || data.photons || data.tile_walks);
-    backward = settings.ways != Ways::forward && !room.receivers.empty() && (!logbook.only_read() || data.receivers);
+  WaysToGo(const Room& room, const Settings& settings, const RunRecord& record) {
+    const StateData& data = record.data();
+    forward = settings.measured != Measured::receivers && (!record.only_read() || data.photons || data.tile_walks);
+    backward =
+        settings.measured != Measured::tiles && !room.receivers.empty() && (!record.only_read() || data.receivers);
   }
   bool forward = false;
   bool backward = false;
@@ -143,13 +144,13 @@ constexpr const char* receivers_left_out =
 // The receivers after the tiles. What was found of the tiles is kept where a stop comes before there is anything to
 // tell of the receivers: false then.
 bool receive_after_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
-                         const Control& control, StopWatch& watch, Logbook& logbook) {
-  if (votes_for(control.team, control.stop.stop_requested()) > 0) {
+                         const Control& control, StopWatch& watch, RunRecord& record) {
+  if (count_votes(control.communicator, control.stop.stop_requested()) > 0) {
     result.stopped_by = StopReason::interrupt;
     return false;
   }
   try {
-    receive(room, scene, settings, control, watch, logbook, result);
+    receive(room, scene, settings, control, watch, record, result);
     return true;
   } catch (const StoppedTooSoon&) {
     result.stopped_by = watch.reason().value_or(StopReason::interrupt);
@@ -167,56 +168,57 @@ void note_engine(StateData& data, Engine used) {
   data.engine = used;
 }
 
-Result simulate_checked(const Room& room, const Settings& settings, const Control& control, Logbook& logbook) {
+Result simulate_checked(const Room& room, const Settings& settings, const Control& control, RunRecord& record) {
   Result result;
   result.settings = settings;
   result.threads = threads_for(settings);
-  result.processes = size_of(control.team);
+  result.processes = size_of(control.communicator);
   result.tiling = make_tiling(room, settings.tile_edge_m);
   const Scene scene(room, result.tiling, settings.engine);
-  note_engine(logbook.data(), scene.engine);
+  note_engine(record.data(), scene.engine);
   result.engine = scene.engine;
   // Photons are only counted again where a state is only read, by one thread.
-  const unsigned tallies = logbook.only_read() ? 1 : result.threads;
-  check_memory(room, result.tiling, settings, tallies, result.processes, scene.has_maps());
-  if (!settings.max_bounces && traps_light(scene, settings.seed)) refuse_trap(room);
-  const WaysToGo go(room, settings, logbook);
-  const WalkedBefore before(logbook.data());
+  const unsigned tallies = record.only_read() ? 1 : result.threads;
+  check_memory(room, result.tiling, settings, tallies, result.processes, scene.has_reflectance_maps());
+  if (!settings.max_bounces && has_non_absorbing_enclosure(scene, settings.seed)) refuse_non_absorbing_enclosure(room);
+  const WaysToGo go(room, settings, record);
+  const WalkedBefore before(record.data());
   const bool both = go.forward && go.backward;
-  if (both && !logbook.data().receivers) check_receiver_rounds(room, settings);
-  const bool receivers_known = logbook.data().receivers.has_value();
+  if (both && !record.data().receivers) check_receiver_rounds(room, settings);
+  const bool receivers_known = record.data().receivers.has_value();
   bool receivers_told = true;
   if (go.forward) {
     StopWatch watch(both ? half_of_time(settings, before, before.tiles) : settings.max_seconds, control.stop,
-                    before.tiles, control.team);
-    simulate_tiles(result, room, scene, settings, control, watch, logbook);
+                    before.tiles, control.communicator);
+    simulate_tiles(result, room, scene, settings, control, watch, record);
   }
   if (go.backward) {
     StopWatch watch(both ? half_of_time(settings, before, before.receivers) : settings.max_seconds, control.stop,
-                    before.receivers, control.team);
+                    before.receivers, control.communicator);
     if (both) {
-      receivers_told = receive_after_tiles(result, room, scene, settings, control, watch, logbook);
+      receivers_told = receive_after_tiles(result, room, scene, settings, control, watch, record);
     } else {
-      receive(room, scene, settings, control, watch, logbook, result);
+      receive(room, scene, settings, control, watch, record, result);
     }
   }
   complete(result, room);
-  const bool tiles_missing = settings.ways != Ways::backward && !go.forward;
+  const bool tiles_missing = settings.measured != Measured::receivers && !go.forward;
   if (tiles_missing) result.warnings.emplace_back(tiles_left_out);
   if (!receivers_told) result.warnings.emplace_back(receivers_known ? receivers_left_out : receivers_not_measured);
-  result.checkpoint_seconds = logbook.spent();
-  result.state = logbook.close();
+  result.checkpoint_seconds = record.spent();
+  result.state = record.close();
   return result;
 }
 
 // All members have read the same files and were given the same options, or histories would count twice. All refuse.
-void check_team(Team* team, const StateData& data) {
-  const auto check = [team](const Fingerprint& mine, const std::string& what) {
+void check_ranks_agree(Communicator* communicator, const StateData& data) {
+  const auto check = [communicator](const Fingerprint& mine, const std::string& what) {
     Fingerprint of_first = mine;
-    share(team, of_first);
-    const std::uint64_t others = votes_for(team, of_first != mine);
+    broadcast(communicator, of_first);
+    const std::uint64_t others = count_votes(communicator, of_first != mine);
     if (others > 0)
-      throw InputError(std::to_string(others) + " of " + std::to_string(size_of(team)) + " processes have " + what);
+      throw InputError(std::to_string(others) + " of " + std::to_string(size_of(communicator)) + " processes have " +
+                       what);
   };
   check(data.room,
         "another room than the first (allowed: the same file for all). Put the room where all machines see it.");
@@ -236,9 +238,9 @@ Result simulate_from(const Room& room, const Settings& settings, const Control& 
       throw InputError("The time between checkpoints is " + to_text(control.checkpoint_seconds) +
                        " s (allowed: 0 or more). Give --checkpoint a time, for example 60s.");
     }
-    check_team(control.team, data);
-    Logbook logbook(control, std::move(data), only_read);
-    return simulate_checked(room, settings, control, logbook);
+    check_ranks_agree(control.communicator, data);
+    RunRecord record(control, std::move(data), only_read);
+    return simulate_checked(room, settings, control, record);
   } catch (const std::bad_alloc&) {
     throw RuntimeError("There is not enough memory to simulate " + room.source +
                        ". Use larger tiles (--tile) or fewer threads (--threads).");

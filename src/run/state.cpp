@@ -92,8 +92,8 @@ class StateChecksum {
     sum_.add(std::uint8_t{settings.part});
     add(settings.target_error);
     add(settings.max_seconds);
-    add_choice(settings.ways);
-    add_choice(settings.tiles);
+    add_choice(settings.measured);
+    add_choice(settings.tile_walk);
     add_choice(settings.direct);
     add(settings.max_bounces);
     sum_.add(settings.tile_edge_m);
@@ -193,8 +193,8 @@ class Merger {
     if (s.tile_edge_m != t.tile_edge_m)
       refuse(k, "have tiles of " + to_text(s.tile_edge_m) + " m and " + to_text(t.tile_edge_m) + " m");
     if (s.direct != t.direct) refuse(k, "find direct light in different ways (--direct)");
-    if (s.tiles != t.tiles) refuse(k, "measure tiles in different ways (--tiles)");
-    if (s.ways != t.ways) refuse(k, "measure different things (--only)");
+    if (s.tile_walk != t.tile_walk) refuse(k, "measure tiles in different ways (--tiles)");
+    if (s.measured != t.measured) refuse(k, "measure different things (--only)");
     if (s.max_bounces != t.max_bounces) refuse(k, "end histories after different numbers of flights (--max-bounces)");
     if (a.engine != b.engine)
       refuse(k, "were traced by the engines " + std::string(to_string(a.engine)) + " and " +
@@ -267,7 +267,7 @@ class Merger {
 
   void merge_walks(StateData& sum, std::optional<BackwardState> StateData::*slot) const {
     std::vector<Owned> owned;
-    std::shared_ptr<std::vector<ReceiverSums>> sums;
+    std::shared_ptr<std::vector<BackwardSums>> sums;
     std::optional<BackwardState> merged;
     for (std::size_t k = 0; k < states_.size(); ++k) {
       const std::optional<BackwardState>& walks = states_[k].data().*slot;
@@ -275,7 +275,7 @@ class Merger {
       for (const HistoryRange& range : walks->ranges) owned.push_back({range, k});
       if (!merged) {
         merged = walks;
-        sums = std::make_shared<std::vector<ReceiverSums>>(*walks->sums);
+        sums = std::make_shared<std::vector<BackwardSums>>(*walks->sums);
         continue;
       }
       check_same_walk(*merged, *walks, k);

@@ -24,7 +24,7 @@ struct Walked {
   std::string choice;                          // why, where it was chosen
   std::vector<HistoryRange> ranges;            // in order, apart from each other
   double seconds = 0.0;                        // wall-clock time
-  std::vector<ErrorLook> convergence;
+  std::vector<ConvergencePoint> convergence;
 
   // Histories, or rounds, of all ranges.
   std::uint64_t size() const { return count_of(ranges); }
@@ -40,7 +40,7 @@ struct Counted : Walked {
 struct BackwardState : Walked {
   std::uint32_t group = 1;  // walks in a round
   BackwardCount count;
-  std::shared_ptr<const std::vector<ReceiverSums>> sums;  // per origin
+  std::shared_ptr<const std::vector<BackwardSums>> sums;  // per origin
 };
 
 struct StateData {

@@ -25,22 +25,22 @@ void StopWatch::stop_for(StopReason reason) {
 
 bool StopWatch::should_stop() {
   if (stop_) return true;
-  if (team_ != nullptr) return false;
+  if (communicator_ != nullptr) return false;
   const std::optional<StopReason> reason = asked();
   if (reason) stop_for(*reason);
   return reason.has_value();
 }
 
 bool StopWatch::wants_to_stop() {
-  return should_stop() || (team_ != nullptr && asked().has_value());
+  return should_stop() || (communicator_ != nullptr && asked().has_value());
 }
 
 // Votes are added up, so that all hear the same whoever has got the signal, and whose clock is ahead.
 void StopWatch::agree() {
-  if (team_ == nullptr || stop_) return;
+  if (communicator_ == nullptr || stop_) return;
   const std::optional<StopReason> mine = asked();
   std::array<std::uint64_t, 2> votes{mine == StopReason::interrupt, mine == StopReason::max_time};
-  team_->add(votes);
+  communicator_->sum(votes);
   if (votes[0] > 0) {
     stop_for(StopReason::interrupt);
   } else if (votes[1] > 0) {

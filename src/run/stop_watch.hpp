@@ -9,8 +9,8 @@
 #include <optional>
 #include <stop_token>
 
+#include "lichtmc/communicator.hpp"
 #include "lichtmc/result.hpp"
-#include "lichtmc/team.hpp"
 
 namespace lichtmc {
 
@@ -18,8 +18,13 @@ class StopWatch {
  public:
   // Time runs from now. before: seconds that earlier sessions of the run took; they count in seconds() only.
   // max_seconds may be 0: the time is over. In a team (or null) all members stop together, where they agree().
-  StopWatch(std::optional<double> max_seconds, std::stop_token stop, double before = 0.0, Team* team = nullptr)
-      : max_seconds_(max_seconds), stop_token_(std::move(stop)), before_(before), team_(team), began_(Clock::now()) {
+  StopWatch(std::optional<double> max_seconds, std::stop_token stop, double before = 0.0,
+            Communicator* communicator = nullptr)
+      : max_seconds_(max_seconds),
+        stop_token_(std::move(stop)),
+        before_(before),
+        communicator_(communicator),
+        began_(Clock::now()) {
     limit_began_ = began_;
   }
 
@@ -59,7 +64,7 @@ class StopWatch {
   std::optional<double> max_seconds_;
   std::stop_token stop_token_;
   double before_;  // s
-  Team* team_;
+  Communicator* communicator_;
   Clock::time_point began_;
   std::optional<Clock::time_point> limit_began_;  // when the time limit began to count; none while it does not
   std::atomic<bool> stop_{false};

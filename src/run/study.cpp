@@ -57,7 +57,7 @@ Reference make_reference(Result result) {
 
 StudyRow row_of(const Result& result, const Reference& reference) {
   StudyRow row;
-  row.direction = result.settings.tiles;
+  row.direction = result.settings.tile_walk;
   row.estimator = result.estimator;
   row.engine = result.engine;
   row.histories = result.histories;
@@ -147,7 +147,7 @@ Settings Studying::settings_with(Estimator estimator, Engine engine) const {
   Settings settings;
   settings.estimator = estimator;
   settings.engine = engine;
-  settings.ways = Ways::forward;
+  settings.measured = Measured::tiles;
   settings.tile_edge_m = edge_;
   settings.seed = options_->seed;
   settings.threads = options_->threads;
@@ -155,7 +155,7 @@ Settings Studying::settings_with(Estimator estimator, Engine engine) const {
 }
 
 std::string name_of(const Settings& settings) {
-  std::string name = std::string(to_string(settings.tiles)) + ", " + std::string(to_string(settings.estimator));
+  std::string name = std::string(to_string(settings.tile_walk)) + ", " + std::string(to_string(settings.estimator));
   if (settings.max_bounces) name += " cut off after " + to_text(*settings.max_bounces, "flight");
   if (settings.direct == Direct::analytic) name += ", direct light integrated";
   if (settings.engine != Engine::automatic) name += ", " + std::string(to_string(settings.engine));
@@ -174,7 +174,7 @@ std::vector<Studying::Plan> Studying::plans() const {
     integrated.direct = Direct::analytic;
     add(integrated, true, 2.0);
     Settings backward = settings_with(estimator);
-    backward.tiles = TileWalk::backward;
+    backward.tile_walk = WalkDirection::backward;
     add(backward, true, 2.0);
   }
   // Where the cuboid's closed form serves, Embree is measured beside it.

@@ -26,11 +26,13 @@ double level_of(const Room& room) {
 
 }  // namespace
 
-TileLight::TileLight(const Room& room, const Tiling& tiling, const Scene& scene, const Settings& settings, Way way)
+TileLight::TileLight(const Room& room, const Tiling& tiling, const Scene& scene, const Settings& settings,
+                     WalkDirection direction)
     : tiles_(tiling.tiles.size()),
       light_(room, *scene.tracer),
       faces_(room, tiling, *scene.tracer),
-      direct_(light_, faces_, *scene.tracer, Stream(settings.seed, way), accuracy_for(settings), level_of(room)) {}
+      direct_(light_, faces_, *scene.tracer, Stream(settings.seed, direction), accuracy_for(settings), level_of(room)) {
+}
 
 std::vector<TileDirect> TileLight::of_tiles(const Control& control, unsigned threads, StopWatch& watch,
                                             TraceCount& count) const {

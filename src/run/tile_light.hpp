@@ -26,7 +26,8 @@ struct TileDirect {
 class TileLight {
  public:
   // All but the settings must outlive this.
-  TileLight(const Room& room, const Tiling& tiling, const Scene& scene, const Settings& settings, Way way);
+  TileLight(const Room& room, const Tiling& tiling, const Scene& scene, const Settings& settings,
+            WalkDirection direction);
   TileLight(const TileLight&) = delete;
   TileLight& operator=(const TileLight&) = delete;
 

@@ -57,7 +57,7 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result) {
   std::vector<std::string> warnings;
   const Balance& balance = result.balance;
   for (const OutsideEmitter& outside : emitters_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
-  if (result.settings.ways != Ways::backward && result.impacts == 0) {
+  if (result.settings.measured != Measured::receivers && result.impacts == 0) {
     warnings.push_back(
         "No light met any surface. Check where the emitters are and which way they shine; a shining surface shines "
         "from its front only.");

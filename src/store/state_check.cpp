@@ -31,7 +31,7 @@ void check_settings_of(const StateData& data) {
     const std::string message = error.what();
     refuse("its settings are not sound. " + message.substr(0, message.find(" (")));
   }
-  if (data.settings.ways == Ways::backward && data.settings.tiles == TileWalk::backward)
+  if (data.settings.measured == Measured::receivers && data.settings.tile_walk == WalkDirection::backward)
     refuse("its settings ask for tiles to be walked from, and for no tiles");
   if (data.engine == Engine::automatic) refuse("the engine that was used is given as 'auto'");
 }
@@ -40,11 +40,12 @@ void check_settings_of(const StateData& data) {
 // Walks back from tiles or receivers may be missing where it was stopped before their first round.
 void check_groups(const StateData& data) {
   const Settings& settings = data.settings;
-  const bool tiles = settings.ways != Ways::backward;
-  const bool photons = tiles && settings.tiles == TileWalk::forward;
+  const bool tiles = settings.measured != Measured::receivers;
+  const bool photons = tiles && settings.tile_walk == WalkDirection::forward;
   if (data.photons && !photons) refuse("it has /photons, which its settings do not ask for");
   if (data.tile_walks && (!tiles || photons)) refuse("it has /tile_walks, which its settings do not ask for");
-  if (data.receivers && settings.ways == Ways::forward) refuse("it has /receivers, which its settings do not ask for");
+  if (data.receivers && settings.measured == Measured::tiles)
+    refuse("it has /receivers, which its settings do not ask for");
   if (settings.estimator == Estimator::automatic) return;
   if (photons && !data.photons) refuse("it has no /photons, which its settings ask for");
   if (!data.photons && !data.tile_walks && !data.receivers) refuse("it holds no walks");
@@ -81,7 +82,7 @@ void check_walked(const Settings& settings, const Walked& walked, const TraceCou
     refuse(group + " has the estimator '" + estimator + "', and its settings a number of bounces");
   const auto is_time = [](double seconds) { return std::isfinite(seconds) && seconds >= 0.0; };
   if (!is_time(walked.seconds)) refuse(group + " took " + to_text(walked.seconds) + " s");
-  for (const ErrorLook& look : walked.convergence) {
+  for (const ConvergencePoint& look : walked.convergence) {
     if (!is_time(look.seconds) || look.rms_relative_error < 0.0)
       refuse("in convergence of " + group + " is an error of " + to_text(look.rms_relative_error) + " after " +
              to_text(look.seconds) + " s");
@@ -128,9 +129,9 @@ void check_walks(const Settings& settings, const BackwardState& walks, std::uint
   if (walks.count.impacts > walks.count.traced.rays)
     refuse(group + " has " + std::to_string(walks.count.impacts) + " impacts of " +
            std::to_string(walks.count.traced.rays) + " rays");
-  const uint128 most = uint128{rounds} * group_size * ReceiverScale::largest_score;
+  const uint128 most = uint128{rounds} * group_size * BackwardScale::largest_score;
   for (std::uint64_t k = 0; k < origins; ++k) {
-    const ReceiverSums& sums = (*walks.sums)[k];
+    const BackwardSums& sums = (*walks.sums)[k];
     if (sums.sum > most || !are_possible(sums.sum, sums.squares, rounds))
       refuse("row " + std::to_string(k) + " of sums in " + group + " is not the sums of " + std::to_string(rounds) +
              " rounds");

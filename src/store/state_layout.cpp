@@ -162,14 +162,14 @@ void exchange_traced(Archive& archive, Count& traced) {
 }
 
 // ErrorLook has an integer among its numbers: three columns of double hold it to 2⁵³.
-void exchange_looks(Writer& archive, const std::vector<ErrorLook>& looks) {
+void exchange_looks(Writer& archive, const std::vector<ConvergencePoint>& looks) {
   std::vector<std::array<double, 3>> rows;
   rows.reserve(looks.size());
-  for (const ErrorLook& look : looks)
+  for (const ConvergencePoint& look : looks)
     rows.push_back({static_cast<double>(look.histories), look.seconds, look.rms_relative_error});
   archive.rows<double>("convergence", rows);
 }
-void exchange_looks(Reader& archive, std::vector<ErrorLook>& looks) {
+void exchange_looks(Reader& archive, std::vector<ConvergencePoint>& looks) {
   std::vector<std::array<double, 3>> rows;
   archive.rows<double>("convergence", rows);
   for (const auto& [histories, seconds, error] : rows) {
@@ -220,7 +220,7 @@ void exchange_walks(Archive& archive, const std::string& group, Walks& walks) {
   archive.field("impacts", walks->count.impacts);
   exchange_traced(archive, walks->count.traced);
   if constexpr (Archive::reads) {
-    const auto sums = std::make_shared<std::vector<ReceiverSums>>();
+    const auto sums = std::make_shared<std::vector<BackwardSums>>();
     archive.template rows<std::uint64_t>("sums", *sums);
     walks->sums = sums;
   } else {
@@ -235,8 +235,8 @@ void exchange_settings(Archive& archive, AnySettings& settings) {
   archive.field("tile_edge_m", settings.tile_edge_m);
   archive.field("estimator", settings.estimator, all_estimators);
   archive.field("engine", settings.engine, all_engines);
-  archive.field("only", settings.ways, std::array{Ways::all, Ways::forward, Ways::backward});
-  archive.field("tiles", settings.tiles, std::array{TileWalk::forward, TileWalk::backward});
+  archive.field("only", settings.measured, std::array{Measured::all, Measured::tiles, Measured::receivers});
+  archive.field("tiles", settings.tile_walk, std::array{WalkDirection::forward, WalkDirection::backward});
   archive.field("direct", settings.direct, std::array{Direct::sampled, Direct::analytic});
   archive.field("max_bounces", settings.max_bounces);
   archive.field("first_history", settings.first_history);

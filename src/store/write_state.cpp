@@ -15,8 +15,8 @@ std::uint64_t size_of(const StateData& data) {
     const Totals& totals = *data.photons->totals;
     bytes += (totals.tiles.size() + totals.maps.size()) * sizeof(Moments) + totals.hits.size() * sizeof(std::uint64_t);
   }
-  if (data.tile_walks) bytes += data.tile_walks->sums->size() * sizeof(ReceiverSums);
-  if (data.receivers) bytes += data.receivers->sums->size() * sizeof(ReceiverSums);
+  if (data.tile_walks) bytes += data.tile_walks->sums->size() * sizeof(BackwardSums);
+  if (data.receivers) bytes += data.receivers->sums->size() * sizeof(BackwardSums);
   return bytes;
 }
 

@@ -214,7 +214,7 @@ class CuboidTracer final : public Tracer {
   }
 
   // A cuboid is convex and empty.
-  bool is_blocked(const glm::vec3& /*start*/, const glm::vec3& /*way*/, TraceCount& /*count*/) const override {
+  bool is_blocked(const glm::vec3& /*start*/, const glm::vec3& /*segment*/, TraceCount& /*count*/) const override {
     return false;
   }
   void find_blocked(ShadowRays& rays, TraceCount& /*count*/) const override {
@@ -341,7 +341,7 @@ Piece make_piece(const Room& room, const Tiling& tiling, const CuboidShape& shap
     piece.st[c] = {glm::dot(from_corner, edge_s) / glm::dot(edge_s, edge_s),
                    glm::dot(from_corner, edge_t) / glm::dot(edge_t, edge_t)};
   }
-  // s × t points along the axis: the triangle's own winding in (s, t) tells which way its front looks.
+  // s × t points along the axis: the triangle's own winding in (s, t) tells which segment its front looks.
   piece.front_along_axis = twice_area(piece.st) > 0.0;
   return piece;
 }

@@ -92,17 +92,17 @@ class EmbreeTracer final : public Tracer {
     return start_at(world_point_m, axis, *room_, placement_, departures_);
   }
 
-  bool is_blocked(const glm::vec3& start, const glm::vec3& way, TraceCount& count) const override {
+  bool is_blocked(const glm::vec3& start, const glm::vec3& segment, TraceCount& count) const override {
     EmbreeQuery query;
     ++count.rays;
     ++count.shadow_rays;
-    return meets_something(query, start, way);
+    return meets_something(query, start, segment);
   }
 
   void find_blocked(ShadowRays& rays, TraceCount& count) const override {
     EmbreeQuery query;
     for (std::size_t i = 0; i < rays.size; ++i)
-      rays.blocked[i] = meets_something(query, rays.starts[i], rays.ways[i]) ? 1 : 0;
+      rays.blocked[i] = meets_something(query, rays.starts[i], rays.segments[i]) ? 1 : 0;
     count.rays += rays.size;
     count.shadow_rays += rays.size;
   }
@@ -117,14 +117,14 @@ class EmbreeTracer final : public Tracer {
   }
 
  private:
-  bool meets_something(EmbreeQuery& query, const glm::vec3& start, const glm::vec3& way) const {
+  bool meets_something(EmbreeQuery& query, const glm::vec3& start, const glm::vec3& segment) const {
     RTCRay ray{};
     ray.org_x = start.x;
     ray.org_y = start.y;
     ray.org_z = start.z;
-    ray.dir_x = way.x;
-    ray.dir_y = way.y;
-    ray.dir_z = way.z;
+    ray.dir_x = segment.x;
+    ray.dir_y = segment.y;
+    ray.dir_z = segment.z;
     ray.tnear = 0.0F;
     ray.tfar = 1.0F;
     ray.mask = 0xFFFFFFFF;

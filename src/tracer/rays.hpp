@@ -53,23 +53,23 @@ struct Rays {
   glm::vec3 direction(std::size_t i) const { return {dx[i], dy[i], dz[i]}; }
 };
 
-// Straight ways between two points each, of which only is asked whether something stands between.
+// Straight segments between two points each, of which only is asked whether something stands between.
 struct ShadowRays {
   void clear() { size = 0; }
-  void add(const glm::vec3& start, const glm::vec3& way) {
+  void add(const glm::vec3& start, const glm::vec3& segment) {
     if (size == starts.size()) {
       starts.emplace_back();
-      ways.emplace_back();
+      segments.emplace_back();
       blocked.emplace_back();
     }
     starts[size] = start;
-    ways[size] = way;
+    segments[size] = segment;
     ++size;
   }
 
   std::size_t size = 0;
   std::vector<glm::vec3> starts;      // in the tracer's coordinates
-  std::vector<glm::vec3> ways;        // from start to end
+  std::vector<glm::vec3> segments;    // from start to end
   std::vector<std::uint8_t> blocked;  // 1: something stands between
 };
 

@@ -79,12 +79,12 @@ class Tracer {
   virtual Start start(const glm::dvec3& world_point_m, const glm::dvec3& axis) const = 0;
   virtual TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const = 0;
 
-  // Which of these straight ways are blocked: sets blocked. A way that begins and ends free of surfaces is blocked by
-  // any surface between.
+  // Which of these straight segments are blocked: sets blocked. A segment that begins and ends free of surfaces is
+  // blocked by any surface between.
   virtual void find_blocked(ShadowRays& rays, TraceCount& count) const = 0;
 
   // The same for one of them.
-  virtual bool is_blocked(const glm::vec3& start, const glm::vec3& way, TraceCount& count) const = 0;
+  virtual bool is_blocked(const glm::vec3& start, const glm::vec3& segment, TraceCount& count) const = 0;
 
   // Whether some surface can stand between two points in the room. Where none can, nothing is asked.
   virtual bool casts_shadows() const = 0;

@@ -17,9 +17,9 @@ namespace {
 
 // What backward photons are for, see kernel.hpp.
 template <class Policy, class Origins>
-class ReceiverGoal {
+class BackwardGoal {
  public:
-  ReceiverGoal(const Scene& scene, const DirectLight& light, const Origins& origins, const ReceiverScale& scale,
+  BackwardGoal(const Scene& scene, const DirectLight& light, const Origins& origins, const BackwardScale& scale,
                const Stream& stream)
       : scene_(&scene),
         light_(&light),
@@ -45,7 +45,7 @@ class ReceiverGoal {
   void begin(BackwardCount& count) { count_ = &count; }
 
   // Adds up the rounds of n photons that have all ended; sums[k] belongs to origin first + k.
-  void add_rounds(std::uint32_t n, std::uint64_t first, std::vector<ReceiverSums>& sums) const {
+  void add_rounds(std::uint32_t n, std::uint64_t first, std::vector<BackwardSums>& sums) const {
     for (std::uint32_t i = 0; i < n; i += Origins::group) {
       std::uint64_t round = 0;
       for (std::uint32_t k = i; k < i + Origins::group; ++k) round += scores_[k];
@@ -57,10 +57,10 @@ class ReceiverGoal {
   void start(Wave& wave, std::uint32_t n) {
     flight_ = 0;
     for (std::uint32_t i = 0; i < n; ++i) {
-      const Outlook outlook = origins_->start(origin_[i], sample_[i], ids_[i], stream_, wave.rays, i);
-      const Frame frame = frame_about(outlook.normal);
+      const ReferencePoint reference = origins_->start(origin_[i], sample_[i], ids_[i], stream_, wave.rays, i);
+      const Frame frame = frame_about(reference.normal);
       const Words words = stream_.draw(ids_[i], 0, Purpose::emission);
-      factor_[i] = outlook.squared_sine();
+      factor_[i] = reference.squared_sine();
       const double squared = unit_open(words[0]) * factor_[i];
       const double azimuth = 2.0 * std::numbers::pi * unit_open(words[1]);
       const double sine = std::sqrt(squared);
@@ -91,15 +91,15 @@ class ReceiverGoal {
   void land(const Wave& wave) {
     ++flight_;
     count_->impacts += wave.rays.size;
-    if (flight_ == 1 || !light_->any_surface_shines()) return;
+    if (flight_ == 1 || !light_->has_area_lights()) return;
     const Rays& rays = wave.rays;
     const Tracer& tracer = *scene_->tracer;
     for (std::size_t i = 0; i < rays.size; ++i) {
       const Facet& facet = tracer.facets()[rays.facet[i]];
-      if (rays.behind[i] != 0 || !light_->shines(facet.surface)) continue;
-      const glm::dvec3 way = tracer.world_vector(glm::dvec3(rays.direction(i)) * double{rays.length[i]});
-      const double r = glm::length(way);
-      const double cosine_there = std::abs(glm::dot(way, world_normal(facet))) / r;
+      if (rays.behind[i] != 0 || !light_->is_area_light(facet.surface)) continue;
+      const glm::dvec3 segment = tracer.world_vector(glm::dvec3(rays.direction(i)) * double{rays.length[i]});
+      const double r = glm::length(segment);
+      const double cosine_there = std::abs(glm::dot(segment, world_normal(facet))) / r;
       if (!(r > 0.0) || !(cosine_there > 0.0)) continue;
       const double irradiance = light_->hit(facet.surface, double{cosine_[i]}, cosine_there, r);
       if constexpr (Policy::scores_every_impact) {
@@ -124,7 +124,7 @@ class ReceiverGoal {
   void reflect(const Wave& wave, std::uint32_t flight) {
     const Rays& rays = wave.rays;
     for (std::size_t i = 0; i < rays.size; ++i) direct_[i] = 0.0;
-    for (std::size_t k = 0; k < light_->offers_per_point(); ++k) {
+    for (std::size_t k = 0; k < light_->light_samples_per_point(); ++k) {
       shadow_rays_.clear();
       asking_.clear();
       for (std::size_t i = 0; i < rays.size; ++i) ask(wave, flight, i, k);
@@ -164,20 +164,20 @@ class ReceiverGoal {
     const Facet& facet = tracer.facets()[rays.facet[i]];
     const glm::vec3 start = rays.start(i);
     const glm::dvec3 normal = world_normal(facet);
-    const Outlook outlook{tracer.world_point(glm::dvec3(start)), rays.behind[i] != 0 ? -normal : normal, 0.0};
+    const ReferencePoint reference{tracer.world_point(glm::dvec3(start)), rays.behind[i] != 0 ? -normal : normal, 0.0};
     const std::uint64_t id = ids_[wave.photon[i]];
     // A surface's own numbers for each emitter.
-    const auto number = static_cast<std::uint32_t>(flight * light_->offers_per_point() + k);
+    const auto number = static_cast<std::uint32_t>(flight * light_->light_samples_per_point() + k);
     const Words which = stream_.draw(id, number, Purpose::light);
-    const Words where = light_->any_surface_shines() ? stream_.draw(id, number, Purpose::on_light) : Words{};
-    const LightOffer offer = light_->offer(k, outlook, which, where);
+    const Words where = light_->has_area_lights() ? stream_.draw(id, number, Purpose::on_light) : Words{};
+    const LightSample offer = light_->offer(k, reference, which, where);
     if (!(offer.irradiance > 0.0)) return;
     if (!tracer.casts_shadows()) {
       direct_[i] += offer.irradiance;
       return;
     }
-    const glm::dvec3 way = tracer.tracer_point(offer.target) - glm::dvec3(start);
-    const double length = glm::length(way);
+    const glm::dvec3 segment = tracer.tracer_point(offer.target) - glm::dvec3(start);
+    const double length = glm::length(segment);
     const double short_of = 2.0 * tracer.step();  // of the surface that the emitter may lie on
     if (length <= short_of) {
       direct_[i] += offer.irradiance;
@@ -185,7 +185,7 @@ class ReceiverGoal {
     }
     offers_[i] = offer.irradiance;
     asking_.push_back(i);
-    shadow_rays_.add(start, glm::vec3(way * (1.0 - short_of / length)));
+    shadow_rays_.add(start, glm::vec3(segment * (1.0 - short_of / length)));
   }
 
   void finish(const Wave& wave, std::size_t i) {
@@ -196,7 +196,7 @@ class ReceiverGoal {
   const Scene* scene_;
   const DirectLight* light_;
   const Origins* origins_;
-  ReceiverScale scale_;
+  BackwardScale scale_;
   Stream stream_;
   // Of the photons by their numbers.
   std::vector<std::uint64_t> ids_;
@@ -219,12 +219,12 @@ class ReceiverGoal {
 template <class Policy, class Reflectance, class Origins>
 class PolicyBackwardWalk final : public BackwardWalk {
  public:
-  PolicyBackwardWalk(const Scene& scene, const DirectLight& light, const Origins& origins, const ReceiverScale& scale,
+  PolicyBackwardWalk(const Scene& scene, const DirectLight& light, const Origins& origins, const BackwardScale& scale,
                      std::uint64_t seed, std::uint32_t max_flights)
-      : goal_(scene, light, origins, scale, Stream(seed, Way::backward)),
-        kernel_(scene, Stream(seed, Way::backward), max_flights) {}
+      : goal_(scene, light, origins, scale, Stream(seed, WalkDirection::backward)),
+        kernel_(scene, Stream(seed, WalkDirection::backward), max_flights) {}
 
-  void simulate(const BackwardWork& work, std::vector<ReceiverSums>& sums, BackwardCount& count,
+  void simulate(const BackwardWork& work, std::vector<BackwardSums>& sums, BackwardCount& count,
                 const Abandon& abandon) override {
     static_assert(batch_histories % Origins::group == 0);  // no round is torn apart
     goal_.begin(count);
@@ -244,15 +244,15 @@ class PolicyBackwardWalk final : public BackwardWalk {
   }
 
  private:
-  ReceiverGoal<Policy, Origins> goal_;
-  Kernel<Policy, Reflectance, ReceiverGoal<Policy, Origins>> kernel_;
+  BackwardGoal<Policy, Origins> goal_;
+  Kernel<Policy, Reflectance, BackwardGoal<Policy, Origins>> kernel_;
 };
 
 template <class Origins>
 std::unique_ptr<BackwardWalk> walk_from(const Scene& scene, const DirectLight& light, const Origins& origins,
-                                        const ReceiverScale& scale, const Settings& settings) {
+                                        const BackwardScale& scale, const Settings& settings) {
   const auto with = [&]<class Policy>(Policy /*policy*/, std::uint32_t max_flights) -> std::unique_ptr<BackwardWalk> {
-    if (scene.has_maps()) {
+    if (scene.has_reflectance_maps()) {
       return std::make_unique<PolicyBackwardWalk<Policy, MappedReflectance, Origins>>(scene, light, origins, scale,
                                                                                       settings.seed, max_flights);
     }
@@ -275,42 +275,42 @@ std::unique_ptr<BackwardWalk> walk_from(const Scene& scene, const DirectLight& l
 
 }  // namespace
 
-ReceiverScale::ReceiverScale(const Room& room) {
+BackwardScale::BackwardScale(const Room& room) {
   double area = 0.0;
   for (const Surface& surface : room.surfaces) area += surface_area(surface);
   unit = total_power(room) / area * 0x1p-24;
 }
 
-std::uint64_t ReceiverScale::score(double irradiance) const {
+std::uint64_t BackwardScale::score(double irradiance) const {
   const double units = irradiance / unit;
   return units < static_cast<double>(largest_score) ? static_cast<std::uint64_t>(units + 0.5) : largest_score;
 }
 
-Outlook outlook_of(const Receiver& receiver) {
+ReferencePoint reference_point_of(const Receiver& receiver) {
   const glm::dvec3 n = receiver.normal;
   const glm::dvec3 scaled = n / std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
-  Outlook outlook{receiver.position, glm::normalize(scaled), 0.0};
+  ReferencePoint reference{receiver.position, glm::normalize(scaled), 0.0};
   if (receiver.half_angle_deg < 90.0)
-    outlook.least_cosine = std::cos(receiver.half_angle_deg * std::numbers::pi / 180.0);
-  return outlook;
+    reference.least_cosine = std::cos(receiver.half_angle_deg * std::numbers::pi / 180.0);
+  return reference;
 }
 
-Outlook ReceiverOrigins::start(std::uint64_t receiver, std::uint64_t /*sample*/, std::uint64_t /*id*/,
-                               const Stream& /*stream*/, Rays& rays, std::size_t i) const {
-  const Outlook outlook = outlook_of((*receivers_)[receiver]);
+ReferencePoint ReceiverOrigins::start(std::uint64_t receiver, std::uint64_t /*sample*/, std::uint64_t /*id*/,
+                                      const Stream& /*stream*/, Rays& rays, std::size_t i) const {
+  const ReferencePoint reference = reference_point_of((*receivers_)[receiver]);
   rays.facet[i] = no_facet;
-  rays.set_start(i, glm::vec3(start_of(outlook, *tracer_)));
-  return outlook;
+  rays.set_start(i, glm::vec3(start_of(reference, *tracer_)));
+  return reference;
 }
 
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
-                                                 const ReceiverOrigins& origins, const ReceiverScale& scale,
+                                                 const ReceiverOrigins& origins, const BackwardScale& scale,
                                                  const Settings& settings) {
   return walk_from(scene, light, origins, scale, settings);
 }
 
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light, const TileFaces& origins,
-                                                 const ReceiverScale& scale, const Settings& settings) {
+                                                 const BackwardScale& scale, const Settings& settings) {
   return walk_from(scene, light, origins, scale, settings);
 }
 

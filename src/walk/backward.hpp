@@ -22,7 +22,7 @@ namespace lichtmc {
 
 // What the walks of a receiver, or of a face of a tile, add up to: integers, so that the order does not matter. Scores
 // are irradiances in units of ReceiverScale::unit, or the sums of a round of walks (see make_backward_walk).
-struct ReceiverSums {
+struct BackwardSums {
   uint128 sum = 0;
   uint128 squares = 0;
 
@@ -30,7 +30,7 @@ struct ReceiverSums {
     sum += score;
     squares += static_cast<uint128>(score) * score;
   }
-  void add(const ReceiverSums& other) {
+  void add(const BackwardSums& other) {
     sum += other.sum;
     squares += other.squares;
   }
@@ -38,8 +38,8 @@ struct ReceiverSums {
 
 // The unit of scores: 2⁻²⁴ of the irradiance that the emitters' power makes spread over all surfaces. A score is at
 // most 2⁵⁰ units, 6·10⁷ times that; the sum of the squares of 2²⁴ rounds of four of the largest stays below 2¹²⁸.
-struct ReceiverScale {
-  explicit ReceiverScale(const Room& room);
+struct BackwardScale {
+  explicit BackwardScale(const Room& room);
   static constexpr std::uint64_t largest_score = std::uint64_t{1} << 50;
 
   double unit = 1.0;  // W/m² or lx
@@ -70,7 +70,7 @@ class BackwardWalk {
   virtual ~BackwardWalk() = default;
 
   // Simulates histories; sums[k] belongs to origin work.first + k.
-  virtual void simulate(const BackwardWork& work, std::vector<ReceiverSums>& sums, BackwardCount& count,
+  virtual void simulate(const BackwardWork& work, std::vector<BackwardSums>& sums, BackwardCount& count,
                         const Abandon& abandon) = 0;
 
  protected:
@@ -81,7 +81,7 @@ class BackwardWalk {
 
 // How a receiver looks at the room. Its field of view is a cone about the normal; what it sees at an angle of 0° has
 // none.
-Outlook outlook_of(const Receiver& receiver);
+ReferencePoint reference_point_of(const Receiver& receiver);
 
 // Where backward walks come from. Origins are numbered; walks from one come in rounds of `group`, of which only the sum
 // counts, so that a round may be spread evenly. start() sets where photon i starts and says how it looks at the room.
@@ -92,8 +92,8 @@ class ReceiverOrigins {
 
   static constexpr std::uint32_t group = 1;
   std::size_t size() const { return receivers_->size(); }
-  Outlook start(std::uint64_t receiver, std::uint64_t sample, std::uint64_t id, const Stream& stream, Rays& rays,
-                std::size_t i) const;
+  ReferencePoint start(std::uint64_t receiver, std::uint64_t sample, std::uint64_t id, const Stream& stream, Rays& rays,
+                       std::size_t i) const;
 
  private:
   const std::vector<Receiver>* receivers_;
@@ -102,9 +102,9 @@ class ReceiverOrigins {
 
 // A walk for one thread, from receivers or from the faces of tiles; scene, light and origins must outlive it.
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
-                                                 const ReceiverOrigins& origins, const ReceiverScale& scale,
+                                                 const ReceiverOrigins& origins, const BackwardScale& scale,
                                                  const Settings& settings);
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light, const TileFaces& origins,
-                                                 const ReceiverScale& scale, const Settings& settings);
+                                                 const BackwardScale& scale, const Settings& settings);
 
 }  // namespace lichtmc

@@ -29,9 +29,9 @@ constexpr double on_emitter = 1e-6;
 
 }  // namespace
 
-glm::dvec3 start_of(const Outlook& outlook, const Tracer& tracer) {
-  return tracer.tracer_point(outlook.point) +
-         double{tracer.step()} * glm::normalize(tracer.directions() * outlook.normal);
+glm::dvec3 start_of(const ReferencePoint& reference, const Tracer& tracer) {
+  return tracer.tracer_point(reference.point) +
+         double{tracer.step()} * glm::normalize(tracer.directions() * reference.normal);
 }
 
 DirectLight::DirectLight(const Room& room, const Tracer& tracer) : room_(&room), tracer_(&tracer) {
@@ -61,22 +61,22 @@ DirectLight::DirectLight(const Room& room, const Tracer& tracer) : room_(&room),
   powers_up_to_ = cumulative(powers);
 }
 
-bool DirectLight::blocked(const Outlook& outlook, const glm::dvec3& target, TraceCount& count) const {
+bool DirectLight::blocked(const ReferencePoint& reference, const glm::dvec3& target, TraceCount& count) const {
   if (!tracer_->casts_shadows()) return false;
   // One step off, on the side that the point looks to and short of the emitter's own surface: both may lie on one.
   const double step = tracer_->step();
-  const glm::dvec3 start = start_of(outlook, *tracer_);
-  const glm::dvec3 way = tracer_->tracer_point(target) - start;
-  const double length = glm::length(way);
+  const glm::dvec3 start = start_of(reference, *tracer_);
+  const glm::dvec3 segment = tracer_->tracer_point(target) - start;
+  const double length = glm::length(segment);
   if (length <= 2.0 * step) return false;
-  return tracer_->is_blocked(glm::vec3(start), glm::vec3(way * (1.0 - 2.0 * step / length)), count);
+  return tracer_->is_blocked(glm::vec3(start), glm::vec3(segment * (1.0 - 2.0 * step / length)), count);
 }
 
 // Two kinds of samples: points on the emitter, in strata of its area, and flights from the receiver, in strata of its
 // field of view, that may meet it. Each counts by how likely it was (see hit()): points find small emitters, flights
 // near ones, and those that fill a narrow view. Their number doubles until the error, from the differences between
 // neighbours in a stratum, is small.
-DirectIrradiance DirectLight::sampled(std::size_t k, const OutlookOf& outlook, const Stream& stream,
+DirectIrradiance DirectLight::sampled(std::size_t k, const ReferencePointAt& reference, const Stream& stream,
                                       std::uint64_t number, const Accuracy& accuracy, TraceCount& count) const {
   constexpr std::uint32_t first = 64;
   const SurfaceSource& source = surfaces_[k];
@@ -92,8 +92,8 @@ DirectIrradiance DirectLight::sampled(std::size_t k, const OutlookOf& outlook, c
         squares += (values[i] - values[i + 1]) * (values[i] - values[i + 1]);
       }
     };
-    add(by_points(source, outlook, stream, number, samples, fresh, count));
-    add(by_flights(source, outlook, stream, number, samples, fresh, count));
+    add(by_points(source, reference, stream, number, samples, fresh, count));
+    add(by_flights(source, reference, stream, number, samples, fresh, count));
     samples = level;
     // The variance of a pair's mean is its squared difference/4, on average.
     result = {sum / samples, std::sqrt(squares) / samples};
@@ -113,23 +113,23 @@ double in_stratum(std::uint32_t k, std::uint32_t n, double u) {
 
 }  // namespace
 
-std::vector<double> DirectLight::by_points(const SurfaceSource& source, const OutlookOf& outlook_of,
+std::vector<double> DirectLight::by_points(const SurfaceSource& source, const ReferencePointAt& reference_point_of,
                                            const Stream& stream, std::uint64_t number, std::uint32_t first,
                                            std::uint32_t n, TraceCount& count) const {
   std::vector<double> values(n, 0.0);
   const double by_point = 1.0 / source.area_m2();
   for (std::uint32_t k = 0; k < n; ++k) {
-    const Outlook outlook = outlook_of(first + k);
+    const ReferencePoint reference = reference_point_of(first + k);
     const Words words = stream.draw(number, first + k, Purpose::direct_point);
-    const LightOffer offer =
-        source.offer(outlook, in_stratum(k, n, unit_open(words[0])), unit_open(words[1]), unit_open(words[2]));
-    if (!(offer.irradiance > 0.0) || blocked(outlook, offer.target, count)) continue;
-    values[k] = offer.irradiance * by_point / (by_point + offer.by_walk / outlook.squared_sine());
+    const LightSample offer =
+        source.offer(reference, in_stratum(k, n, unit_open(words[0])), unit_open(words[1]), unit_open(words[2]));
+    if (!(offer.irradiance > 0.0) || blocked(reference, offer.target, count)) continue;
+    values[k] = offer.irradiance * by_point / (by_point + offer.pdf_bsdf / reference.squared_sine());
   }
   return values;
 }
 
-std::vector<double> DirectLight::by_flights(const SurfaceSource& source, const OutlookOf& outlook_of,
+std::vector<double> DirectLight::by_flights(const SurfaceSource& source, const ReferencePointAt& reference_point_of,
                                             const Stream& stream, std::uint64_t number, std::uint32_t first,
                                             std::uint32_t n, TraceCount& count) const {
   std::vector<double> values(n, 0.0);
@@ -138,9 +138,9 @@ std::vector<double> DirectLight::by_flights(const SurfaceSource& source, const O
   std::vector<double> cosines(n);
   std::vector<double> views(n);
   for (std::uint32_t k = 0; k < n; ++k) {
-    const Outlook outlook = outlook_of(first + k);
-    const double view = views[k] = outlook.squared_sine();
-    const Frame frame = frame_about(outlook.normal);
+    const ReferencePoint reference = reference_point_of(first + k);
+    const double view = views[k] = reference.squared_sine();
+    const Frame frame = frame_about(reference.normal);
     const Words words = stream.draw(number, first + k, Purpose::direct_flight);
     const double squared = view * in_stratum(k, n, unit_open(words[0]));
     const double azimuth = 2.0 * pi * unit_open(words[1]);
@@ -149,7 +149,7 @@ std::vector<double> DirectLight::by_flights(const SurfaceSource& source, const O
         std::sqrt(squared) * (std::cos(azimuth) * frame.tangent + std::sin(azimuth) * frame.bitangent) +
         cosines[k] * frame.normal;
     rays.facet[k] = no_facet;
-    rays.set_start(k, glm::vec3(start_of(outlook, *tracer_)));
+    rays.set_start(k, glm::vec3(start_of(reference, *tracer_)));
     rays.set_direction(k, glm::vec3(tracer_->directions() * direction));
   }
   tracer_->trace(rays, Misses::escape, count);
@@ -157,32 +157,32 @@ std::vector<double> DirectLight::by_flights(const SurfaceSource& source, const O
     if (rays.facet[k] == no_facet || rays.behind[k] != 0) continue;
     const Facet& facet = tracer_->facets()[rays.facet[k]];
     if (facet.surface != source.surface()) continue;
-    const glm::dvec3 way = tracer_->world_vector(glm::dvec3(rays.direction(k)) * double{rays.length[k]});
-    const double r = glm::length(way);
+    const glm::dvec3 segment = tracer_->world_vector(glm::dvec3(rays.direction(k)) * double{rays.length[k]});
+    const double r = glm::length(segment);
     const glm::dvec3 normal = glm::normalize(tracer_->world_vector(glm::dvec3(facet.normal)));
-    const double cosine_there = std::abs(glm::dot(way, normal)) / r;
+    const double cosine_there = std::abs(glm::dot(segment, normal)) / r;
     if (!(r > 0.0) || !(cosine_there > 0.0)) continue;
-    const double by_walk = cosines[k] * cosine_there / (pi * r * r) / views[k];
-    values[k] = views[k] * source.radiance(cosine_there) * pi * by_walk / (by_walk + 1.0 / source.area_m2());
+    const double pdf_bsdf = cosines[k] * cosine_there / (pi * r * r) / views[k];
+    values[k] = views[k] * source.radiance(cosine_there) * pi * pdf_bsdf / (pdf_bsdf + 1.0 / source.area_m2());
   }
   return values;
 }
 
-DirectIrradiance DirectLight::at(const Outlook& outlook, const Stream& stream, std::uint64_t number,
+DirectIrradiance DirectLight::at(const ReferencePoint& reference, const Stream& stream, std::uint64_t number,
                                  TraceCount& count) const {
   DirectIrradiance sum;
   double variance = 0.0;
   for (const PointSource& source : points_) {
-    const LightOffer offer = source.offer(outlook);
-    if (offer.irradiance > 0.0 && !blocked(outlook, offer.target, count)) sum.value += offer.irradiance;
+    const LightSample offer = source.offer(reference);
+    if (offer.irradiance > 0.0 && !blocked(reference, offer.target, count)) sum.value += offer.irradiance;
   }
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    if (!tracer_->casts_shadows() && surfaces_[k].lambertian() && outlook.least_cosine <= 0.0) {
-      sum.value += surfaces_[k].by_polygons(outlook);
+    if (!tracer_->casts_shadows() && surfaces_[k].lambertian() && reference.least_cosine <= 0.0) {
+      sum.value += surfaces_[k].by_polygons(reference);
       continue;
     }
     const DirectIrradiance part = sampled(
-        k, [&outlook](std::uint32_t) { return outlook; }, stream, number * surfaces_.size() + k, Accuracy{}, count);
+        k, [&reference](std::uint32_t) { return reference; }, stream, number * surfaces_.size() + k, Accuracy{}, count);
     sum.value += part.value;
     variance += part.standard_error * part.standard_error;
   }
@@ -190,17 +190,18 @@ DirectIrradiance DirectLight::at(const Outlook& outlook, const Stream& stream, s
   return sum;
 }
 
-LightOffer DirectLight::offer(std::size_t k, const Outlook& outlook, const Words& which, const Words& where) const {
+LightSample DirectLight::offer(std::size_t k, const ReferencePoint& reference, const Words& which,
+                               const Words& where) const {
   const Source& source = sources_[few_ ? k : choose(powers_up_to_, unit_fine(which[0], which[1]))];
   if (!source.on_surface) {
-    LightOffer offer = points_[source.index].offer(outlook);
+    LightSample offer = points_[source.index].offer(reference);
     offer.irradiance /= source.share;
     return offer;
   }
   const SurfaceSource& surface = surfaces_[source.index];
-  LightOffer offer = surface.offer(outlook, unit_open(where[0]), unit_open(where[1]), unit_open(where[2]));
+  LightSample offer = surface.offer(reference, unit_open(where[0]), unit_open(where[1]), unit_open(where[2]));
   const double by_point = source.share / surface.area_m2();
-  offer.irradiance *= by_point / (by_point + offer.by_walk) / source.share;
+  offer.irradiance *= by_point / (by_point + offer.pdf_bsdf) / source.share;
   return offer;
 }
 
@@ -209,15 +210,15 @@ double DirectLight::hit(std::size_t surface, double cosine_here, double cosine_t
   for (const std::size_t k : sources_of_surface_[surface]) {
     const SurfaceSource& source = surfaces_[k];
     const double by_point = surface_shares_[k] / source.area_m2();
-    const double by_walk = cosine_here * cosine_there / (pi * r_m * r_m);
-    sum += pi * source.radiance(cosine_there) * by_walk / (by_point + by_walk);
+    const double pdf_bsdf = cosine_here * cosine_there / (pi * r_m * r_m);
+    sum += pi * source.radiance(cosine_there) * pdf_bsdf / (by_point + pdf_bsdf);
   }
   return sum;
 }
 
-std::optional<std::size_t> DirectLight::emitter_at(const Outlook& outlook) const {
+std::optional<std::size_t> DirectLight::emitter_at(const ReferencePoint& reference) const {
   for (const PointSource& source : points_) {
-    if (source.position() == outlook.point) return source.number();
+    if (source.position() == reference.point) return source.number();
   }
   if (surfaces_.empty()) return std::nullopt;
   const Bounds bounds = bounds_of(*room_);
@@ -234,9 +235,9 @@ std::optional<std::size_t> DirectLight::emitter_at(const Outlook& outlook) const
       const glm::dvec3 c = surface.positions[corner.z] - a;
       const glm::dvec3 cross = glm::cross(b, c);
       const double twice = glm::length(cross);
-      const glm::dvec3 p = outlook.point - a;
+      const glm::dvec3 p = reference.point - a;
       if (!(twice > 0.0) || std::abs(glm::dot(p, cross)) > near * twice) continue;
-      if (glm::dot(outlook.normal, cross) >= 0.0) continue;  // it looks away from the emitter that it lies on
+      if (glm::dot(reference.normal, cross) >= 0.0) continue;  // it looks away from the emitter that it lies on
       const double s = glm::dot(glm::cross(p, c), cross) / (twice * twice);
       const double t = glm::dot(glm::cross(b, p), cross) / (twice * twice);
       if (s >= 0.0 && t >= 0.0 && s + t <= 1.0) return n;

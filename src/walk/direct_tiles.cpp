@@ -33,11 +33,11 @@ Leaves integrate_face(const TileFaces& faces, std::size_t face, const Light& lig
   Leaves leaves;
   for (std::size_t n = 0; n < pieces.size(); ++n) {
     const TilePiece& piece = pieces[n];
-    Outlook outlook = faces.outlook(face, {piece.triangle, piece.weights[0]});
-    if (!lit(outlook)) continue;
+    ReferencePoint reference = faces.reference(face, {piece.triangle, piece.weights[0]});
+    if (!lit(reference)) continue;
     const auto at = [&](const glm::dvec3& point) {
-      outlook.point = point;
-      return light(outlook);
+      reference.point = point;
+      return light(reference);
     };
     const Triangle triangle{point_at(surface, piece.triangle, piece.weights[0]),
                             point_at(surface, piece.triangle, piece.weights[1]),
@@ -67,15 +67,15 @@ struct InBeam {
 
   // The angle between the axis and the nearest direction to the triangle, and the angle that it is seen under.
   double angle_off(const Triangle& t, double& half_size) const {
-    const glm::dvec3 way = centroid_of(t) - source.position();
-    const double distance = glm::length(way);
+    const glm::dvec3 segment = centroid_of(t) - source.position();
+    const double distance = glm::length(segment);
     const double radius = radius_of(t);
     if (!(distance > radius)) {
       half_size = pi;
       return 0.0;
     }
     half_size = std::asin(radius / distance);
-    const glm::dvec3 towards = way / distance;
+    const glm::dvec3 towards = segment / distance;
     const double angle = std::atan2(glm::length(glm::cross(towards, source.axis())), glm::dot(towards, source.axis()));
     return std::max(0.0, angle - half_size);
   }
@@ -131,7 +131,7 @@ Seen ratio_of(const std::vector<Sample>& samples) {
 
 // A point of the leaves, chosen by their light with u and uniform on the one chosen.
 struct LitPoint {
-  Outlook outlook;
+  ReferencePoint reference;
   double density = 0.0;  // light per area that the choice went by
 };
 
@@ -150,13 +150,13 @@ class LitPoints {
     const double within = (light - (up_to_[k] - leaf.integral)) / leaf.integral;
     const double root = std::sqrt(std::clamp(within, 0.0, 1.0));
     const Triangle& t = leaf.triangle;
-    return {outlook(leaf, t[0] + root * (1.0 - v) * (t[1] - t[0]) + root * v * (t[2] - t[0])),
+    return {reference(leaf, t[0] + root * (1.0 - v) * (t[1] - t[0]) + root * v * (t[2] - t[0])),
             leaf.integral / area_of(t)};
   }
   // How a point of a leaf looks at the room.
-  Outlook outlook(const IntegratedTriangle& leaf, const glm::dvec3& point) const {
+  ReferencePoint reference(const IntegratedTriangle& leaf, const glm::dvec3& point) const {
     const TilePiece& piece = faces_.pieces().of(faces_[face_].tile)[leaf.part];
-    Outlook result = faces_.outlook(face_, {piece.triangle, piece.weights[0]});
+    ReferencePoint result = faces_.reference(face_, {piece.triangle, piece.weights[0]});
     result.point = point;
     return result;
   }
@@ -221,7 +221,7 @@ DirectIrradiance DirectTiles::shadowed(const Leaves& leaves, std::size_t face, s
         const glm::dvec3 side = leaf.triangle[(k + 1) % 3] - leaf.triangle[k];
         for (int i = 0; i < on_side; ++i) {
           const glm::dvec3 rim = leaf.triangle[k] + (static_cast<double>(i) / on_side) * side;
-          const Sample sample = seen(points.outlook(leaf, middle + to_rim * (rim - middle)), n++);
+          const Sample sample = seen(points.reference(leaf, middle + to_rim * (rim - middle)), n++);
           if (sample.weight > 0.0 && sample.seen != all) return false;
         }
       }
@@ -230,7 +230,7 @@ DirectIrradiance DirectTiles::shadowed(const Leaves& leaves, std::size_t face, s
   };
   const auto take = [&](double u, double v, std::uint32_t n) {
     const LitPoint chosen = points.at(u, v);
-    Sample sample = seen(chosen.outlook, n);
+    Sample sample = seen(chosen.reference, n);
     sample.weight /= chosen.density;
     return sample;
   };
@@ -242,12 +242,14 @@ DirectIrradiance DirectTiles::by_point(const PointSource& source, std::size_t fa
                                        TraceCount& count) const {
   const InBeam beam{source};
   const Leaves leaves = integrate_face(
-      *faces_, face, [&](const Outlook& outlook) { return source.offer(outlook).irradiance; },
-      [&](const Outlook& outlook) { return glm::dot(source.position() - outlook.point, outlook.normal) > 0.0; },
+      *faces_, face, [&](const ReferencePoint& reference) { return source.offer(reference).irradiance; },
+      [&](const ReferencePoint& reference) {
+        return glm::dot(source.position() - reference.point, reference.normal) > 0.0;
+      },
       [&](const Triangle& t) { return beam.coarse(t); }, [&](const Triangle& t) { return beam.dark(t); }, relative_,
       relative_ * level_);
-  const auto seen = [&](const Outlook& outlook, std::uint32_t) {
-    return Sample{source.offer(outlook).irradiance, !light_->blocked(outlook, source.position(), count)};
+  const auto seen = [&](const ReferencePoint& reference, std::uint32_t) {
+    return Sample{source.offer(reference).irradiance, !light_->blocked(reference, source.position(), count)};
   };
   return shadowed(leaves, face, number, seen);
 }
@@ -256,34 +258,35 @@ DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::u
                                          TraceCount& count) const {
   const SurfaceSource& source = light_->surfaces()[k];
   if (!source.lambertian() || source.triangles() > most_triangles) {
-    const auto outlook = [&](std::uint32_t n) {
+    const auto reference = [&](std::uint32_t n) {
       const Words words = stream_.draw(number, n, Purpose::direct_place);
-      return faces_->outlook(face, faces_->place(face, unit_open(words[0]), unit_open(words[1])));
+      return faces_->reference(face, faces_->place(face, unit_open(words[0]), unit_open(words[1])));
     };
     constexpr std::uint32_t most = 4096;
-    return light_->sampled(k, outlook, stream_, number, {relative_, relative_ * level_, most}, count);
+    return light_->sampled(k, reference, stream_, number, {relative_, relative_ * level_, most}, count);
   }
   const auto no = [](const Triangle&) { return false; };
   const Leaves leaves = integrate_face(
-      *faces_, face, [&](const Outlook& outlook) { return source.by_polygons(outlook); },
-      [&](const Outlook& outlook) { return source.rises_over(outlook); }, no, no, relative_, relative_ * level_);
+      *faces_, face, [&](const ReferencePoint& reference) { return source.by_polygons(reference); },
+      [&](const ReferencePoint& reference) { return source.reaches_above_horizon(reference); }, no, no, relative_,
+      relative_ * level_);
   // Random points of an emitter close by would seldom be those that shine most: there, flights by Lambert's law find
   // them, which meet it with the probability of its share of the hemisphere.
   constexpr double close = 0.1;
   const double whole_hemisphere = pi * source.radiance(1.0);
-  const auto seen = [&](const Outlook& outlook, std::uint32_t n) {
+  const auto seen = [&](const ReferencePoint& reference, std::uint32_t n) {
     const Words words = stream_.draw(number, n, Purpose::direct_point);
-    if (source.by_polygons(outlook) > close * whole_hemisphere) {
+    if (source.by_polygons(reference) > close * whole_hemisphere) {
       const glm::dvec3 local(sample_lambert(words[0], words[1]));
-      const Frame frame = frame_about(outlook.normal);
-      const auto target =
-          source.first_met(outlook.point, local.x * frame.tangent + local.y * frame.bitangent + local.z * frame.normal);
+      const Frame frame = frame_about(reference.normal);
+      const auto target = source.nearest_hit(
+          reference.point, local.x * frame.tangent + local.y * frame.bitangent + local.z * frame.normal);
       if (!target) return Sample{};
-      return Sample{whole_hemisphere, !light_->blocked(outlook, *target, count)};
+      return Sample{whole_hemisphere, !light_->blocked(reference, *target, count)};
     }
-    const LightOffer offer = source.offer(outlook, unit_open(words[0]), unit_open(words[1]), unit_open(words[2]));
+    const LightSample offer = source.offer(reference, unit_open(words[0]), unit_open(words[1]), unit_open(words[2]));
     if (!(offer.irradiance > 0.0)) return Sample{};
-    return Sample{offer.irradiance, !light_->blocked(outlook, offer.target, count)};
+    return Sample{offer.irradiance, !light_->blocked(reference, offer.target, count)};
   };
   return shadowed(leaves, face, number, seen);
 }

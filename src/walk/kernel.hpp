@@ -146,7 +146,7 @@ class Kernel {
       list_ended(n, survivors_);
       goal.absorb_all(wave_, survivors_.ended_at.data(), n - survivors_.count);
     }
-    close_ranks(wave_, survivors_);
+    compact_wave(wave_, survivors_);
     if constexpr (Policy::carries_weight) {
       std::size_t kept = 0;
       for (std::size_t i = 0; i < n; ++i) {

@@ -87,9 +87,9 @@ Launcher::Launcher(const Room& room, const Tracer& tracer) : facets_(&tracer.fac
   const double largest = *std::max_element(powers.begin(), powers.end());
   for (double& power : powers) power /= largest;
   powers_up_to_ = cumulative(powers);
-  const auto shines = [](double power) { return power > 0.0; };
-  if (std::count_if(powers.begin(), powers.end(), shines) == 1)
-    only_source_ = static_cast<std::size_t>(std::find_if(powers.begin(), powers.end(), shines) - powers.begin());
+  const auto is_area_light = [](double power) { return power > 0.0; };
+  if (std::count_if(powers.begin(), powers.end(), is_area_light) == 1)
+    only_source_ = static_cast<std::size_t>(std::find_if(powers.begin(), powers.end(), is_area_light) - powers.begin());
 }
 
 Launcher::PointSource Launcher::point_source(const Emitter& emitter, const Tracer& tracer) {

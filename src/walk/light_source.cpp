@@ -61,13 +61,13 @@ Outline above_horizon(const std::array<glm::dvec3, 3>& corners, const glm::dvec3
 }
 
 // Whether a triangle, given from a point, rises over its horizon by more than rounding: one in the same plane does not.
-bool rises(const std::array<glm::dvec3, 3>& corners, const Outlook& outlook) {
+bool is_above_horizon(const std::array<glm::dvec3, 3>& corners, const ReferencePoint& reference) {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
-  double size = glm::length(outlook.point);
+  double size = glm::length(reference.point);
   double height = 0.0;
   for (const glm::dvec3& corner : corners) {
     size = std::max(size, glm::length(corner));
-    height = std::max(height, glm::dot(corner, outlook.normal));
+    height = std::max(height, glm::dot(corner, reference.normal));
   }
   return height > rounding * size;
 }
@@ -117,13 +117,13 @@ double PointSource::intensity(const glm::dvec3& direction) const {
   return emitter_->power * std::visit(Density{cosine}, emitter_->shape);
 }
 
-LightOffer PointSource::offer(const Outlook& outlook) const {
-  const glm::dvec3 way = position_ - outlook.point;
-  const double r = glm::length(way);
+LightSample PointSource::offer(const ReferencePoint& reference) const {
+  const glm::dvec3 segment = position_ - reference.point;
+  const double r = glm::length(segment);
   if (!(r > 0.0)) return {};
-  const glm::dvec3 towards = way / r;
-  const double cosine = glm::dot(towards, outlook.normal);
-  if (cosine <= 0.0 || cosine < outlook.least_cosine) return {};
+  const glm::dvec3 towards = segment / r;
+  const double cosine = glm::dot(towards, reference.normal);
+  if (cosine <= 0.0 || cosine < reference.least_cosine) return {};
   return {intensity(-towards) * cosine / (r * r), position_, 0.0};
 }
 
@@ -149,15 +149,15 @@ SurfaceSource::SurfaceSource(const Room& room, const Emitter& emitter) : power_(
   areas_up_to_ = cumulative(areas);
 }
 
-bool SurfaceSource::rises_over(const Outlook& outlook) const {
-  const glm::dvec3& n = outlook.normal;
+bool SurfaceSource::reaches_above_horizon(const ReferencePoint& reference) const {
+  const glm::dvec3& n = reference.normal;
   const glm::dvec3 highest(n.x > 0.0 ? high_.x : low_.x, n.y > 0.0 ? high_.y : low_.y, n.z > 0.0 ? high_.z : low_.z);
-  return glm::dot(highest - outlook.point, n) > 0.0;
+  return glm::dot(highest - reference.point, n) > 0.0;
 }
 
 // Cramer's rule for point + λ direction = a + s b + t c (T. Möller, B. Trumbore, Fast, Minimum Storage Ray/Triangle
 // Intersection, 1997).
-std::optional<glm::dvec3> SurfaceSource::first_met(const glm::dvec3& point, const glm::dvec3& direction) const {
+std::optional<glm::dvec3> SurfaceSource::nearest_hit(const glm::dvec3& point, const glm::dvec3& direction) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (const std::size_t triangle : triangles_) {
     const glm::dvec3 a = corner_of(*surface_, triangle, 0);
@@ -182,43 +182,43 @@ double SurfaceSource::radiance(double cosine) const {
   return power_ / area_m2_ * pdf_generalized_lambert(exponent_, cosine) / cosine;
 }
 
-LightOffer SurfaceSource::offer(const Outlook& outlook, double u, double v, double w) const {
+LightSample SurfaceSource::offer(const ReferencePoint& reference, double u, double v, double w) const {
   const std::size_t triangle = triangles_[choose(areas_up_to_, u)];
   // Uniform on the triangle, as in the launcher.
   const double root = std::sqrt(v);
   const glm::dvec3 a = corner_of(*surface_, triangle, 0);
   const glm::dvec3 target = a + root * (1.0 - w) * (corner_of(*surface_, triangle, 1) - a) +
                             root * w * (corner_of(*surface_, triangle, 2) - a);
-  const glm::dvec3 way = target - outlook.point;
-  const double r = glm::length(way);
+  const glm::dvec3 segment = target - reference.point;
+  const double r = glm::length(segment);
   if (!(r > 0.0)) return {};
-  const glm::dvec3 towards = way / r;
-  const double cosine = glm::dot(towards, outlook.normal);
+  const glm::dvec3 towards = segment / r;
+  const double cosine = glm::dot(towards, reference.normal);
   const double cosine_there = -glm::dot(towards, glm::normalize(cross_of(*surface_, triangle)));
-  if (cosine <= 0.0 || cosine < outlook.least_cosine || cosine_there <= 0.0) return {};
+  if (cosine <= 0.0 || cosine < reference.least_cosine || cosine_there <= 0.0) return {};
   return {power_ * pdf_generalized_lambert(exponent_, cosine_there) * cosine / (r * r), target,
           cosine * cosine_there / (pi * r * r)};
 }
 
 // L/2 Σ Γ_k · n, Γ_k the angle under which edge k is seen times the normal of the plane through the point and it (J. H.
 // Lambert, Photometria, 1760; P. Schröder, P. Hanrahan, SIGGRAPH 1993).
-double SurfaceSource::by_polygons(const Outlook& outlook) const {
+double SurfaceSource::by_polygons(const ReferencePoint& reference) const {
   const double luminance = power_ / area_m2_ / pi;
   double sum = 0.0;
   for (const std::size_t triangle : triangles_) {
     std::array<glm::dvec3, 3> corners{};
     for (int k = 0; k < 3; ++k)
-      corners[static_cast<std::size_t>(k)] = corner_of(*surface_, triangle, k) - outlook.point;
+      corners[static_cast<std::size_t>(k)] = corner_of(*surface_, triangle, k) - reference.point;
     if (glm::dot(cross_of(*surface_, triangle), corners[0]) >= 0.0) continue;  // seen from behind
-    if (!rises(corners, outlook)) continue;
-    const Outline seen = above_horizon(corners, outlook.normal);
+    if (!is_above_horizon(corners, reference)) continue;
+    const Outline seen = above_horizon(corners, reference.normal);
     double edges = 0.0;
     for (std::size_t k = 0; k < seen.size(); ++k) {
       const glm::dvec3& here = seen[k];
       const glm::dvec3& next = seen[(k + 1) % seen.size()];
       const glm::dvec3 across = glm::cross(here, next);
       const double length = glm::length(across);
-      if (length > 0.0) edges += angle_between(here, next) * glm::dot(across / length, outlook.normal);
+      if (length > 0.0) edges += angle_between(here, next) * glm::dot(across / length, reference.normal);
     }
     sum += std::abs(edges);
   }

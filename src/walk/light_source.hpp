@@ -17,7 +17,7 @@
 namespace lichtmc {
 
 // A point with the side that it looks to, in m.
-struct Outlook {
+struct ReferencePoint {
   glm::dvec3 point{0.0};
   glm::dvec3 normal{0.0, 1.0, 0.0};  // length 1
   double least_cosine = 0.0;  // of the field of view: directions with a smaller cosine to the normal are not seen
@@ -27,10 +27,10 @@ struct Outlook {
 };
 
 // One emitter's light on its way to a point: what it would bring if nothing stood between, and the way to it.
-struct LightOffer {
+struct LightSample {
   double irradiance = 0.0;  // W/m² or lx; 0: none
   glm::dvec3 target{0.0};   // m, the point of the emitter
-  double by_walk = 0.0;     // density with which a diffuse flight meets that point, per area; 0 for point emitters
+  double pdf_bsdf = 0.0;    // density with which a diffuse flight meets that point, per area; 0 for point emitters
 };
 
 class PointSource {
@@ -38,7 +38,7 @@ class PointSource {
   // The emitter must outlive the source.
   PointSource(const Emitter& emitter, std::size_t number);
 
-  LightOffer offer(const Outlook& outlook) const;
+  LightSample offer(const ReferencePoint& reference) const;
 
   // Its light lies within a cone about the axis and changes over angles of about `width`, both in rad.
   struct Beam {
@@ -68,17 +68,17 @@ class SurfaceSource {
 
   // The offer of the point that u, v, w (in [0, 1)) choose, uniform over the area: its mean is the emitter's
   // irradiance, if nothing stood between.
-  LightOffer offer(const Outlook& outlook, double u, double v, double w) const;
+  LightSample offer(const ReferencePoint& reference, double u, double v, double w) const;
 
   // Where a straight way from a point first meets the emitter's front, if nothing else stood in its way.
-  std::optional<glm::dvec3> first_met(const glm::dvec3& point, const glm::dvec3& direction) const;
+  std::optional<glm::dvec3> nearest_hit(const glm::dvec3& point, const glm::dvec3& direction) const;
 
   // Whether the box about the emitter reaches over a point's horizon: else it sends nothing there.
-  bool rises_over(const Outlook& outlook) const;
+  bool reaches_above_horizon(const ReferencePoint& reference) const;
 
   bool lambertian() const { return exponent_ == 1.0; }
   // The irradiance of a Lambertian emitter over the whole hemisphere, if nothing stood between.
-  double by_polygons(const Outlook& outlook) const;
+  double by_polygons(const ReferencePoint& reference) const;
   std::size_t triangles() const { return triangles_.size(); }
 
   double radiance(double cosine) const;  // W/(m² sr) or cd/m² at an angle to the normal

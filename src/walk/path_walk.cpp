@@ -105,7 +105,7 @@ class PathGoal {
 template <class Policy>
 void fly(const Scene& scene, const Stream& stream, std::uint32_t most_flights, std::uint32_t n, PathGoal& goal) {
   const auto go_on = [] { return false; };
-  if (scene.has_maps()) {
+  if (scene.has_reflectance_maps()) {
     Kernel<Policy, MappedReflectance, PathGoal>(scene, stream, most_flights).fly(n, goal, go_on);
   } else {
     Kernel<Policy, SurfaceReflectance, PathGoal>(scene, stream, most_flights).fly(n, goal, go_on);

@@ -71,8 +71,8 @@ std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engi
 }
 
 // Where facets lie on the maps of their surfaces. Facets of surfaces with a map are triangles, one each.
-std::vector<MapPlace> places_on_maps(const Room& room, const Tracer& tracer) {
-  std::vector<MapPlace> places;
+std::vector<ReflectanceMapPlace> places_on_maps(const Room& room, const Tracer& tracer) {
+  std::vector<ReflectanceMapPlace> places;
   for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
     const Surface& surface = room.surfaces[k];
     if (!surface.reflectance_map) continue;
@@ -111,7 +111,7 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
     const std::vector<std::uint32_t> filled = nearest_tiles(map);
     tile_of_cell.insert(tile_of_cell.end(), filled.begin(), filled.end());
   }
-  map_places = places_on_maps(room, *tracer);
+  reflectance_map_places = places_on_maps(room, *tracer);
   const HighestReflectance highest(room);
   reflects_all_somewhere = std::any_of(room.surfaces.begin(), room.surfaces.end(),
                                        [&](const Surface& surface) { return highest.of(surface) == 1.0; });

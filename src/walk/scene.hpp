@@ -27,7 +27,7 @@ struct SurfaceOptics {
 };
 
 // A facet's place on a reflectance map: (u, v) = uv_0 + s·uv_s + t·uv_t.
-struct MapPlace {
+struct ReflectanceMapPlace {
   const ReflectanceMap* map = nullptr;  // null where the surface has one reflectance
   glm::dvec2 uv_0{0.0};
   glm::dvec2 uv_s{0.0};
@@ -42,11 +42,11 @@ struct Scene {
   std::unique_ptr<Tracer> tracer;
   Misses misses = Misses::escape;
   std::vector<SurfaceOptics> surfaces;
-  std::vector<MapPlace> map_places;         // per facet; empty where no surface has a map
-  std::vector<std::uint32_t> tile_of_cell;  // every cell has a tile, empty ones the nearest
-  std::vector<double> reflectance_of;       // of each surface
-  std::vector<std::int64_t> survival_of;    // the same in units of 2⁻⁵³, rounded up
-  std::vector<std::uint32_t> surface_of;    // of each facet
+  std::vector<ReflectanceMapPlace> reflectance_map_places;  // per facet; empty where no surface has a map
+  std::vector<std::uint32_t> tile_of_cell;                  // every cell has a tile, empty ones the nearest
+  std::vector<double> reflectance_of;                       // of each surface
+  std::vector<std::int64_t> survival_of;                    // the same in units of 2⁻⁵³, rounded up
+  std::vector<std::uint32_t> surface_of;                    // of each facet
   std::unique_ptr<CellFinder> cells;
   bool cells_are_tiles = false;           // tile_of_cell[k] = k: rooms of rectangles
   std::vector<std::uint32_t> first_tile;  // of each tile map; one number more, that of all tiles
@@ -54,15 +54,16 @@ struct Scene {
   std::unique_ptr<Launcher> launcher;
 
   // Whether some surface's reflectance changes from point to point.
-  bool has_maps() const { return !map_places.empty(); }
+  bool has_reflectance_maps() const { return !reflectance_map_places.empty(); }
 
   // ρ where flight i ended. surface_reflectance() serves scenes without maps only, at no cost for what they lack.
   double surface_reflectance(const Rays& rays, std::size_t i) const {
     return reflectance_of[surface_of[rays.facet[i]]];
   }
   double reflectance(const Rays& rays, std::size_t i) const {
-    if (!has_maps() || map_places[rays.facet[i]].map == nullptr) return surface_reflectance(rays, i);
-    const MapPlace& place = map_places[rays.facet[i]];
+    if (!has_reflectance_maps() || reflectance_map_places[rays.facet[i]].map == nullptr)
+      return surface_reflectance(rays, i);
+    const ReflectanceMapPlace& place = reflectance_map_places[rays.facet[i]];
     const glm::dvec2 uv = place.uv_0 + double{rays.s[i]} * place.uv_s + double{rays.t[i]} * place.uv_t;
     return reflectance_at(*place.map, uv.x, uv.y);
   }

@@ -10,8 +10,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#ifndef LICHTMC_RANKS
-#define LICHTMC_RANKS
+#ifndef LICHTMC_LANE_TABLE
+#define LICHTMC_LANE_TABLE
 namespace lichtmc {
 
 // For every set of survivors among some lanes, bit by bit: their numbers, in order.
@@ -63,7 +63,7 @@ void ListEnded(std::size_t n, Survivors& survivors) {
   }
 }
 
-void CloseRanks(Wave& wave, const Survivors& survivors) {
+void CompactWave(Wave& wave, const Survivors& survivors) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < wave.rays.size; ++i) {
     if ((std::size_t{survivors.sets[i / 8]} >> (i % 8) & 1) != 0) wave.move(i, kept++);
@@ -118,7 +118,7 @@ void ListEnded(std::size_t n, Survivors& survivors) {
   }
 }
 
-void CloseRanks(Wave& wave, const Survivors& survivors) {
+void CompactWave(Wave& wave, const Survivors& survivors) {
   const Tag d;
   const std::size_t n = wave.rays.size;
   std::size_t kept = 0;
@@ -152,7 +152,7 @@ namespace lichtmc {
 
 HWY_EXPORT(ChooseByChance);
 HWY_EXPORT(ListEnded);
-HWY_EXPORT(CloseRanks);
+HWY_EXPORT(CompactWave);
 
 void choose_by_chance(const Wave& wave, const std::int64_t* survival_of, Survivors& survivors) {
   HWY_DYNAMIC_DISPATCH(ChooseByChance)(wave, survival_of, survivors);
@@ -172,8 +172,8 @@ void list_ended(std::size_t n, Survivors& survivors) {
   HWY_DYNAMIC_DISPATCH(ListEnded)(n, survivors);
 }
 
-void close_ranks(Wave& wave, const Survivors& survivors) {
-  HWY_DYNAMIC_DISPATCH(CloseRanks)(wave, survivors);
+void compact_wave(Wave& wave, const Survivors& survivors) {
+  HWY_DYNAMIC_DISPATCH(CompactWave)(wave, survivors);
 }
 
 }  // namespace lichtmc

@@ -25,6 +25,6 @@ void choose_marked(const std::uint8_t* marks, std::size_t n, Survivors& survivor
 void list_ended(std::size_t n, Survivors& survivors);
 
 // The survivors move up, in their order, with what the next flight needs of them.
-void close_ranks(Wave& wave, const Survivors& survivors);
+void compact_wave(Wave& wave, const Survivors& survivors);
 
 }  // namespace lichtmc

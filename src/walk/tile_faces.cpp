@@ -39,13 +39,13 @@ TileFaces::TileFaces(const Room& room, const Tiling& tiling, const Tracer& trace
   }
 }
 
-Outlook TileFaces::outlook(std::size_t face, const SurfacePlace& place) const {
+ReferencePoint TileFaces::reference(std::size_t face, const SurfacePlace& place) const {
   const glm::dvec3& normal = normals_[surface_number(face)][place.triangle];
   return {point_at(surface(face), place.triangle, place.weights), faces_[face].behind ? -normal : normal, 0.0};
 }
 
-Outlook TileFaces::start(std::uint64_t face, std::uint64_t sample, std::uint64_t id, const Stream& stream, Rays& rays,
-                         std::size_t i) const {
+ReferencePoint TileFaces::start(std::uint64_t face, std::uint64_t sample, std::uint64_t id, const Stream& stream,
+                                Rays& rays, std::size_t i) const {
   const Words words = stream.draw(id, 0, Purpose::place);
   const std::uint64_t quarter = sample % group;
   const std::uint64_t upper = quarter / 2;
@@ -59,7 +59,7 @@ Outlook TileFaces::start(std::uint64_t face, std::uint64_t sample, std::uint64_t
   rays.s[i] = st.x;
   rays.t[i] = st.y;
   rays.behind[i] = faces_[face].behind ? 1 : 0;
-  return outlook(face, spot);
+  return reference(face, spot);
 }
 
 }  // namespace lichtmc

@@ -37,13 +37,13 @@ class TileFaces {
   // The place that u, v in [0, 1) choose, uniform over the face's area.
   SurfacePlace place(std::size_t face, double u, double v) const { return pieces_.place(faces_[face].tile, u, v); }
   // How a place of the face looks at the room.
-  Outlook outlook(std::size_t face, const SurfacePlace& place) const;
+  ReferencePoint reference(std::size_t face, const SurfacePlace& place) const;
 
   // As origins of backward walks (see backward.hpp): walks in rounds of four, one from each quarter of the unit square
   // that the places on the face are numbered by.
   static constexpr std::uint32_t group = 4;
-  Outlook start(std::uint64_t face, std::uint64_t sample, std::uint64_t id, const Stream& stream, Rays& rays,
-                std::size_t i) const;
+  ReferencePoint start(std::uint64_t face, std::uint64_t sample, std::uint64_t id, const Stream& stream, Rays& rays,
+                       std::size_t i) const;
 
  private:
   std::size_t surface_number(std::size_t face) const {

@@ -13,7 +13,7 @@ namespace {
 // Where direct light is integrated, the first flight of a photon scores nothing: it only brings the photon to where it
 // is reflected first. So many histories share it, and cost a walk only its other flights. More would save little, and
 // their scores grow more alike (docs/trade-off.md has the figures).
-constexpr std::uint32_t family_size = 8;
+constexpr std::uint32_t splitting_factor = 8;
 
 // What forward photons are for, see kernel.hpp.
 template <class Policy>
@@ -23,7 +23,7 @@ class TileGoal {
       : scene_(&scene),
         stream_(stream),
         first_scored_(direct == Direct::analytic ? 2 : 1),
-        family_(direct == Direct::analytic ? family_size : 1),
+        family_(direct == Direct::analytic ? splitting_factor : 1),
         tile_(batch_histories),
         map_(batch_histories),
         units_(batch_histories),
@@ -188,7 +188,8 @@ class ForwardWalk final : public Walk {
 
 template <class Policy>
 std::unique_ptr<Walk> walk_with(const Scene& scene, const Settings& settings, std::uint32_t max_flights) {
-  if (scene.has_maps()) return std::make_unique<ForwardWalk<Policy, MappedReflectance>>(scene, settings, max_flights);
+  if (scene.has_reflectance_maps())
+    return std::make_unique<ForwardWalk<Policy, MappedReflectance>>(scene, settings, max_flights);
   return std::make_unique<ForwardWalk<Policy, SurfaceReflectance>>(scene, settings, max_flights);
 }
 
@@ -199,7 +200,7 @@ std::unique_ptr<Walk> make_walk(const Scene& scene, const Settings& settings) {
     case Estimator::collision:
       return walk_with<CollisionPolicy>(scene, settings, 0);
     case Estimator::absorption:
-      if (scene.has_maps())
+      if (scene.has_reflectance_maps())
         return std::make_unique<ForwardWalk<MappedAbsorptionPolicy, MappedReflectance>>(scene, settings, 0);
       return std::make_unique<ForwardWalk<AbsorptionPolicy, SurfaceReflectance>>(scene, settings, 0);
     case Estimator::weight:
@@ -211,12 +212,12 @@ std::unique_ptr<Walk> make_walk(const Scene& scene, const Settings& settings) {
   return walk_with<RouletteWeightPolicy>(scene, settings, 0);
 }
 
-ScoreLaw score_law(Estimator estimator, bool has_maps) {
+ScoreLaw score_law(Estimator estimator, bool has_reflectance_maps) {
   switch (estimator) {
     case Estimator::collision:
       return {CollisionPolicy::hits, 1.0, false, false, false};
     case Estimator::absorption:
-      if (has_maps) return {MappedAbsorptionPolicy::hits, 1.0 / weight_units, true, false, false};
+      if (has_reflectance_maps) return {MappedAbsorptionPolicy::hits, 1.0 / weight_units, true, false, false};
       return {AbsorptionPolicy::hits, 1.0, true, true, true};
     case Estimator::weight:
     case Estimator::automatic:

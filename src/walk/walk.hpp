@@ -39,6 +39,6 @@ struct ScoreLaw {
   bool per_absorption = false;           // a unit is an absorption: the surface's 1/(1 − ρ) is still to come
   bool at_most_one_per_history = false;  // so that errors follow from the binomial law
 };
-ScoreLaw score_law(Estimator estimator, bool has_maps);
+ScoreLaw score_law(Estimator estimator, bool has_reflectance_maps);
 
 }  // namespace lichtmc

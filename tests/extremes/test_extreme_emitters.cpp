@@ -102,9 +102,9 @@ TEST_CASE("extreme: beams along the axes hit the tile that they point at") {
       REQUIRE(lit_tiles(result).size() == 1);
       const std::size_t lit = lit_tiles(result).front();
       CHECK(result.tiles[lit].power == 1.0);
-      const glm::dvec3 way = result.tiling.tiles[lit].point - from;
-      CHECK(glm::length(way - glm::dot(way, axis) * axis) < 1e-6);
-      CHECK(glm::dot(way, axis) > 0.0);
+      const glm::dvec3 segment = result.tiling.tiles[lit].point - from;
+      CHECK(glm::length(segment - glm::dot(segment, axis) * axis) < 1e-6);
+      CHECK(glm::dot(segment, axis) > 0.0);
     }
   }
 }

@@ -157,9 +157,9 @@ TEST_CASE("extreme: no way is shorter than the shortest, in the centre of a sphe
   scene.tracer->trace(rays, scene.misses, count);
   for (std::uint32_t i = 0; i < batch_histories; ++i) {
     REQUIRE(rays.facet[i] != no_facet);
-    const double way = rays.length[i] * metres * glm::length(rays.direction(i));
-    REQUIRE(way <= 1.0 + 1e-6);
-    REQUIRE(way >= nearest);
+    const double segment = rays.length[i] * metres * glm::length(rays.direction(i));
+    REQUIRE(segment <= 1.0 + 1e-6);
+    REQUIRE(segment >= nearest);
   }
 }
 

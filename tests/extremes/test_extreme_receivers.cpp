@@ -17,7 +17,7 @@ ReceiverResult seen(const Room& empty, const Receiver& receiver, Engine engine, 
   Room room = empty;
   room.receivers = {receiver};
   Settings settings = settings_of(Estimator::collision, engine, photons, 7);
-  settings.ways = Ways::backward;
+  settings.measured = Measured::receivers;
   const ReceiverResult one = simulate(room, settings).receiver_results.at(0);
   REQUIRE(std::isfinite(one.irradiance));
   REQUIRE(std::isfinite(one.standard_error));

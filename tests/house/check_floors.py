@@ -24,10 +24,10 @@ BELOW = {
 }
 # Public headers by the floor that provides them: a floor may use those of floors below it and its own.
 PUBLIC = {
-    "error": "base", "units": "base", "version": "base",
-    "room": "room", "cuboid": "room", "mend": "room", "tiles": "room",
+    "error": "base", "walk_direction": "base", "units": "base", "version": "base",
+    "room": "room", "cuboid": "room", "overrides": "room", "tiles": "room",
     "settings": "room", "state": "room",  # plain data that every floor may read
-    "team": "run", "mpi": "mpi",
+    "communicator": "run", "mpi": "mpi",
     "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
     "paths": "walk", "picture": "view",
     "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output",

@@ -48,7 +48,7 @@ Settings settings_of(Estimator estimator, Engine engine, double photons, std::ui
   settings.photons = static_cast<std::uint64_t>(photons);
   settings.seed = seed;
   settings.tile_edge_m = tile_edge_m;
-  settings.ways = Ways::forward;
+  settings.measured = Measured::tiles;
   return settings;
 }
 

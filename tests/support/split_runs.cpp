@@ -68,7 +68,7 @@ Room room_to_split(Furniture furniture) {
   return room;
 }
 
-std::vector<SplitRun> ways() {
+std::vector<SplitRun> split_runs() {
   std::vector<SplitRun> all;
   for (const Estimator estimator : {Estimator::weight, Estimator::collision, Estimator::absorption})
     all.push_back({Furniture::none, settings_of(estimator, Engine::cuboid, 50'001, 7)});
@@ -81,8 +81,8 @@ std::vector<SplitRun> ways() {
   all.push_back({Furniture::none, settings_of(Estimator::weight, Engine::cuboid, 50'001, 9)});
   all.back().settings.max_bounces = 4;
   all.push_back({Furniture::board, settings_of(Estimator::collision, Engine::embree, 50'001, 10, 0.3)});
-  all.back().settings.tiles = TileWalk::backward;
-  for (SplitRun& way : all) way.settings.ways = Ways::all;
+  all.back().settings.tile_walk = WalkDirection::backward;
+  for (SplitRun& split : all) split.settings.measured = Measured::all;
   return all;
 }
 

@@ -25,7 +25,7 @@ struct SplitRun {
 
 // Both tracers, all estimators, cut off or not, few tiles and many, direct light counted and integrated, tiles walked
 // from backward, textures and openings.
-std::vector<SplitRun> ways();
+std::vector<SplitRun> split_runs();
 
 // The state as another process finds it.
 State written_and_read(const State& state);

@@ -33,7 +33,7 @@ Room small_room() {
 
 Settings small_settings(Estimator estimator) {
   Settings settings = settings_of(estimator, Engine::cuboid, 20'000, 1, 0.5);
-  settings.ways = Ways::all;
+  settings.measured = Measured::all;
   settings.threads = 1;
   return settings;
 }

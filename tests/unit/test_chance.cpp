@@ -168,8 +168,8 @@ TEST_CASE("no direction is sampled along the surface itself") {
 }
 
 TEST_CASE("words drawn for many photons are those drawn one by one") {
-  for (const Way way : {Way::forward, Way::backward}) {
-    const Stream stream(0x123456789ABCDEFULL, way);
+  for (const WalkDirection direction : {WalkDirection::forward, WalkDirection::backward}) {
+    const Stream stream(0x123456789ABCDEFULL, direction);
     for (const std::size_t n : {1U, 3U, 4U, 7U, 64U, 1023U}) {
       const std::size_t whole = whole_lanes(n);
       std::vector<std::uint64_t> history(whole), chance(whole + 1, 78);

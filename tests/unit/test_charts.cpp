@@ -243,9 +243,9 @@ TEST_CASE("a winding ramp is cut where it lies over itself") {
 
 TEST_CASE("surfaces modelled twice and sheets folded flat still have patches without overlap") {
   Surface twice = make_box({1.0, 1.0, 1.0});
-  const Surface again = twice;
-  for (const glm::uvec3& corner : again.triangles) {
-    add_triangle(twice, again.positions[corner.x], again.positions[corner.y], again.positions[corner.z]);
+  const Surface overrides = twice;
+  for (const glm::uvec3& corner : overrides.triangles) {
+    add_triangle(twice, overrides.positions[corner.x], overrides.positions[corner.y], overrides.positions[corner.z]);
   }
   const Patches cut = patches_of(twice);
   check_partition(twice, cut, 1e-6);

@@ -74,7 +74,7 @@ TEST_CASE("compare: receivers with receivers, and with the tiles that they stand
     room.receivers.push_back({"r" + std::to_string(k), {0.15 + 0.1 * k, 0.0, 0.35}, {0, 1, 0}, 90.0, 1.0});
   room.receivers.push_back({"nowhere", {0.5, 0.5, 0.4}, {0, 1, 0}, 90.0, 1.0});
   Settings settings = seeded(5);
-  settings.ways = Ways::backward;
+  settings.measured = Measured::receivers;
   const Folder first("first", room, settings);
   settings.seed = 6;
   const Folder second("second", room, settings);

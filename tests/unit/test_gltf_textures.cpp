@@ -8,7 +8,7 @@
 
 #include "lichtmc/error.hpp"
 #include "lichtmc/gltf.hpp"
-#include "lichtmc/mend.hpp"
+#include "lichtmc/overrides.hpp"
 #include "room/reflectance.hpp"
 #include "support/catch.hpp"
 #include "support/gltf_text.hpp"
@@ -135,16 +135,16 @@ TEST_CASE("a room with textures is written and read back") {
   const TemporaryFolder folder;
   for (const char* name : {"room.glb", "room.gltf"}) {
     write_gltf(room, folder.path() / name);
-    const Room again = read_gltf(folder.path() / name);
-    REQUIRE(again.reflectance_maps.size() == 1);
-    const ReflectanceMap& map = again.reflectance_maps[0];
+    const Room overrides = read_gltf(folder.path() / name);
+    REQUIRE(overrides.reflectance_maps.size() == 1);
+    const ReflectanceMap& map = overrides.reflectance_maps[0];
     CHECK(map.wrap_u == Wrap::clamp);
     CHECK(map.wrap_v == Wrap::mirror);
     // 8 bits of sRGB: at most half a step of 1/255, whose slope in linear light is below 2.3.
     for (std::size_t k = 0; k < 4; ++k)
       CHECK(std::abs(map.values[k] - room.reflectance_maps[0].values[k]) <= 0.5 * 2.3 / 255.0);
-    CHECK(again.surfaces[0].reflectance_uvs == room.surfaces[0].reflectance_uvs);
-    CHECK(again.surfaces[0].uvs == room.surfaces[0].uvs);
-    CHECK(again.ignored.empty());
+    CHECK(overrides.surfaces[0].reflectance_uvs == room.surfaces[0].reflectance_uvs);
+    CHECK(overrides.surfaces[0].uvs == room.surfaces[0].uvs);
+    CHECK(overrides.ignored.empty());
   }
 }

@@ -39,38 +39,38 @@ TEST_CASE("a room written and read again is the same room") {
   for (const char* name : {"room.glb", "room.gltf"}) {
     const auto file = folder.path() / name;
     write_gltf(room, file);
-    const Room again = read_gltf(file);
-    CHECK(again.ignored.empty());
-    CHECK(again.quantity == room.quantity);
-    REQUIRE(again.surfaces.size() == room.surfaces.size());
+    const Room overrides = read_gltf(file);
+    CHECK(overrides.ignored.empty());
+    CHECK(overrides.quantity == room.quantity);
+    REQUIRE(overrides.surfaces.size() == room.surfaces.size());
     for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
-      CHECK(again.surfaces[k].name == room.surfaces[k].name);
-      CHECK(again.surfaces[k].reflectance == room.surfaces[k].reflectance);
-      CHECK(again.surfaces[k].sides == room.surfaces[k].sides);
-      CHECK(again.surfaces[k].positions == room.surfaces[k].positions);
-      CHECK(again.surfaces[k].uvs == room.surfaces[k].uvs);
-      CHECK(again.surfaces[k].triangles == room.surfaces[k].triangles);
+      CHECK(overrides.surfaces[k].name == room.surfaces[k].name);
+      CHECK(overrides.surfaces[k].reflectance == room.surfaces[k].reflectance);
+      CHECK(overrides.surfaces[k].sides == room.surfaces[k].sides);
+      CHECK(overrides.surfaces[k].positions == room.surfaces[k].positions);
+      CHECK(overrides.surfaces[k].uvs == room.surfaces[k].uvs);
+      CHECK(overrides.surfaces[k].triangles == room.surfaces[k].triangles);
     }
     // Surfaces come first in the file, so its shining surface is the first emitter.
-    REQUIRE(again.emitters.size() == room.emitters.size());
-    CHECK(again.emitters[0].power == 6.0);
-    CHECK(std::get<SurfaceEmitter>(again.emitters[0].shape).surface == 1);
-    CHECK(std::get<SurfaceEmitter>(again.emitters[0].shape).exponent == 2.0);
+    REQUIRE(overrides.emitters.size() == room.emitters.size());
+    CHECK(overrides.emitters[0].power == 6.0);
+    CHECK(std::get<SurfaceEmitter>(overrides.emitters[0].shape).surface == 1);
+    CHECK(std::get<SurfaceEmitter>(overrides.emitters[0].shape).exponent == 2.0);
     for (std::size_t k = 0; k < 5; ++k) {
       const auto& before = std::get<LambertEmitter>(room.emitters[k].shape);
-      const auto& after = std::get<LambertEmitter>(again.emitters[k + 1].shape);
+      const auto& after = std::get<LambertEmitter>(overrides.emitters[k + 1].shape);
       CHECK(after.position == before.position);
       CHECK(after.exponent == before.exponent);
       // A quaternion and back: some roundings of numbers up to 1.
       CHECK(glm::length(after.axis - glm::normalize(before.axis)) < 16 * 0x1p-53);
-      CHECK(again.emitters[k + 1].power == 2.5);
+      CHECK(overrides.emitters[k + 1].power == 2.5);
     }
-    CHECK(std::get<IsotropicEmitter>(again.emitters[6].shape).position == glm::dvec3(0.5, 1, 2));
-    CHECK(std::get<SpotEmitter>(again.emitters[7].shape).inner == 0.25);
-    CHECK(again.emitters[7].power == 4.0);
-    REQUIRE(again.receivers.size() == 1);
-    CHECK(again.receivers[0].half_angle_deg == 45.0);
-    CHECK(glm::length(again.receivers[0].normal - glm::dvec3(0, 1, 0)) < 16 * 0x1p-53);
+    CHECK(std::get<IsotropicEmitter>(overrides.emitters[6].shape).position == glm::dvec3(0.5, 1, 2));
+    CHECK(std::get<SpotEmitter>(overrides.emitters[7].shape).inner == 0.25);
+    CHECK(overrides.emitters[7].power == 4.0);
+    REQUIRE(overrides.receivers.size() == 1);
+    CHECK(overrides.receivers[0].half_angle_deg == 45.0);
+    CHECK(glm::length(overrides.receivers[0].normal - glm::dvec3(0, 1, 0)) < 16 * 0x1p-53);
   }
 }
 

@@ -175,9 +175,9 @@ TEST_CASE("plans: every wall of a cube has one, to scale, with each tile where i
     CHECK(plan.mean_irradiance == Approx(result.surfaces[plan.map].mean_irradiance).epsilon(1e-12));
     for (std::size_t t = 0; t < result.tiles.size(); ++t) {
       if (result.tiling.tiles[t].map != plan.map) continue;
-      const glm::dvec3 way = result.tiling.tiles[t].point - plan.corner;
-      const auto x = static_cast<std::size_t>(glm::dot(way, plan.across) / glm::dot(plan.across, plan.across));
-      const auto y = static_cast<std::size_t>(glm::dot(way, plan.down) / glm::dot(plan.down, plan.down));
+      const glm::dvec3 segment = result.tiling.tiles[t].point - plan.corner;
+      const auto x = static_cast<std::size_t>(glm::dot(segment, plan.across) / glm::dot(plan.across, plan.across));
+      const auto y = static_cast<std::size_t>(glm::dot(segment, plan.down) / glm::dot(plan.down, plan.down));
       CHECK(plan.picture.irradiance[y * 120 + x] == static_cast<float>(result.tiles[t].irradiance));
     }
     // Walls stand upright, and who looks at them has the room behind: across × down points from the eye to the wall.

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lichtmc/error.hpp"
-#include "lichtmc/mend.hpp"
+#include "lichtmc/overrides.hpp"
 #include "lichtmc/room.hpp"
 #include "room/reflectance.hpp"
 #include "support/catch.hpp"

@@ -43,7 +43,7 @@ Room difficult_room() {
 
 Result simulate_it(const Room& room) {
   Settings settings = settings_of(Estimator::collision, Engine::automatic, 5e4, 1, 0.25);
-  settings.ways = Ways::all;
+  settings.measured = Measured::all;
   return simulate(room, settings);
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("report: it is one page with pictures, tables and the command, and eve
 TEST_CASE("report: results of receivers alone have a page without pictures") {
   const Room room = difficult_room();
   Settings settings = settings_of(Estimator::collision, Engine::automatic, 5e3, 1, 0.25);
-  settings.ways = Ways::backward;
+  settings.measured = Measured::receivers;
   const Folder folder;
   write_report(room, simulate(room, settings), folder.path());
   CHECK(files_in(folder.path()) == std::set<std::string>{"report.html"});

@@ -28,8 +28,8 @@ Totals& totals_of(StateData& data) {
   data.photons->totals = own;
   return *own;
 }
-ReceiverSums& first_sums_of(BackwardState& walks) {
-  const auto own = std::make_shared<std::vector<ReceiverSums>>(*walks.sums);
+BackwardSums& first_sums_of(BackwardState& walks) {
+  const auto own = std::make_shared<std::vector<BackwardSums>>(*walks.sums);
   walks.sums = own;
   return own->front();
 }
@@ -90,22 +90,22 @@ TEST_CASE("states of all estimators, rooms and ways of measuring are read again"
     for (const unsigned kind : {0U, 1U, 2U, 3U}) {
       const Room room = uneven_room((kind & 1) != 0, (kind & 2) != 0);
       Settings settings = settings_of(estimator, Engine::embree, 5500, 3, 0.3);
-      settings.ways = Ways::all;
+      settings.measured = Measured::all;
       CHECK(comes_back(simulate(room, settings).state, scratch));
       settings.direct = Direct::analytic;
       CHECK(comes_back(simulate(room, settings).state, scratch));
-      settings.tiles = TileWalk::backward;
+      settings.tile_walk = WalkDirection::backward;
       CHECK(comes_back(simulate(room, settings).state, scratch));
-      settings.tiles = TileWalk::forward;
+      settings.tile_walk = WalkDirection::forward;
       settings.tile_edge_m = 0.03;  // thousands of tiles: other tallies
-      settings.ways = Ways::forward;
+      settings.measured = Measured::tiles;
       CHECK(comes_back(simulate(room, settings).state, scratch));
       settings.direct = Direct::sampled;
       settings.engine = Engine::embree_fast;
       settings.part = true;
       settings.first_history = 4096;
       CHECK(comes_back(simulate(room, settings).state, scratch));
-      settings.ways = Ways::backward;
+      settings.measured = Measured::receivers;
       CHECK(comes_back(simulate(room, settings).state, scratch));
     }
   }
@@ -120,7 +120,7 @@ TEST_CASE("states of all estimators, rooms and ways of measuring are read again"
 TEST_CASE("a checkpoint before the first batch, and a sum with it, are read again") {
   const Scratch scratch;
   Settings settings = small_settings(Estimator::collision);
-  settings.ways = Ways::forward;
+  settings.measured = Measured::tiles;
   settings.part = true;
   StateData data = small_state(settings);
   settings.first_history = 40'960;
@@ -159,24 +159,24 @@ TEST_CASE("a state whose settings no run has is refused") {
         }},
        {"ask for tiles to be walked from, and for no tiles",
         [](StateData& d) {
-          d.settings.ways = Ways::backward;
-          d.settings.tiles = TileWalk::backward;
+          d.settings.measured = Measured::receivers;
+          d.settings.tile_walk = WalkDirection::backward;
         }},
        {"the engine that was used is given as 'auto'", [](StateData& d) { d.engine = Engine::automatic; }}});
 }
 
 TEST_CASE("a state with other walks than its settings ask for is refused") {
   check_refused(small_state(small_settings(Estimator::weight)),
-                {{"it has /photons, which", [](StateData& d) { d.settings.ways = Ways::backward; }},
-                 {"it has /photons, which", [](StateData& d) { d.settings.tiles = TileWalk::backward; }},
-                 {"it has /receivers, which", [](StateData& d) { d.settings.ways = Ways::forward; }},
+                {{"it has /photons, which", [](StateData& d) { d.settings.measured = Measured::receivers; }},
+                 {"it has /photons, which", [](StateData& d) { d.settings.tile_walk = WalkDirection::backward; }},
+                 {"it has /receivers, which", [](StateData& d) { d.settings.measured = Measured::tiles; }},
                  {"it has no /photons, which", [](StateData& d) { d.photons.reset(); }},
                  {"it has /tile_walks, which", [](StateData& d) { d.tile_walks = d.receivers; }},
                  {"it holds no walks",
                   [](StateData& d) {
                     d.photons.reset();
                     d.receivers.reset();
-                    d.settings.ways = Ways::backward;
+                    d.settings.measured = Measured::receivers;
                   }},
                  {"the estimator that /photons used is given as 'auto'",
                   [](StateData& d) { d.photons->estimator = Estimator::automatic; }},
@@ -278,11 +278,11 @@ TEST_CASE("a state whose sums no scores have is refused") {
 
 TEST_CASE("a state whose walks back no run has is refused") {
   Settings settings = small_settings(Estimator::collision);
-  settings.tiles = TileWalk::backward;
+  settings.tile_walk = WalkDirection::backward;
   const std::vector<Change> of_receivers{
       {"/receivers has rounds of 4 walks, not of 1", [](StateData& d) { d.receivers->group = 4; }},
       {"/receivers has no origin, or no round",
-       [](StateData& d) { d.receivers->sums = std::make_shared<std::vector<ReceiverSums>>(); }},
+       [](StateData& d) { d.receivers->sums = std::make_shared<std::vector<BackwardSums>>(); }},
       {"/receivers has no origin, or no round",
        [](StateData& d) {
          d.receivers->ranges = {{0, 0}};

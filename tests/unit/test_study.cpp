@@ -135,10 +135,10 @@ TEST_CASE("a study measures every way against one reference") {
   for (const StudyRow& one : found.rows) {
     CHECK(one.rms_error > 0.0);
     CHECK(one.seconds > 0.0);
-    if (one.direction == TileWalk::forward) CHECK(one.histories * 30 <= found.references[0].histories);
-    if (one.direction == TileWalk::backward) ++backward;
+    if (one.direction == WalkDirection::forward) CHECK(one.histories * 30 <= found.references[0].histories);
+    if (one.direction == WalkDirection::backward) ++backward;
     if (one.max_bounces) ++cut;
-    if (one.direction == TileWalk::forward && one.direct == Direct::analytic) ++integrated;
+    if (one.direction == WalkDirection::forward && one.direct == Direct::analytic) ++integrated;
     if (one.engine != Engine::cuboid) ++by_embree;
     // What is cut off after two flights has lost most of ρ² = 0.36 … of the light; whole walks lose nothing.
     if (one.max_bounces == 2U) CHECK(one.bias < -0.2);

@@ -76,7 +76,7 @@ void check_policy(std::size_t n) {
 
   list_ended(n, survivors);
   for (std::size_t k = 0; k < ended.size(); ++k) REQUIRE(survivors.ended_at[k] == ended[k]);
-  close_ranks(together.wave, survivors);
+  compact_wave(together.wave, survivors);
   for (std::size_t k = 0; k < flying.size(); ++k) {
     const std::uint32_t i = flying[k];
     REQUIRE(together.wave.photon[k] == i);
@@ -119,11 +119,11 @@ TEST_CASE("a wave's photons start as they would one by one") {
         Rays single(batch_histories);
         std::vector<std::uint32_t> photon(batch_histories);
         scene.launcher->launch_all(stream, 4000, n, together, photon.data());
-        std::vector<bool> started(n);
+        std::vector<bool> invocation(n);
         for (std::uint32_t i = 0; i < n; ++i) {
           REQUIRE(photon[i] < n);
-          REQUIRE_FALSE(started[photon[i]]);
-          started[photon[i]] = true;
+          REQUIRE_FALSE(invocation[photon[i]]);
+          invocation[photon[i]] = true;
           scene.launcher->launch(stream, 4000 + photon[i], single, i);
           REQUIRE(together.facet[i] == single.facet[i]);
           if (single.facet[i] == no_facet) {

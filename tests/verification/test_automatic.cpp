@@ -42,10 +42,10 @@ TEST_CASE("automatic: the digits are those of the estimator chosen, for any numb
     CHECK(simulate(room, fixed).choices.empty());
     for (const unsigned threads : {2U, 7U}) {
       settings.threads = threads;
-      const Result again = simulate(room, settings);
-      CHECK(again.estimator == chosen.estimator);
-      CHECK(again.choices == chosen.choices);
-      CHECK(same_tiles(chosen, again));
+      const Result overrides = simulate(room, settings);
+      CHECK(overrides.estimator == chosen.estimator);
+      CHECK(overrides.choices == chosen.choices);
+      CHECK(same_tiles(chosen, overrides));
     }
   }
 }
@@ -75,7 +75,7 @@ TEST_CASE("automatic: for receivers and for tiles walked from, each has a choice
   Room room = unit_cube(0.7, paper_emitter());
   room.receivers.push_back({"desk", {0.3, 0.2, 0.6}, {0, 1, 0}, 90.0, 1.0});
   Settings settings = settings_of(Estimator::automatic, Engine::automatic, 100'000, 3);
-  settings.ways = Ways::all;
+  settings.measured = Measured::all;
   const Result both = simulate(room, settings);
   REQUIRE(both.choices.size() == 2);
   CHECK(both.choices[0].find("the tiles") != std::string::npos);
@@ -83,8 +83,8 @@ TEST_CASE("automatic: for receivers and for tiles walked from, each has a choice
   settings.estimator = both.backward.estimator;
   CHECK(simulate(room, settings).receiver_results[0].irradiance == both.receiver_results[0].irradiance);
   settings.estimator = Estimator::automatic;
-  settings.ways = Ways::forward;
-  settings.tiles = TileWalk::backward;
+  settings.measured = Measured::tiles;
+  settings.tile_walk = WalkDirection::backward;
   const Result walked = simulate(room, settings);
   REQUIRE(walked.choices.size() == 1);
   settings.estimator = walked.estimator;

@@ -10,7 +10,7 @@
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
 #include "support/split_runs.hpp"
-#include "support/thread_team.hpp"
+#include "support/thread_communicator.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
@@ -49,7 +49,7 @@ Room bright_room() {
 TEST_CASE("a run that was stopped goes on as if it had not been") {
   const Room room = room_to_split(Furniture::board);
   Settings settings = settings_of(Estimator::weight, Engine::embree, 300'001, 3);
-  settings.ways = Ways::all;
+  settings.measured = Measured::all;
   const Result whole = simulate(room, settings);
   Settings stopped_early = settings;
   stopped_early.max_seconds = 0.05;
@@ -70,7 +70,7 @@ TEST_CASE("a run that was stopped goes on as if it had not been") {
 TEST_CASE("a stop within the first walks back from the receivers keeps the tiles and their state") {
   const Room room = bright_room();
   Settings settings = settings_of(Estimator::collision, Engine::embree, 1, 3);
-  settings.ways = Ways::all;
+  settings.measured = Measured::all;
   StopAt receivers(Progress::Stage::receivers);
   const Result stopped = simulate(room, settings, receivers.control());
   REQUIRE(receivers.came());
@@ -84,10 +84,10 @@ TEST_CASE("a stop within the first walks back from the receivers keeps the tiles
 }
 
 TEST_CASE("where the time is over already, going on brings back all that the state has") {
-  for (const SplitRun& way : ways()) {
-    const Room room = room_to_split(way.kind);
-    const Result whole = simulate(room, way.settings);
-    Settings over = way.settings;
+  for (const SplitRun& split : split_runs()) {
+    const Room room = room_to_split(split.kind);
+    const Result whole = simulate(room, split.settings);
+    Settings over = split.settings;
     over.max_seconds = 1e-9;
     CHECK(same_figures(whole, resume(room, whole.state, over)));
   }
@@ -96,7 +96,7 @@ TEST_CASE("where the time is over already, going on brings back all that the sta
 TEST_CASE("sessions share one time limit") {
   const Room room = room_to_split(Furniture::none);
   Settings settings = settings_of(Estimator::collision, Engine::cuboid, 200'000, 3);
-  settings.ways = Ways::all;
+  settings.measured = Measured::all;
   const State first = simulate(room, settings).state;
   Settings rules = settings;
   rules.photons = 300'000;
@@ -113,7 +113,7 @@ TEST_CASE("sessions share one time limit") {
 TEST_CASE("a stop before an estimator was chosen leaves nothing that decides for the run to come") {
   const Room room = room_to_split(Furniture::board);
   Settings settings = settings_of(Estimator::automatic, Engine::embree, 20'000'000, 4, 0.3);
-  settings.ways = Ways::forward;
+  settings.measured = Measured::tiles;
   StopAt pilots(Progress::Stage::pilot);
   const Result stopped = simulate(room, settings, pilots.control());
   REQUIRE(pilots.came());
@@ -143,15 +143,15 @@ TEST_CASE("a team stops together when the time is over") {
   const Room room = room_to_split(Furniture::board);
   Settings settings = settings_of(Estimator::collision, Engine::embree, 1e12, 3);
   settings.max_seconds = 0.5;
-  settings.ways = Ways::forward;
+  settings.measured = Measured::tiles;
   std::vector<std::uint64_t> histories(3);
   State state;
-  run_team(3, [&](Team& team) {
+  run_ranks(3, [&](Communicator& communicator) {
     Control control;
-    control.team = &team;
+    control.communicator = &communicator;
     Result result = simulate(room, settings, control);
-    histories[team.rank()] = result.histories;
-    if (team.rank() == 0) state = result.state;
+    histories[communicator.rank()] = result.histories;
+    if (communicator.rank() == 0) state = result.state;
   });
   CHECK(histories[0] > 0);
   CHECK(histories == std::vector<std::uint64_t>(3, histories[0]));
@@ -165,29 +165,29 @@ TEST_CASE("whichever member is asked to stop, a team stops together, wherever it
   Settings settings = settings_of(Estimator::collision, Engine::embree, 1e12, 3, 0.05);
   settings.direct = Direct::analytic;
   for (const auto& [tiles, ways] :
-       {std::pair(TileWalk::forward, Ways::forward), std::pair(TileWalk::backward, Ways::forward),
-        std::pair(TileWalk::forward, Ways::backward)}) {
-    settings.tiles = tiles;
-    settings.ways = ways;
+       {std::pair(WalkDirection::forward, Measured::tiles), std::pair(WalkDirection::backward, Measured::tiles),
+        std::pair(WalkDirection::forward, Measured::receivers)}) {
+    settings.tile_walk = tiles;
+    settings.measured = ways;
     std::stop_source source;
     std::vector<State> states(3);
     std::vector<StopReason> reasons(3);
-    run_team(3, [&](Team& team) {
+    run_ranks(3, [&](Communicator& communicator) {
       Control control;
-      control.team = &team;
-      if (team.rank() == 1) control.stop = source.get_token();
+      control.communicator = &communicator;
+      if (communicator.rank() == 1) control.stop = source.get_token();
       control.checkpoint_seconds = 0.0;
-      if (team.rank() == 0) control.checkpoint = [&](const State& /*state*/) { source.request_stop(); };
+      if (communicator.rank() == 0) control.checkpoint = [&](const State& /*state*/) { source.request_stop(); };
       const Result result = simulate(room, settings, control);
-      states[team.rank()] = result.state;
-      reasons[team.rank()] = ways == Ways::backward ? result.backward.stopped_by : result.stopped_by;
+      states[communicator.rank()] = result.state;
+      reasons[communicator.rank()] = ways == Measured::receivers ? result.backward.stopped_by : result.stopped_by;
     });
     CHECK(reasons == std::vector<StopReason>(3, StopReason::interrupt));
     Settings as_far = settings;
     as_far.photons = 1;
     const Result first = resume(room, states[0], as_far);
     CHECK(same_figures(first, resume(room, states[2], as_far)));
-    as_far.photons = ways == Ways::backward ? first.backward.histories : first.histories;
+    as_far.photons = ways == Measured::receivers ? first.backward.histories : first.histories;
     CHECK(same_figures(first, simulate(room, as_far)));
   }
 }
@@ -204,11 +204,11 @@ TEST_CASE("a team whose members differ is refused, by all of them") {
   longer.photons = 200'000;
   const auto refused = [](const std::string& says, const auto& run) {
     std::atomic<int> refusals{0};
-    run_team(3, [&](Team& team) {
+    run_ranks(3, [&](Communicator& communicator) {
       Control control;
-      control.team = &team;
+      control.communicator = &communicator;
       try {
-        run(team.rank() == 1, control);
+        run(communicator.rank() == 1, control);
       } catch (const InputError& error) {
         if (std::string(error.what()).find("1 of 3 processes have " + says) != std::string::npos) ++refusals;
       }

@@ -214,8 +214,8 @@ TEST_CASE("precision: lengths of paths in float and double") {
       tracer.trace(rays, scene.misses, count);
       for (std::uint32_t i = 0; i < batch_histories && flight > 0; ++i) {
         REQUIRE(rays.facet[i] != no_facet);
-        const glm::dvec3 way = tracer.world_vector(double{rays.length[i]} * glm::dvec3(rays.direction(i)));
-        const double metres = glm::length(way);
+        const glm::dvec3 segment = tracer.world_vector(double{rays.length[i]} * glm::dvec3(rays.direction(i)));
+        const double metres = glm::length(segment);
         in_double[i] += metres;
         in_float[i] += static_cast<float>(metres);
         squares[i] += metres * metres;

@@ -27,7 +27,7 @@ Receiver at(const glm::dvec3& position, const glm::dvec3& normal, double half_an
 
 Settings backward(Estimator estimator, Engine engine, double photons, std::uint64_t seed) {
   Settings settings = settings_of(estimator, engine, photons, seed);
-  settings.ways = Ways::backward;
+  settings.measured = Measured::receivers;
   return settings;
 }
 
@@ -116,8 +116,8 @@ TEST_CASE("receivers: the paper's cube, indirect light of every floor tile's cen
     // Moved to the centres of every other tile.
     for (Receiver& receiver : room.receivers) receiver.position -= glm::dvec3(0.05, 0.0, 0.05);
     const auto direct = [](const glm::dvec3& p) {
-      const glm::dvec3 way = p - glm::dvec3(0.5);
-      const double r = glm::length(way);
+      const glm::dvec3 segment = p - glm::dvec3(0.5);
+      const double r = glm::length(segment);
       return 6.0 / (2.0 * pi) * std::pow(0.5 / r, 6) / (r * r);
     };
     // The indirect part is even over a tile: its mean is its value at the centre to some 1e-4.

@@ -116,8 +116,8 @@ TEST_CASE("standard errors: of tiles that expect between a half and three hits")
   const auto p_of = [](const Tile& tile) {
     const glm::dvec3 half(0.5 * edge, 0.0, 0.0);
     return edge * edge * tile_mean(tile.point, half, glm::dvec3(0.0, 0.0, 0.5 * edge), 4, [](const glm::dvec3& at) {
-             const glm::dvec3 way = at - glm::dvec3(0.5);
-             return 0.5 / (4.0 * pi * std::pow(glm::dot(way, way), 1.5));
+             const glm::dvec3 segment = at - glm::dvec3(0.5);
+             return 0.5 / (4.0 * pi * std::pow(glm::dot(segment, segment), 1.5));
            });
   };
   double covered = 0.0;

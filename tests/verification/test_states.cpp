@@ -10,21 +10,21 @@
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
 #include "support/split_runs.hpp"
-#include "support/thread_team.hpp"
+#include "support/thread_communicator.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
 
 TEST_CASE("a run that is resumed, from within a batch too, ends as one without interruption") {
-  for (const SplitRun& way : ways()) {
-    const Room room = room_to_split(way.kind);
-    const Result whole = simulate(room, way.settings);
+  for (const SplitRun& split : split_runs()) {
+    const Room room = room_to_split(split.kind);
+    const Result whole = simulate(room, split.settings);
     for (const std::uint64_t first : {std::uint64_t{1}, std::uint64_t{10'240}, std::uint64_t{33'333}}) {
-      Settings shorter = way.settings;
+      Settings shorter = split.settings;
       shorter.photons = first;
       Result begun = simulate(room, shorter);
       CHECK_FALSE(same_figures(whole, begun));
-      const Result resumed = resume(room, written_and_read(begun.state), way.settings);
+      const Result resumed = resume(room, written_and_read(begun.state), split.settings);
       CHECK(same_figures(whole, resumed));
       // And the state that it leaves is that of the whole.
       CHECK(same_figures(whole, result_of(room, resumed.state)));
@@ -33,9 +33,9 @@ TEST_CASE("a run that is resumed, from within a batch too, ends as one without i
 }
 
 TEST_CASE("every checkpoint of a run is a state that ends as the run does") {
-  for (const SplitRun& way : ways()) {
-    const Room room = room_to_split(way.kind);
-    Settings settings = way.settings;
+  for (const SplitRun& split : split_runs()) {
+    const Room room = room_to_split(split.kind);
+    Settings settings = split.settings;
     settings.photons = 400'000;
     const Result whole = simulate(room, settings);
     std::vector<State> states;
@@ -54,14 +54,14 @@ TEST_CASE("every checkpoint of a run is a state that ends as the run does") {
 TEST_CASE("a smaller target error ends where a run with it from the start ends") {
   const Room room = room_to_split(Furniture::none);
   Settings settings = settings_of(Estimator::collision, Engine::cuboid, 1e12, 4);
-  settings.ways = Ways::all;
+  settings.measured = Measured::all;
   settings.target_error = 0.06;
   const Result begun = simulate(room, settings);
   REQUIRE(begun.stopped_by == StopReason::target_error);
   // Nothing is left to do.
-  const Result again = resume(room, begun.state, settings);
-  CHECK(again.stopped_by == StopReason::target_error);
-  CHECK(same_figures(begun, again));
+  const Result overrides = resume(room, begun.state, settings);
+  CHECK(overrides.stopped_by == StopReason::target_error);
+  CHECK(same_figures(begun, overrides));
   settings.target_error = 0.03;
   const Result whole = simulate(room, settings);
   CHECK(whole.histories > begun.histories);
@@ -71,7 +71,7 @@ TEST_CASE("a smaller target error ends where a run with it from the start ends")
 TEST_CASE("a run whose estimator was chosen keeps its choice and its looks") {
   const Room room = room_to_split(Furniture::board);
   Settings settings = settings_of(Estimator::automatic, Engine::embree, 1e12, 4, 0.3);
-  settings.ways = Ways::all;
+  settings.measured = Measured::all;
   settings.target_error = 0.005;
   const Result whole = simulate(room, settings);
   std::optional<State> first;
@@ -89,14 +89,14 @@ TEST_CASE("a run whose estimator was chosen keeps its choice and its looks") {
 }
 
 TEST_CASE("parts add up to one run, in any order and grouping") {
-  for (const SplitRun& way : ways()) {
-    const Room room = room_to_split(way.kind);
-    const Result whole = simulate(room, way.settings);
+  for (const SplitRun& split : split_runs()) {
+    const Room room = room_to_split(split.kind);
+    const Result whole = simulate(room, split.settings);
     std::vector<State> parts;
     std::uint64_t first = 0;
     for (const std::uint64_t last :
-         {std::uint64_t{20'480}, std::uint64_t{21'504}, std::uint64_t{40'960}, way.settings.photons}) {
-      parts.push_back(written_and_read(part(room, way.settings, first, last).state));
+         {std::uint64_t{20'480}, std::uint64_t{21'504}, std::uint64_t{40'960}, split.settings.photons}) {
+      parts.push_back(written_and_read(part(room, split.settings, first, last).state));
       first = last;
     }
     const std::vector<std::string> names{"a", "b", "c", "d"};
@@ -106,10 +106,10 @@ TEST_CASE("parts add up to one run, in any order and grouping") {
     const State middle = merge({parts[2], parts[1]}, {"c", "b"});
     const State sum = written_and_read(merge({ends, middle}, {"da", "cb"}));
     CHECK(same_figures(whole, result_of(room, sum)));
-    if (way.settings.tiles == TileWalk::forward)
-      CHECK(sum.histories() == std::vector<HistoryRange>{{0, way.settings.photons}});
+    if (split.settings.tile_walk == WalkDirection::forward)
+      CHECK(sum.histories() == std::vector<HistoryRange>{{0, split.settings.photons}});
     // And the sum goes on.
-    Settings longer = way.settings;
+    Settings longer = split.settings;
     longer.photons = 70'000;
     CHECK(same_figures(simulate(room, longer), resume(room, sum, longer)));
     // One part less is another result.
@@ -146,10 +146,10 @@ TEST_CASE("states that do not belong together are refused by what sets them apar
   other.direct = Direct::analytic;
   refused(after(room, other), "--direct");
   other = settings;
-  other.ways = Ways::all;
+  other.measured = Measured::all;
   refused(after(room, other), "--only");
   other = settings;
-  other.tiles = TileWalk::backward;
+  other.tile_walk = WalkDirection::backward;
   refused(after(room, other), "--tiles");
   const State cut_off = [&] {
     Settings weights = settings;
@@ -183,7 +183,7 @@ TEST_CASE("states that do not belong together are refused by what sets them apar
 TEST_CASE("a sum that lacks walks back from the receivers cannot go on") {
   const Room room = room_to_split(Furniture::none);
   Settings settings = settings_of(Estimator::collision, Engine::cuboid, 10'240, 1);
-  settings.ways = Ways::all;
+  settings.measured = Measured::all;
   const std::vector<State> parts{part(room, settings, 0, 10'240).state, part(room, settings, 10'240, 20'480).state,
                                  part(room, settings, 20'480, 30'720).state};
   // Of one of them the receivers were not reached.
@@ -203,25 +203,25 @@ TEST_CASE("a sum that lacks walks back from the receivers cannot go on") {
 }
 
 TEST_CASE("a team of any size finds the same figures, and all its members do") {
-  std::vector<SplitRun> all = ways();
+  std::vector<SplitRun> all = split_runs();
   SplitRun chosen{Furniture::board, settings_of(Estimator::automatic, Engine::embree, 200'000, 4, 0.3)};
   chosen.settings.target_error = 0.05;
-  chosen.settings.ways = Ways::all;
+  chosen.settings.measured = Measured::all;
   all.push_back(chosen);
-  for (const SplitRun& way : all) {
-    const Room room = room_to_split(way.kind);
-    const Result alone = simulate(room, way.settings);
+  for (const SplitRun& split : all) {
+    const Room room = room_to_split(split.kind);
+    const Result alone = simulate(room, split.settings);
     for (const unsigned size : {1U, 2U, 3U}) {
       std::mutex mutex;
       std::vector<Result> results;
       std::vector<State> states;
-      run_team(size, [&](Team& team) {
+      run_ranks(size, [&](Communicator& communicator) {
         Control control;
-        control.team = &team;
+        control.communicator = &communicator;
         control.checkpoint_seconds = 0.0;
-        if (team.rank() == 0) control.checkpoint = [&](const State& state) { states.push_back(state); };
-        Settings settings = way.settings;
-        settings.threads = 1 + team.rank();
+        if (communicator.rank() == 0) control.checkpoint = [&](const State& state) { states.push_back(state); };
+        Settings settings = split.settings;
+        settings.threads = 1 + communicator.rank();
         Result result = simulate(room, settings, control);
         const std::lock_guard lock(mutex);
         results.push_back(std::move(result));
@@ -229,7 +229,7 @@ TEST_CASE("a team of any size finds the same figures, and all its members do") {
       REQUIRE(results.size() == size);
       for (const Result& result : results) CHECK(same_figures(alone, result));
       REQUIRE_FALSE(states.empty());
-      CHECK(same_figures(alone, resume(room, states.front(), way.settings)));
+      CHECK(same_figures(alone, resume(room, states.front(), split.settings)));
     }
   }
 }

@@ -25,7 +25,7 @@ Settings analytic(Estimator estimator, Engine engine, double photons, std::uint6
 
 Settings from_tiles(Estimator estimator, Engine engine, double photons, std::uint64_t seed, double tile = 0.1) {
   Settings settings = settings_of(estimator, engine, photons, seed, tile);
-  settings.tiles = TileWalk::backward;
+  settings.tile_walk = WalkDirection::backward;
   return settings;
 }
 
@@ -176,7 +176,7 @@ TEST_CASE("tiles: both sides of a screen, on one map or on two, by all ways") {
     for (const Settings& settings : {analytic(Estimator::collision, Engine::automatic, 1e6, 42, 0.25),
                                      from_tiles(Estimator::collision, Engine::automatic, 1e6, 43, 0.25)}) {
       const Result other = simulate(room, settings);
-      check(settings.tiles == TileWalk::backward ? "screen, walked from" : "screen, integrated",
+      check(settings.tile_walk == WalkDirection::backward ? "screen, walked from" : "screen, integrated",
             compare(well_counted(counted, other)));
       const SurfaceResult& a = surface_named(counted, "screen");
       const SurfaceResult& b = surface_named(other, "screen");
@@ -216,7 +216,7 @@ TEST_CASE("tiles: a target error ends both, and what cannot be is refused") {
     CHECK(result.rms_relative_error > 0.02);
   }
   Settings settings = from_tiles(Estimator::collision, Engine::automatic, 1e4, 63);
-  settings.ways = Ways::backward;
+  settings.measured = Measured::receivers;
   Room with_receiver = room;
   with_receiver.receivers.push_back({"here", {0.5, 0.0, 0.5}, {0, 1, 0}, 90.0, 1.0});
   CHECK_THROWS_WITH(simulate(with_receiver, settings), ContainsSubstring("--tiles backward"));

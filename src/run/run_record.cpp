@@ -1,9 +1,9 @@
-#include "run/logbook.hpp"
+#include "run/run_record.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "run/team_work.hpp"
+#include "run/collectives.hpp"
 
 namespace lichtmc {
 
@@ -15,34 +15,34 @@ std::chrono::steady_clock::duration seconds(double value) {
 
 }  // namespace
 
-Logbook::Logbook(const Control& control, StateData data, bool only_read)
+RunRecord::RunRecord(const Control& control, StateData data, bool only_read)
     : control_(&control),
       data_(std::move(data)),
       only_read_(only_read),
       next_(Clock::now() + seconds(control.checkpoint_seconds)) {}
 
-void Logbook::expect(double bytes) {
+void RunRecord::expect(double bytes) {
   constexpr double bytes_per_second = 4e8;  // of writing to a disk of 2020; the second checkpoint knows better
   constexpr double nothing = 0.01;          // s: a first checkpoint that takes less is not worth waiting for
   const double cost = bytes / bytes_per_second;
   if (cost > nothing) next_ = std::max(next_, Clock::now() + cost_factor * seconds(cost));
 }
 
-void Logbook::checkpoint(const std::function<void(StateData&)>& fill_in) {
+void RunRecord::checkpoint(const std::function<void(StateData&)>& fill_in) {
   const Clock::time_point began = Clock::now();
   fill_in(data_);
-  if (rank_of(control_->team) == 0) control_->checkpoint(State(std::make_shared<const StateData>(data_)));
+  if (rank_of(control_->communicator) == 0) control_->checkpoint(State(std::make_shared<const StateData>(data_)));
   const Clock::time_point now = Clock::now();
   spent_ += std::chrono::duration<double>(now - began).count();
   next_ = now + std::max(seconds(control_->checkpoint_seconds), cost_factor * (now - began));
 }
 
-void Logbook::book(double cost) {
+void RunRecord::book(double cost) {
   next_ += cost_factor * seconds(cost);
   spent_ += cost;
 }
 
-State Logbook::close() {
+State RunRecord::close() {
   return State(std::make_shared<const StateData>(std::move(data_)));
 }
 

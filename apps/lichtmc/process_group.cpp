@@ -1,4 +1,4 @@
-#include "join_team.hpp"
+#include "process_group.hpp"
 
 #include <chrono>
 #include <cstdlib>
@@ -15,34 +15,35 @@ namespace lichtmc::app {
 
 #ifdef LICHTMC_WITH_MPI
 
-struct ProcessTeam::Connection {
-  std::unique_ptr<MpiTeam> team = join_mpi_team();
+struct ProcessGroup::Connection {
+  std::unique_ptr<MpiCommunicator> communicator = join_mpi();
 };
 
-ProcessTeam::ProcessTeam() : connection_(std::make_unique<Connection>()) {}
+ProcessGroup::ProcessGroup() : connection_(std::make_unique<Connection>()) {}
 
-Team* ProcessTeam::get() const {
-  return connection_->team.get();
+Communicator* ProcessGroup::get() const {
+  return connection_->communicator.get();
 }
 
 // Most faults, as a wrong option, all members find at the same time: then the first speaks and ends the others.
-void ProcessTeam::end(const char* message, int status) const {
-  if (connection_->team == nullptr) return;
-  const unsigned rank = connection_->team->rank();
+void ProcessGroup::end(const char* message, int status) const {
+  if (connection_->communicator == nullptr) return;
+  const unsigned rank = connection_->communicator->rank();
   if (rank > 0) {
     std::this_thread::sleep_for(std::chrono::seconds(2));
-    std::cerr << "lichtmc (process " << rank << " of " << connection_->team->size() << "): " << message << std::endl;
+    std::cerr << "lichtmc (process " << rank << " of " << connection_->communicator->size() << "): " << message
+              << std::endl;
   } else {
     std::cerr << "lichtmc: " << message << std::endl;
   }
-  connection_->team->abort(status);
+  connection_->communicator->abort(status);
 }
 
 #else
 
-struct ProcessTeam::Connection {};
+struct ProcessGroup::Connection {};
 
-ProcessTeam::ProcessTeam() {
+ProcessGroup::ProcessGroup() {
   const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
   if (size != nullptr && std::string(size) != "1")
     throw InputError(std::string("lichtmc was started as ") + size +
@@ -50,14 +51,14 @@ ProcessTeam::ProcessTeam() {
                      "build it with -DLICHTMC_MPI=ON.");
 }
 
-Team* ProcessTeam::get() const {
+Communicator* ProcessGroup::get() const {
   return nullptr;
 }
 
-void ProcessTeam::end(const char* /*message*/, int /*status*/) const {}
+void ProcessGroup::end(const char* /*message*/, int /*status*/) const {}
 
 #endif
 
-ProcessTeam::~ProcessTeam() = default;
+ProcessGroup::~ProcessGroup() = default;
 
 }  // namespace lichtmc::app

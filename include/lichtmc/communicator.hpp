@@ -10,25 +10,25 @@
 
 namespace lichtmc {
 
-class Team {
+class Communicator {
  public:
-  virtual ~Team() = default;
+  virtual ~Communicator() = default;
 
   // This member's number, 0 … size() − 1. Member 0, the first, decides what hangs on rounding and calls back.
   virtual unsigned rank() const = 0;
   virtual unsigned size() const = 0;
 
   // Every member gets the sums over all, element by element, modulo 2⁶⁴.
-  virtual void add(std::span<std::uint64_t> words) = 0;
+  virtual void sum(std::span<std::uint64_t> words) = 0;
   // The same for integers of 128 bits: pairs of words, the low one first; modulo 2¹²⁸.
-  virtual void add_wide(std::span<std::uint64_t> words) = 0;
+  virtual void sum_wide(std::span<std::uint64_t> words) = 0;
   // Every member gets what the first has.
-  virtual void share(std::span<std::byte> bytes) = 0;
+  virtual void broadcast(std::span<std::byte> bytes) = 0;
 
  protected:
-  Team() = default;
-  Team(const Team&) = default;
-  Team& operator=(const Team&) = default;
+  Communicator() = default;
+  Communicator(const Communicator&) = default;
+  Communicator& operator=(const Communicator&) = default;
 };
 
 }  // namespace lichtmc

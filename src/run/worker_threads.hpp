@@ -9,8 +9,8 @@
 
 #include "lichtmc/settings.hpp"
 #include "lichtmc/simulate.hpp"
-#include "run/logbook.hpp"
-#include "run/reporter.hpp"
+#include "run/progress_reporter.hpp"
+#include "run/run_record.hpp"
 #include "run/state_data.hpp"
 #include "run/stop_watch.hpp"
 #include "walk/scene.hpp"
@@ -19,17 +19,18 @@
 
 namespace lichtmc {
 
-class Crew {
+class WorkerThreads {
  public:
   // `threads` ≥ 1. All must outlive the crew. Where Control::team is not null, the crews of all its members work
   // together: every call is then one of the whole team.
-  Crew(const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch, unsigned threads);
+  WorkerThreads(const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
+                unsigned threads);
 
   // Goes on from what an earlier session has counted. Before anything is simulated.
   void go_on_from(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals);
 
   // Shows the state there when it is time; none until then. It must outlive the crew.
-  void keep(Logbook& logbook);
+  void keep(RunRecord& record);
 
   // Simulates the histories from where the last call ended up to the `count`th, or until the watch says stop; a batch
   // begun is finished. The histories done are always the first ones, without a gap. A count that is not one of whole
@@ -62,8 +63,8 @@ class Crew {
     bool abandoned = false;      // a batch of it, because of a stop: it counts for the result, not for the state
   };
 
-  void work_alone(std::uint64_t end);
-  void work_in_team(std::uint64_t end);
+  void simulate_alone(std::uint64_t end);
+  void simulate_in_ranks(std::uint64_t end);
   void work(Worker& worker, std::uint64_t end, bool may_pause);
   void make_tally(Worker& worker) const;
   void book_making();
@@ -74,10 +75,10 @@ class Crew {
 
   const Scene* scene_;
   Hits hits_;
-  Team* team_;
+  Communicator* communicator_;
   StopWatch* watch_;
-  Logbook* logbook_ = nullptr;
-  Reporter reporter_;
+  RunRecord* record_ = nullptr;
+  ProgressReporter reporter_;
   std::vector<Worker> workers_;
   std::vector<HistoryRange> before_;    // earlier ranges than the one that grows
   HistoryRange range_;                  // that grows, by whole batches

@@ -11,6 +11,6 @@ namespace lichtmc {
 // hollow, or in one with an opening of less than some millionths of its walls. Found by trying, so that no gap in a
 // mesh and no shell around a lamp is misjudged. Rooms without a reflectance of 1 are not tried. Takes some seconds only
 // where the answer is yes.
-bool traps_light(const Scene& scene, std::uint64_t seed);
+bool has_non_absorbing_enclosure(const Scene& scene, std::uint64_t seed);
 
 }  // namespace lichtmc

@@ -1,10 +1,10 @@
-#include "run/crew.hpp"
+#include "run/worker_threads.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "chance/moments.hpp"
-#include "run/team_work.hpp"
+#include "run/collectives.hpp"
 
 namespace lichtmc {
 
@@ -21,22 +21,23 @@ std::shared_ptr<Totals> own(std::shared_ptr<const Totals> totals) {
 
 }  // namespace
 
-Crew::Crew(const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch, unsigned threads)
+WorkerThreads::WorkerThreads(const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
+                             unsigned threads)
     : scene_(&scene),
-      hits_(score_law(settings.estimator, scene.has_maps()).hits),
-      team_(control.team),
+      hits_(score_law(settings.estimator, scene.has_reflectance_maps()).hits),
+      communicator_(control.communicator),
       watch_(&watch),
       reporter_(control, watch, Progress::Stage::tiles, settings.photons),
       range_{settings.first_history, settings.first_history},
-      round_(std::uint64_t{4} * threads * size_of(team_)),
+      round_(std::uint64_t{4} * threads * size_of(communicator_)),
       whole_(std::make_shared<Totals>(scene.first_tile.back(), scene.first_tile.size() - 1, hits_)) {
   for (unsigned k = 0; k < threads; ++k) {
     workers_.push_back({make_walk(scene, settings), std::nullopt});
   }
-  share(team_, round_);  // members may have other numbers of threads
+  broadcast(communicator_, round_);  // members may have other numbers of threads
 }
 
-void Crew::go_on_from(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals) {
+void WorkerThreads::go_on_from(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals) {
   whole_ = own(std::move(totals));
   before_ = std::move(ranges);
   range_ = before_.back();
@@ -44,26 +45,26 @@ void Crew::go_on_from(std::vector<HistoryRange> ranges, std::shared_ptr<const To
   reporter_.set_before(histories());
 }
 
-void Crew::keep(Logbook& logbook) {
-  logbook_ = &logbook;
+void WorkerThreads::keep(RunRecord& record) {
+  record_ = &record;
   const std::size_t bytes = whole_->tiles.size() * sizeof(Moments) + whole_->hits.size() * sizeof(std::uint64_t);
-  logbook.expect(static_cast<double>(bytes));
+  record.expect(static_cast<double>(bytes));
 }
 
-std::uint64_t Crew::histories() const {
+std::uint64_t WorkerThreads::histories() const {
   return range_.last - range_.first + ends_ + count_of(before_);
 }
 
-void Crew::simulate_up_to(std::uint64_t count) {
+void WorkerThreads::simulate_up_to(std::uint64_t count) {
   const std::uint64_t rest = count % batch_histories;
   const std::uint64_t end = range_.first + (count - rest);
   // An earlier session may have ended within a batch: its whole batches are what counts.
   range_.last -= (range_.last - range_.first) % batch_histories;
   while (range_.last < end && !watch_->reason()) {
-    team_ == nullptr ? work_alone(end) : work_in_team(end);
-    if (watch_->reason() || logbook_ == nullptr) continue;
-    bool due = logbook_->due();
-    share(team_, due);
+    communicator_ == nullptr ? simulate_alone(end) : simulate_in_ranks(end);
+    if (watch_->reason() || record_ == nullptr) continue;
+    bool due = record_->due();
+    broadcast(communicator_, due);
     if (due) checkpoint();
   }
   if (rest == 0 || watch_->reason() || ends_ > 0) return;
@@ -71,7 +72,7 @@ void Crew::simulate_up_to(std::uint64_t count) {
   simulate_part({end, end + rest});
 }
 
-void Crew::simulate_ends() {
+void WorkerThreads::simulate_ends() {
   collect();
   const std::uint64_t rest = (range_.last - range_.first) % batch_histories;
   if (rest == 0) return;
@@ -80,7 +81,7 @@ void Crew::simulate_ends() {
 }
 
 // Every member of a team does so for itself: a batch takes less time than to send it.
-void Crew::simulate_part(HistoryRange range) {
+void WorkerThreads::simulate_part(HistoryRange range) {
   Worker& worker = workers_.front();
   worker.tally.emplace(scene_->first_tile, hits_);
   const auto n = static_cast<std::uint32_t>(range.last - range.first);
@@ -91,7 +92,7 @@ void Crew::simulate_part(HistoryRange range) {
 }
 
 // Each thread its own: where tiles are many it takes a while.
-void Crew::make_tally(Worker& worker) const {
+void WorkerThreads::make_tally(Worker& worker) const {
   if (worker.tally) return;
   const double began = watch_->seconds();
   worker.tally.emplace(scene_->first_tile, hits_);
@@ -99,14 +100,14 @@ void Crew::make_tally(Worker& worker) const {
 }
 
 // New tallies are a part of what a checkpoint costs.
-void Crew::book_making() {
+void WorkerThreads::book_making() {
   double longest = 0.0;
   for (Worker& worker : workers_) longest = std::max(longest, std::exchange(worker.making, 0.0));
-  if (std::exchange(after_checkpoint_, false)) logbook_->book(longest);
+  if (std::exchange(after_checkpoint_, false)) record_->book(longest);
 }
 
 // Threads come back early when a checkpoint is due. What they have taken they finish.
-void Crew::work_alone(std::uint64_t end) {
+void WorkerThreads::simulate_alone(std::uint64_t end) {
   next_ = range_.last;
   watch_->run_on_threads(static_cast<unsigned>(workers_.size()), [&](unsigned k) { work(workers_[k], end, true); });
   range_.last = std::min(next_.load(), end);
@@ -114,10 +115,10 @@ void Crew::work_alone(std::uint64_t end) {
 }
 
 // A round: every member simulates its part of the batches whatever happens, so that there is no gap.
-void Crew::work_in_team(std::uint64_t end) {
+void WorkerThreads::simulate_in_ranks(std::uint64_t end) {
   const double began = watch_->seconds();
   const std::uint64_t batches = std::min(round_, (end - range_.last) / batch_histories);
-  const Part part = part_of(team_, batches);
+  const Part part = part_of(communicator_, batches);
   next_ = range_.last + part.first * batch_histories;
   const std::uint64_t my_end = range_.last + part.last * batch_histories;
   watch_->run_on_threads(static_cast<unsigned>(workers_.size()), [&](unsigned k) { work(workers_[k], my_end, false); });
@@ -125,30 +126,30 @@ void Crew::work_in_team(std::uint64_t end) {
   book_making();
   // Nobody runs ahead: all wait for the slowest here.
   std::uint64_t impacts = round_impacts_.exchange(0);
-  team_->add(std::span(&impacts, 1));
+  communicator_->sum(std::span(&impacts, 1));
   reporter_.add(batches * batch_histories, impacts);
   watch_->agree();
   // The next takes the time that it should, but grows no more than twofold.
   const double took = watch_->seconds() - began;
-  const std::uint64_t fewest = std::uint64_t{2} * workers_.size() * size_of(team_);
+  const std::uint64_t fewest = std::uint64_t{2} * workers_.size() * size_of(communicator_);
   const double better = static_cast<double>(round_) * std::min(2.0, round_seconds / std::max(took, 1e-6));
   round_ = std::max(fewest, static_cast<std::uint64_t>(better));
-  share(team_, round_);
+  broadcast(communicator_, round_);
 }
 
-void Crew::work(Worker& worker, std::uint64_t end, bool may_pause) {
+void WorkerThreads::work(Worker& worker, std::uint64_t end, bool may_pause) {
   make_tally(worker);
   std::uint64_t told = worker.tally->counts().impacts;
   const auto tell = [&](std::uint64_t histories) {
     const std::uint64_t impacts = worker.tally->counts().impacts - told;
     told += impacts;
-    if (team_ == nullptr) {
+    if (communicator_ == nullptr) {
       reporter_.add(histories, impacts);
     } else {
       round_impacts_ += impacts;
     }
   };
-  while (!watch_->should_stop() && !(may_pause && logbook_ != nullptr && logbook_->due())) {
+  while (!watch_->should_stop() && !(may_pause && record_ != nullptr && record_->due())) {
     const std::uint64_t first = next_.fetch_add(batch_histories);
     if (first >= end) break;
     worker.abandoned |= !worker.walk->simulate_batch(first, batch_histories, *worker.tally, [&] {
@@ -159,12 +160,12 @@ void Crew::work(Worker& worker, std::uint64_t end, bool may_pause) {
   }
 }
 
-bool Crew::abandoned() const {
+bool WorkerThreads::abandoned() const {
   return std::any_of(workers_.begin(), workers_.end(), [](const Worker& worker) { return worker.abandoned; });
 }
 
 // Whole batches go from the threads' tallies to the sum. What was abandoned stays behind: nothing follows it.
-void Crew::collect() {
+void WorkerThreads::collect() {
   if (ends_ > 0 || abandoned()) return;
   whole_ = own(std::move(whole_));
   const auto hand_over = [this](Totals& sum) {
@@ -173,14 +174,14 @@ void Crew::collect() {
       worker.tally.reset();
     }
   };
-  if (team_ == nullptr) return hand_over(*whole_);
-  Totals of_team(whole_->tiles.size(), whole_->maps.size(), hits_);
-  hand_over(of_team);
-  add_up(team_, of_team);
-  whole_->add(of_team);
+  if (communicator_ == nullptr) return hand_over(*whole_);
+  Totals of_all_ranks(whole_->tiles.size(), whole_->maps.size(), hits_);
+  hand_over(of_all_ranks);
+  reduce(communicator_, of_all_ranks);
+  whole_->add(of_all_ranks);
 }
 
-const Totals& Crew::totals() {
+const Totals& WorkerThreads::totals() {
   collect();
   if (ends_ == 0 && !abandoned()) return *whole_;
   if (sum_ == nullptr) {
@@ -193,7 +194,7 @@ const Totals& Crew::totals() {
   return *sum_;
 }
 
-Counted Crew::state() {
+Counted WorkerThreads::state() {
   collect();
   Counted counted;
   counted.ranges = before_;
@@ -206,15 +207,15 @@ Counted Crew::state() {
   return counted;
 }
 
-void Crew::checkpoint() {
-  logbook_->checkpoint([this](StateData& data) {
+void WorkerThreads::checkpoint() {
+  record_->checkpoint([this](StateData& data) {
     const Counted counted = state();
     data.photons->ranges = counted.ranges;
     data.photons->totals = counted.totals;
     data.photons->seconds = watch_->seconds();
   });
   after_checkpoint_ = true;
-  logbook_->data().photons->totals.reset();  // or it would be copied before the next batch is added
+  record_->data().photons->totals.reset();  // or it would be copied before the next batch is added
 }
 
 }  // namespace lichtmc

@@ -13,11 +13,11 @@
 
 namespace lichtmc {
 
-class Logbook {
+class RunRecord {
  public:
   // data: of an earlier session, or with nothing counted. Control must outlive the logbook. only_read: nothing is to be
   // simulated that the state does not hold.
-  Logbook(const Control& control, StateData data, bool only_read);
+  RunRecord(const Control& control, StateData data, bool only_read);
 
   StateData& data() { return data_; }
   const StateData& data() const { return data_; }

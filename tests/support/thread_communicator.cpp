@@ -1,4 +1,4 @@
-#include "support/thread_team.hpp"
+#include "support/thread_communicator.hpp"
 
 #include <algorithm>
 #include <thread>
@@ -32,17 +32,17 @@ class Table {
   std::barrier<> meeting_;
 };
 
-class Member final : public Team {
+class Member final : public Communicator {
  public:
   Member(Table& table, unsigned rank) : table_(&table), rank_(rank) {}
 
   unsigned rank() const override { return rank_; }
   unsigned size() const override { return static_cast<unsigned>(table_->size()); }
-  void add(std::span<std::uint64_t> words) override { add_up(words.data(), words.size()); }
-  void add_wide(std::span<std::uint64_t> words) override {
-    add_up(reinterpret_cast<Wide*>(words.data()), words.size() / 2);
+  void sum(std::span<std::uint64_t> words) override { reduce(words.data(), words.size()); }
+  void sum_wide(std::span<std::uint64_t> words) override {
+    reduce(reinterpret_cast<Wide*>(words.data()), words.size() / 2);
   }
-  void share(std::span<std::byte> bytes) override {
+  void broadcast(std::span<std::byte> bytes) override {
     table_->put(rank_, bytes);
     const std::span<const std::byte> first = table_->bytes_of(0);
     if (rank_ > 0) std::copy(first.begin(), first.end(), bytes.begin());
@@ -51,7 +51,7 @@ class Member final : public Team {
 
  private:
   template <class Word>
-  void add_up(Word* words, std::size_t n) {
+  void reduce(Word* words, std::size_t n) {
     table_->put(rank_, std::as_writable_bytes(std::span(words, n)));
     std::vector<Word> sum(n, 0);
     for (std::size_t k = 0; k < table_->size(); ++k) {
@@ -68,7 +68,7 @@ class Member final : public Team {
 
 }  // namespace
 
-void run_team(unsigned size, const std::function<void(Team&)>& work) {
+void run_ranks(unsigned size, const std::function<void(Communicator&)>& work) {
   Table table(size);
   std::vector<std::jthread> members;
   for (unsigned rank = 0; rank < size; ++rank) {

@@ -33,9 +33,9 @@ bool started_by_mpi() {
   return std::any_of(std::begin(signs), std::end(signs), [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
-class ConnectedTeam final : public MpiTeam {
+class ConnectedMpi final : public MpiCommunicator {
  public:
-  ConnectedTeam() {
+  ConnectedMpi() {
     int provided = 0;
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||
         provided < MPI_THREAD_FUNNELED) {
@@ -49,28 +49,28 @@ class ConnectedTeam final : public MpiTeam {
     MPI_Type_commit(&pair_);
     MPI_Op_create(add_pairs, 1, &add_);
   }
-  ~ConnectedTeam() override {
+  ~ConnectedMpi() override {
     MPI_Op_free(&add_);
     MPI_Type_free(&pair_);
     MPI_Finalize();
   }
-  ConnectedTeam(const ConnectedTeam&) = delete;
-  ConnectedTeam& operator=(const ConnectedTeam&) = delete;
+  ConnectedMpi(const ConnectedMpi&) = delete;
+  ConnectedMpi& operator=(const ConnectedMpi&) = delete;
 
   unsigned rank() const override { return static_cast<unsigned>(rank_); }
   unsigned size() const override { return static_cast<unsigned>(size_); }
 
-  void add(std::span<std::uint64_t> words) override {
+  void sum(std::span<std::uint64_t> words) override {
     in_pieces(words.size(), [&](std::size_t first, int n) {
       MPI_Allreduce(MPI_IN_PLACE, words.data() + first, n, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
     });
   }
-  void add_wide(std::span<std::uint64_t> words) override {
+  void sum_wide(std::span<std::uint64_t> words) override {
     in_pieces(words.size() / 2, [&](std::size_t first, int n) {
       MPI_Allreduce(MPI_IN_PLACE, words.data() + 2 * first, n, pair_, add_, MPI_COMM_WORLD);
     });
   }
-  void share(std::span<std::byte> bytes) override {
+  void broadcast(std::span<std::byte> bytes) override {
     in_pieces(bytes.size(),
               [&](std::size_t first, int n) { MPI_Bcast(bytes.data() + first, n, MPI_BYTE, 0, MPI_COMM_WORLD); });
   }
@@ -95,9 +95,9 @@ class ConnectedTeam final : public MpiTeam {
 
 }  // namespace
 
-std::unique_ptr<MpiTeam> join_mpi_team() {
+std::unique_ptr<MpiCommunicator> join_mpi() {
   if (!started_by_mpi()) return nullptr;
-  return std::make_unique<ConnectedTeam>();
+  return std::make_unique<ConnectedMpi>();
 }
 
 }  // namespace lichtmc

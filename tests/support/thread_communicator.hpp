@@ -6,11 +6,11 @@
 #include <functional>
 #include <vector>
 
-#include "lichtmc/team.hpp"
+#include "lichtmc/communicator.hpp"
 
 namespace lichtmc::test {
 
 // Calls work(team) on `size` threads, one for each member; returns when all have. Exceptions are not expected.
-void run_team(unsigned size, const std::function<void(Team&)>& work);
+void run_ranks(unsigned size, const std::function<void(Communicator&)>& work);
 
 }  // namespace lichtmc::test

@@ -13,10 +13,10 @@
 
 namespace lichtmc {
 
-class Reporter {
+class ProgressReporter {
  public:
   // target: histories that there are to do. Control and watch must outlive the reporter.
-  Reporter(const Control& control, const StopWatch& watch, Progress::Stage stage, std::uint64_t target)
+  ProgressReporter(const Control& control, const StopWatch& watch, Progress::Stage stage, std::uint64_t target)
       : control_(&control), watch_(&watch), began_(watch.seconds()), last_(Clock::now()) {
     progress_.stage = stage;
     progress_.target = target;

@@ -16,24 +16,25 @@ namespace lichtmc::app {
 std::string note_of(const std::vector<std::string>& arguments);
 
 // What resume and merge may say otherwise than the run did.
-struct AgainOptions {
+struct OverrideOptions {
   std::string output;
   std::optional<std::string> room;
   std::optional<std::string> receivers;
   std::optional<int> threads;
-  LookOptions looks;
+  ReportArguments report_arguments;
   bool quiet = false;
 };
-void add_again_options(CLI::App& command, AgainOptions& options, const std::string& output_help,
-                       const std::string& machine_group);
+void add_override_options(CLI::App& command, OverrideOptions& options, const std::string& output_help,
+                          const std::string& machine_group);
 
 // The options of the run that a state is of, with what is said otherwise; the files that they name are where they were.
 // Throws InputError where another version of the program, or another program, has written the state, or where receivers
 // came from stdin and are not given again.
-RunOptions options_of(const State& state, const std::filesystem::path& file, const AgainOptions& again);
+RunOptions options_of(const State& state, const std::filesystem::path& file, const OverrideOptions& overrides);
 
 // A job for it, without the folder; the room is read.
-RunJob job_of(const State& state, const RunOptions& run, const AgainOptions& again, const std::string& command_line);
+RunJob job_of(const State& state, const RunOptions& run, const OverrideOptions& overrides,
+              const std::string& command_line);
 
 // A state file; of a folder, the state.h5 in it.
 std::filesystem::path state_file(const std::string& name);

@@ -1,4 +1,4 @@
-#include "lichtmc/mend.hpp"
+#include "lichtmc/overrides.hpp"
 
 #include <cmath>
 #include <set>

@@ -1,4 +1,4 @@
-#include "go_on.hpp"
+#include "continue_run.hpp"
 
 #include <algorithm>
 #include <system_error>
@@ -19,8 +19,8 @@ std::string note_of(const std::vector<std::string>& arguments) {
   return note.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-void add_again_options(CLI::App& command, AgainOptions& options, const std::string& output_help,
-                       const std::string& machine_group) {
+void add_override_options(CLI::App& command, OverrideOptions& options, const std::string& output_help,
+                          const std::string& machine_group) {
   command.add_option("-o,--output", options.output, output_help)->type_name("DIR");
   command.add_option("--room", options.room, "The room's file, where it is not any more where it was")
       ->type_name("ROOM");
@@ -28,7 +28,7 @@ void add_again_options(CLI::App& command, AgainOptions& options, const std::stri
       .add_option("--receivers", options.receivers, "The table of receivers, where it is elsewhere, or came from stdin")
       ->type_name("FILE.csv");
   add_threads_option(command, options.threads, machine_group);
-  add_look_options(command, options.looks);
+  add_report_options(command, options.report_arguments);
   command.add_flag("--quiet", options.quiet, "No progress, no summary; only errors");
 }
 
@@ -66,16 +66,16 @@ RunOptions noted_options(const State& state, const fs::path& file) {
 
 }  // namespace
 
-RunOptions options_of(const State& state, const fs::path& file, const AgainOptions& again) {
+RunOptions options_of(const State& state, const fs::path& file, const OverrideOptions& overrides) {
   check_version(state);  // words of another version may not be known
   RunOptions run = noted_options(state, file);
-  if (again.room) run.reading.file = *again.room;
-  if (again.receivers) run.receivers = again.receivers;
-  if (run.receivers == "-" && !again.receivers)
+  if (overrides.room) run.reading.file = *overrides.room;
+  if (overrides.receivers) run.receivers = overrides.receivers;
+  if (run.receivers == "-" && !overrides.receivers)
     throw InputError(
         "The receivers of this run came from stdin (allowed here: a file, or - again). Give them with "
         "--receivers.");
-  run.looks.override_with(again.looks);
+  run.report_arguments.override_with(overrides.report_arguments);
   return run;
 }
 
@@ -93,15 +93,16 @@ void check_there(const std::string& file, const std::string& what, const std::st
 
 }  // namespace
 
-RunJob job_of(const State& state, const RunOptions& run, const AgainOptions& again, const std::string& command_line) {
-  if (!again.room) check_there(run.reading.file, "the room", "--room");
-  if (!again.receivers && run.receivers) check_there(*run.receivers, "the table of receivers", "--receivers");
+RunJob job_of(const State& state, const RunOptions& run, const OverrideOptions& overrides,
+              const std::string& command_line) {
+  if (!overrides.room) check_there(run.reading.file, "the room", "--room");
+  if (!overrides.receivers && run.receivers) check_there(*run.receivers, "the table of receivers", "--receivers");
   RunJob job;
   job.settings = state.settings();
-  job.report = parse_report(run.looks, again.threads, command_line);
-  job.with_report = wants_report(run.looks);
+  job.report = parse_report(run.report_arguments, overrides.threads, command_line);
+  job.with_report = wants_report(run.report_arguments);
   job.note = state.note();
-  job.quiet = again.quiet;
+  job.quiet = overrides.quiet;
   job.room = read_run_room(run);
   return job;
 }

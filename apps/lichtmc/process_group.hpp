@@ -3,20 +3,20 @@
 
 #include <memory>
 
-#include "lichtmc/team.hpp"
+#include "lichtmc/communicator.hpp"
 
 namespace lichtmc::app {
 
 // A team, and how to end it where one member cannot go on.
-class ProcessTeam {
+class ProcessGroup {
  public:
   // Throws InputError where several were started and this program was built without MPI.
-  ProcessTeam();
-  ~ProcessTeam();
-  ProcessTeam(const ProcessTeam&) = delete;
-  ProcessTeam& operator=(const ProcessTeam&) = delete;
+  ProcessGroup();
+  ~ProcessGroup();
+  ProcessGroup(const ProcessGroup&) = delete;
+  ProcessGroup& operator=(const ProcessGroup&) = delete;
 
-  Team* get() const;  // null where this process is alone
+  Communicator* get() const;  // null where this process is alone
   // Says why, and ends all members with the exit status; returns where this process is alone.
   void end(const char* message, int status) const;
 

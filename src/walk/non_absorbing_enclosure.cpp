@@ -1,4 +1,4 @@
-#include "walk/trap.hpp"
+#include "walk/non_absorbing_enclosure.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 namespace lichtmc {
 
-bool traps_light(const Scene& scene, std::uint64_t seed) {
+bool has_non_absorbing_enclosure(const Scene& scene, std::uint64_t seed) {
   if (!scene.reflects_all_somewhere) return false;
 
   constexpr std::uint32_t flights = 1'000'000;
