@@ -14,6 +14,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "lichtmc/emitter_law.hpp"
 #include "lichtmc/units.hpp"
 
 namespace lichtmc {
@@ -53,19 +54,23 @@ struct Surface {
   std::size_t without_area = 0;                // triangles of the source that were left out, because they have no area
 };
 
-// Emits the same intensity in every direction: I = Φ/4π.
+// A point emitter with the same intensity in every direction: I = Φ/4π.
 struct IsotropicEmitter {
   glm::dvec3 position{0.0};  // m
+
+  IsotropicLaw law() const { return {}; }
 };
 
-// Generalized Lambert emitter: I(θ) = Φ (m+1)/(2π) cos^m θ over the hemisphere about its axis.
+// A point emitter by the generalized Lambert law: I(θ) = Φ (m+1)/(2π) cos^m θ over the hemisphere about its axis.
 struct LambertEmitter {
   glm::dvec3 position{0.0};         // m
   glm::dvec3 axis{0.0, -1.0, 0.0};  // direction of the beam, any length but 0
   double exponent = 1.0;            // m ≥ 0: 0 uniform hemisphere, 1 Lambert, large a narrow beam
+
+  LambertLaw law() const { return {exponent}; }
 };
 
-// Spot with a soft edge: I(θ) = I₀ inside the inner cone, I₀ a² between the cones with
+// A spot with a soft edge: I(θ) = I₀ inside the inner cone, I₀ a² between the cones with
 // a = (cos θ − cos outer)/(cos inner − cos outer), 0 outside.
 // Hence Φ = 2π I₀ [(1 − cos inner) + (cos inner − cos outer)/3].
 struct SpotEmitter {
@@ -73,20 +78,29 @@ struct SpotEmitter {
   glm::dvec3 axis{0.0, -1.0, 0.0};   // direction of the beam, any length but 0
   double inner = 0.0;                // rad, half angle of the cone of full intensity, 0 ≤ inner < outer
   double outer = 0.785398163397448;  // rad, half angle of the cone that holds all light, 1e-6 ≤ outer ≤ π/2
+
+  SpotLaw law() const { return {inner, outer}; }
 };
 
-// Every point of a surface's front emits as a generalized Lambert emitter about the normal, uniform per area. With m =
-// 1 the exitance is M = Φ/A and the radiance M/π.
+// Area light: every point of a surface's front emits by the generalized Lambert law about the normal, uniform per area.
+// With m = 1 the exitance is M = Φ/A and the radiance M/π.
 struct SurfaceEmitter {
   std::size_t surface = 0;  // index into Room::surfaces
   double exponent = 1.0;    // m ≥ 0
+
+  LambertLaw law() const { return {exponent}; }
 };
 
 struct Emitter {
   std::string name;    // for messages and tables
-  double power = 1.0;  // Φ in W or lm, ≥ 0
+  double power = 1.0;  // Φ: radiant flux in W or luminous flux in lm, ≥ 0
   std::variant<IsotropicEmitter, LambertEmitter, SpotEmitter, SurfaceEmitter> shape;
 };
+
+// The directional law of an emitter.
+inline EmitterLaw law_of(const Emitter& emitter) {
+  return std::visit([](const auto& shape) -> EmitterLaw { return shape.law(); }, emitter.shape);
+}
 
 // A point at which irradiance is asked for.
 struct Receiver {

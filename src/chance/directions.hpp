@@ -1,7 +1,7 @@
-// Directions as emitters and surfaces send light: each sampler beside its density.
+// Diffuse reflection: directions by Lambert's law, the sampler beside its density, in float for loops over photons.
 //
-// Directions are given in a frame whose third axis is the emitter's axis or the surface's normal. Sampling is by
-// inversion, azimuth uniform. Densities are per solid angle (1/sr) and take the cosine of the angle to the third axis.
+// Directions are given in a frame whose third axis is the surface's normal. Sampling is by inversion, azimuth uniform.
+// Densities are per solid angle (1/sr). The laws of emitters are in lichtmc/emitter_law.hpp.
 // Source: H. Schulze, Lichtausbreitung in Räumen: Skizzen zur Monte-Carlo-Simulation, 2021, eq. 1-12.
 #pragma once
 
@@ -45,65 +45,6 @@ inline glm::vec3 sample_lambert(std::uint32_t word_polar, std::uint32_t word_azi
 
 inline double pdf_lambert(double cos_polar) {
   return cos_polar > 0.0 ? cos_polar / std::numbers::pi : 0.0;
-}
-
-// Direction at 1 − cos θ = `versine` (0 … 2) and azimuth 2π·turns; exact near the axis, where 1 − cos²θ would cancel.
-inline glm::dvec3 direction_at(double versine, double turns) {
-  const double sin_polar = std::sqrt(versine * (2.0 - versine));
-  const double azimuth = 2.0 * std::numbers::pi * turns;
-  return {sin_polar * std::cos(azimuth), sin_polar * std::sin(azimuth), 1.0 - versine};
-}
-
-// Generalized Lambert emitter, density (m+1)/(2π) cos^m θ on the hemisphere, m ≥ 0; 0 < u < 1, 0 ≤ turns ≤ 1.
-// cos θ = u^{1/(m+1)} as 1 − cos θ = −expm1(ln u/(m+1)): accurate for every m up to infinity, the pencil beam.
-inline glm::dvec3 sample_generalized_lambert(double exponent, double u, double turns) {
-  return direction_at(-std::expm1(std::log(u) / (exponent + 1.0)), turns);
-}
-
-inline double pdf_generalized_lambert(double exponent, double cos_polar) {
-  if (cos_polar <= 0.0) return 0.0;
-  return (exponent + 1.0) / (2.0 * std::numbers::pi) * std::pow(cos_polar, exponent);
-}
-
-// The whole sphere, density 1/4π; 0 < u < 1.
-inline glm::dvec3 sample_sphere(double u, double turns) {
-  return direction_at(2.0 * u, turns);
-}
-
-inline double pdf_sphere(double /*cos_polar*/) {
-  return 1.0 / (4.0 * std::numbers::pi);
-}
-
-// 1 − cos of an angle, exact for small angles.
-inline double versine(double angle) {
-  const double sine = std::sin(0.5 * angle);
-  return 2.0 * sine * sine;
-}
-
-// Spot with half angles inner < outer (rad): full intensity in the inner cone, between the cones a² with
-// a = (cos θ − cos outer)/(cos inner − cos outer). This is the falloff that the KHR_lights_punctual specification shows
-// as an implementation note; the specification leaves the choice to the reader. Integrated over the sphere the cones
-// hold 2π(1 − cos inner) and 2π(cos inner − cos outer)/3 of solid angle times intensity.
-inline double spot_solid_angle(double inner, double outer) {
-  const double core = versine(inner);
-  return 2.0 * std::numbers::pi * (core + (versine(outer) - core) / 3.0);
-}
-
-inline glm::dvec3 sample_spot(double inner, double outer, double u, double turns) {
-  const double core = versine(inner);
-  const double rim = versine(outer) - core;
-  const double core_share = core / (core + rim / 3.0);
-  if (u < core_share) return direction_at(core * (u / core_share), turns);
-  // Between the cones the density over cos θ is a²: its inverse is a cube root.
-  const double a = std::cbrt((1.0 - u) / (1.0 - core_share));
-  return direction_at(core + rim * (1.0 - a), turns);
-}
-
-inline double pdf_spot(double inner, double outer, double cos_polar) {
-  const double rim = versine(outer);
-  const double ramp = (rim - (1.0 - cos_polar)) / (rim - versine(inner));
-  const double a = std::fmin(std::fmax(ramp, 0.0), 1.0);
-  return a * a / spot_solid_angle(inner, outer);
 }
 
 }  // namespace lichtmc

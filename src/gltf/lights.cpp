@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "base/message.hpp"
-#include "chance/directions.hpp"
 #include "gltf/materials.hpp"
 
 namespace lichtmc {
@@ -73,9 +72,7 @@ SpotEmitter read_spot(const Document& document, const tinygltf::Value& light, co
   spot.axis = axis_of(document, placed);
   spot.inner = number_in(document, cones, "innerConeAngle", 0.0, placed.label);
   spot.outer = number_in(document, cones, "outerConeAngle", pi / 4.0, placed.label);
-  constexpr double smallest = 1e-6;
-  constexpr double largest = pi / 2.0 * (1.0 + 1e-6);  // π/2 as a float may be rounded up
-  if (!(spot.inner >= 0.0 && spot.inner < spot.outer && spot.outer >= smallest && spot.outer <= largest)) {
+  if (spot.law().fault()) {
     refuse(document, "the cone angles of the spot of " + placed.label + " are " + to_text(spot.inner) +
                          " (inner) and " + to_text(spot.outer) +
                          " rad (outer) (allowed: 0 ≤ inner < outer, outer from 1e-6 to π/2). Set its size and blend.");
@@ -113,7 +110,7 @@ std::optional<Emitter> read_punctual(const Document& document, const tinygltf::V
     refuse(document, "the light of " + placed.label + " is of the type '" + type +
                          "' (allowed: point, spot, directional). Export the file again.");
   const SpotEmitter spot = read_spot(document, light, placed);
-  emitter.power = intensity * spot_solid_angle(spot.inner, spot.outer);
+  emitter.power = intensity * spot.law().solid_angle();
   emitter.shape = spot;
   return emitter;
 }

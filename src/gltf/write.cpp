@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,11 +13,11 @@
 #include "base/atomic_file.hpp"
 #include "base/frame.hpp"
 #include "base/message.hpp"
-#include "chance/directions.hpp"
 #include "gltf/builder.hpp"
 #include "gltf/texture_image.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/gltf.hpp"
+#include "room/emitter_shape.hpp"
 
 namespace lichtmc {
 
@@ -29,7 +30,11 @@ class Writer {
   explicit Writer(const Room& room) : room_(&room) {
     for (const ReflectanceMap& map : room.reflectance_maps) textures_.push_back(add_texture(map));
     for (std::size_t k = 0; k < room.surfaces.size(); ++k) add_surface(k);
-    for (const Emitter& emitter : room.emitters) add_point_emitter(emitter);
+    for (const Emitter& emitter : room.emitters) {
+      visit_shape(
+          emitter, [&](const auto& point) { add_point_emitter(emitter, point); },
+          [](const auto& /*area_light*/) {});  // part of its material
+    }
     for (const Receiver& receiver : room.receivers) add_receiver(receiver);
   }
 
@@ -38,7 +43,8 @@ class Writer {
  private:
   std::size_t add_texture(const ReflectanceMap& map);
   void add_surface(std::size_t k);
-  void add_point_emitter(const Emitter& emitter);
+  template <PointShape Shape>
+  void add_point_emitter(const Emitter& emitter, const Shape& shape);
   void add_receiver(const Receiver& receiver);
   std::size_t material_of(std::size_t surface);
 
@@ -89,14 +95,13 @@ std::size_t Writer::material_of(std::size_t k) {
     material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", textures_[*surface.reflectance_map]}};
   }
   for (const Emitter& emitter : room_->emitters) {
-    const auto* shape = std::get_if<SurfaceEmitter>(&emitter.shape);
-    if (shape == nullptr || shape->surface != k) continue;
+    if (emitting_surface(emitter) != k) continue;
     const double luminance = emitter.power / (std::numbers::pi * surface_area(surface));
     material["emissiveFactor"] = {1.0, 1.0, 1.0};
     material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", luminance}};
     material["extras"]["power"] = emitter.power;
     material["extras"]["unit"] = unit_of(*room_);
-    material["extras"]["lambert_exponent"] = shape->exponent;
+    material["extras"]["lambert_exponent"] = std::get<SurfaceEmitter>(emitter.shape).exponent;
     document_.use_extension("KHR_materials_emissive_strength");
   }
   const auto [entry, fresh] = materials_.try_emplace(material.dump(-1, ' ', false, Json::error_handler_t::replace),
@@ -141,32 +146,38 @@ std::array<double, 4> looking_along(const glm::dvec3& direction) {
   return {axis.x, axis.y, axis.z, glm::dot(from, middle)};
 }
 
-void Writer::add_point_emitter(const Emitter& emitter) {
+// The light of KHR_lights_punctual that stands for an emitter, and what its node has besides the position.
+struct PunctualLight {
   Json light;
-  Json node;
-  const double pi = std::numbers::pi;
-  if (const auto* isotropic = std::get_if<IsotropicEmitter>(&emitter.shape)) {
-    node = placed_node(emitter.name, isotropic->position);
-    light = {{"type", "point"}, {"intensity", emitter.power / (4.0 * pi)}};
-  } else if (const auto* lambert = std::get_if<LambertEmitter>(&emitter.shape)) {
-    node = placed_node(emitter.name, lambert->position);
-    node["rotation"] = looking_along(lambert->axis);
-    node["extras"]["lambert_exponent"] = lambert->exponent;
-    light = {{"type", "point"}, {"intensity", emitter.power / (4.0 * pi)}};
-  } else if (const auto* spot = std::get_if<SpotEmitter>(&emitter.shape)) {
-    node = placed_node(emitter.name, spot->position);
-    node["rotation"] = looking_along(spot->axis);
-    light = {{"type", "spot"},
-             {"intensity", emitter.power / spot_solid_angle(spot->inner, spot->outer)},
-             {"spot", {{"innerConeAngle", spot->inner}, {"outerConeAngle", std::min(spot->outer, pi / 2.0)}}}};
-  } else {
-    return;  // a surface emitter is part of its material
-  }
+  Json node_extras = Json::object();
+};
+
+PunctualLight punctual(const IsotropicEmitter& /*shape*/, double power) {
+  return {{{"type", "point"}, {"intensity", power / (4.0 * std::numbers::pi)}}};
+}
+
+PunctualLight punctual(const LambertEmitter& shape, double power) {
+  return {{{"type", "point"}, {"intensity", power / (4.0 * std::numbers::pi)}}, {{"lambert_exponent", shape.exponent}}};
+}
+
+PunctualLight punctual(const SpotEmitter& shape, double power) {
+  return {
+      {{"type", "spot"},
+       {"intensity", power / shape.law().solid_angle()},
+       {"spot", {{"innerConeAngle", shape.inner}, {"outerConeAngle", std::min(shape.outer, std::numbers::pi / 2.0)}}}}};
+}
+
+template <PointShape Shape>
+void Writer::add_point_emitter(const Emitter& emitter, const Shape& shape) {
+  Json node = placed_node(emitter.name, shape.position);
+  if constexpr (requires { shape.axis; }) node["rotation"] = looking_along(shape.axis);
+  PunctualLight written = punctual(shape, emitter.power);
+  node["extras"] = std::move(written.node_extras);
   node["extras"]["power"] = emitter.power;
   node["extras"]["unit"] = unit_of(*room_);
   Json& lights = document_.json["extensions"]["KHR_lights_punctual"]["lights"];
   node["extensions"]["KHR_lights_punctual"] = {{"light", lights.size()}};
-  lights.push_back(std::move(light));
+  lights.push_back(std::move(written.light));
   document_.use_extension("KHR_lights_punctual");
   document_.add_node(std::move(node));
 }
@@ -180,21 +191,25 @@ void Writer::add_receiver(const Receiver& receiver) {
 
 // What a Room may hold and glTF cannot.
 void check_writable(const Room& room) {
-  std::vector<bool> is_area_light(room.surfaces.size(), false);
+  std::vector<bool> emits(room.surfaces.size(), false);
   for (const Emitter& emitter : room.emitters) {
-    const auto* lambert = std::get_if<LambertEmitter>(&emitter.shape);
-    const auto* surface = std::get_if<SurfaceEmitter>(&emitter.shape);
-    const double exponent = lambert != nullptr ? lambert->exponent : surface != nullptr ? surface->exponent : 0.0;
-    if (!std::isfinite(exponent) || !std::isfinite(emitter.power)) {
+    const double parameter = std::visit(
+        [](const auto& shape) {
+          if constexpr (requires { shape.exponent; }) return shape.exponent;
+          return 0.0;
+        },
+        emitter.shape);
+    if (!std::isfinite(parameter) || !std::isfinite(emitter.power)) {
       throw InputError("The power or exponent of emitter " + in_quotes(emitter.name) +
                        " is not finite (a file holds finite numbers only). Use a large number, for example 1e30.");
     }
-    if (surface == nullptr || surface->surface >= is_area_light.size()) continue;
-    if (is_area_light[surface->surface]) {
-      throw InputError("Surface " + in_quotes(room.surfaces[surface->surface].name) +
+    const std::optional<std::size_t> surface = emitting_surface(emitter);
+    if (!surface || *surface >= emits.size()) continue;
+    if (emits[*surface]) {
+      throw InputError("Surface " + in_quotes(room.surfaces[*surface].name) +
                        " has two emitters (a file holds one for each surface). Add their powers.");
     }
-    is_area_light[surface->surface] = true;
+    emits[*surface] = true;
   }
 }
 

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/message.hpp"
 #include "inspect/guesses.hpp"
+#include "room/emitter_shape.hpp"
 #include "run/warnings.hpp"
 
 namespace lichtmc {
@@ -212,9 +214,9 @@ void ProgressReporter::seen_from_behind() {
         "normals there.");
   }
   for (const Emitter& emitter : room_.emitters) {
-    const auto* shape = std::get_if<SurfaceEmitter>(&emitter.shape);
-    if (shape == nullptr || shape->surface >= facts_.surfaces.size()) continue;
-    const SurfaceFacts& surface = facts_.surfaces[shape->surface];
+    const std::optional<std::size_t> number = emitting_surface(emitter);
+    if (!number || *number >= facts_.surfaces.size()) continue;
+    const SurfaceFacts& surface = facts_.surfaces[*number];
     if (surface.sides != Sides::one || !(surface.seen_from_behind > mostly)) continue;
     add(Severity::warning, "behind",
         "The shining surface " + in_quotes(surface.name) +

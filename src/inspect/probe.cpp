@@ -173,7 +173,8 @@ glm::dvec3 find_inside(const Room& room, const Tracer& tracer, const glm::dvec3&
       const Words words = stream.draw(std::uint64_t{c} * rays_each + i, 0, Purpose::emission);
       rays.facet[i] = no_facet;
       rays.set_start(i, start.point);
-      rays.set_direction(i, glm::vec3(tracer.directions() * sample_sphere(unit_open(words[0]), unit_open(words[1]))));
+      rays.set_direction(
+          i, glm::vec3(tracer.directions() * IsotropicLaw{}.sample(unit_open(words[0]), unit_open(words[1]))));
     }
     rays.size = rays_each;
     tracer.trace(rays, Misses::escape, count);

@@ -1,7 +1,8 @@
 #include "output/json.hpp"
 
 #include <cmath>
-#include <variant>
+
+#include "room/emitter_shape.hpp"
 
 namespace lichtmc {
 
@@ -10,13 +11,9 @@ Json number(double value) {
 }
 
 std::string_view kind_of(const Emitter& emitter) {
-  struct Kind {
-    std::string_view operator()(const IsotropicEmitter&) const { return "isotropic"; }
-    std::string_view operator()(const LambertEmitter&) const { return "lambert"; }
-    std::string_view operator()(const SpotEmitter&) const { return "spot"; }
-    std::string_view operator()(const SurfaceEmitter&) const { return "surface"; }
-  };
-  return std::visit(Kind{}, emitter.shape);
+  return visit_shape(
+      emitter, [](const auto& point) { return point.law().name(); },
+      [](const auto& /*area_light*/) { return std::string_view("surface"); });
 }
 
 Json emitters_of(const Room& room) {

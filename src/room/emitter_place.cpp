@@ -1,8 +1,8 @@
 #include "room/emitter_place.hpp"
 
-#include <variant>
-
 #include <glm/geometric.hpp>
+
+#include "room/emitter_shape.hpp"
 
 namespace lichtmc {
 
@@ -25,12 +25,9 @@ glm::dvec3 middle_of(const Surface& surface) {
 }  // namespace
 
 glm::dvec3 place_of(const Room& room, const Emitter& emitter) {
-  return std::visit(
-      [&](const auto& shape) {
-        if constexpr (requires { shape.position; }) return shape.position;
-        if constexpr (requires { shape.surface; }) return middle_of(room.surfaces[shape.surface]);
-      },
-      emitter.shape);
+  return visit_shape(
+      emitter, [](const auto& point) { return point.position; },
+      [&](const auto& area_light) { return middle_of(room.surfaces[area_light.surface]); });
 }
 
 }  // namespace lichtmc

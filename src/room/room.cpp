@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
 #include <set>
-#include <type_traits>
 
 #include <glm/geometric.hpp>
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
+#include "room/emitter_shape.hpp"
 #include "room/room_check.hpp"
 
 namespace lichtmc {
@@ -100,35 +100,19 @@ void check_axis(const Room& room, const glm::dvec3& axis, const std::string& of)
     refuse(room, "direction " + of, to_text(axis), "finite numbers, not all 0", "Give it a direction.");
 }
 
-void check_exponent(const Room& room, double exponent, const std::string& of) {
-  require(exponent >= 0.0, room, "exponent m (lambert_exponent) " + of, exponent, "0 or more",
-          "Use 0 for a uniform hemisphere, 1 for Lambert's law, more for a beam.");
+void check_law(const Room& room, const std::optional<LawFault>& fault, const std::string& of) {
+  if (fault) refuse(room, fault->what + " " + of, to_text(fault->value), fault->allowed, fault->remedy);
 }
 
-void check_shape(const Room& room, const IsotropicEmitter& shape, const std::string& of) {
+template <PointShape Shape>
+void check_shape(const Room& room, const Shape& shape, const std::string& of) {
   check_position(room, shape.position, of);
+  if constexpr (requires { shape.axis; }) check_axis(room, shape.axis, of);
+  check_law(room, shape.law().fault(), of);
 }
 
-void check_shape(const Room& room, const LambertEmitter& shape, const std::string& of) {
-  check_position(room, shape.position, of);
-  check_axis(room, shape.axis, of);
-  check_exponent(room, shape.exponent, of);
-}
-
-void check_shape(const Room& room, const SpotEmitter& shape, const std::string& of) {
-  check_position(room, shape.position, of);
-  check_axis(room, shape.axis, of);
-  // π/2 as a float may be rounded up. Below 10⁻⁶ rad a cone is a pencil beam: what a Lambert emitter of large m is.
-  constexpr double smallest = 1e-6;
-  constexpr double largest = std::numbers::pi / 2.0 * (1.0 + 1e-6);
-  require(shape.outer >= smallest && shape.outer <= largest, room, "outer cone angle " + of, shape.outer,
-          "1e-6 to π/2 = 1.5708 rad", "Give the half angle of the cone that holds its light.");
-  require(shape.inner >= 0.0 && shape.inner < shape.outer, room, "inner cone angle " + of, shape.inner,
-          "0 to below the outer angle, " + to_text(shape.outer) + " rad",
-          "Give the half angle of the cone of full intensity.");
-}
-
-void check_shape(const Room& room, const SurfaceEmitter& shape, const std::string& of) {
+template <SurfaceShape Shape>
+void check_shape(const Room& room, const Shape& shape, const std::string& of) {
   if (shape.surface >= room.surfaces.size()) {
     refuse(room, "number of the surface " + of, std::to_string(shape.surface),
            "below " + std::to_string(room.surfaces.size()), "Let it name a surface.");
@@ -136,7 +120,7 @@ void check_shape(const Room& room, const SurfaceEmitter& shape, const std::strin
   require(surface_area(room.surfaces[shape.surface]) > 0.0, room,
           "area in m² of the emitting surface " + in_quotes(room.surfaces[shape.surface].name) + " " + of, 0.0,
           "above 0", "Give it triangles that have an area, or remove the emitter.");
-  check_exponent(room, shape.exponent, of);
+  check_law(room, shape.law().fault(), of);
 }
 
 void check_receiver(const Room& room, const Receiver& receiver) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "chance/places.hpp"
 #include "room/clip.hpp"
 #include "room/triangle_shapes.hpp"
 
@@ -80,10 +81,9 @@ SurfacePlace TilePieces::place(std::size_t tile, double u, double v) const {
   const auto chosen = found == pieces.end() ? pieces.end() - 1 : found;
   const double before = chosen == pieces.begin() ? 0.0 : (chosen - 1)->area_up_to;
   const double within = (u - before) / (chosen->area_up_to - before);
-  // Uniform on the triangle: √ is the share of the way from its first corner, v goes across.
-  const double root = std::sqrt(std::clamp(within, 0.0, 1.0));
+  const glm::dvec2 weights = uniform_on_triangle(std::clamp(within, 0.0, 1.0), v);
   const glm::dvec2& a = chosen->weights[0];
-  return {chosen->triangle, a + root * (1.0 - v) * (chosen->weights[1] - a) + root * v * (chosen->weights[2] - a)};
+  return {chosen->triangle, a + weights.x * (chosen->weights[1] - a) + weights.y * (chosen->weights[2] - a)};
 }
 
 glm::dvec3 point_at(const Surface& surface, std::uint32_t triangle, const glm::dvec2& weights) {

@@ -116,7 +116,7 @@ void receive(const Room& room, const Scene& scene, const Settings& settings, con
     if (receiver.half_angle_deg == 0.0) return {};  // it sees nothing
     const ReferencePoint reference = reference_point_of(receiver);
     if (const auto emitter = light.emitter_at(reference)) refuse_on_emitter(room, k, *emitter);
-    return light.at(reference, stream, k, count);
+    return light.irradiance_at(reference, stream, k, count);
   };
   task.make_walk = [&](const Settings& own) { return make_backward_walk(scene, light, origins, scale, own); };
   task.error = error_of_receivers;

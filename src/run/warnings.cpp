@@ -1,13 +1,15 @@
 #include "run/warnings.hpp"
 
 #include <algorithm>
-#include <type_traits>
+#include <numbers>
 #include <variant>
 
 #include <glm/common.hpp>
 
 #include "base/message.hpp"
 #include "room/bounds.hpp"
+#include "room/emitter_place.hpp"
+#include "room/emitter_shape.hpp"
 #include "room/reflectance.hpp"
 
 namespace lichtmc {
@@ -16,6 +18,12 @@ namespace {
 
 std::string percent(double share) {
   return short_number(100.0 * share) + " %";
+}
+
+// Whether some of the light leaves against the emitter's axis.
+bool emits_backwards(const Emitter& emitter) {
+  constexpr double hemisphere = 0.5 * std::numbers::pi * (1.0 + 1e-6);  // π/2 as a float may be rounded up
+  return std::visit([](const auto& law) { return law.extent().half_angle; }, law_of(emitter)) > hemisphere;
 }
 
 }  // namespace
@@ -27,28 +35,22 @@ std::vector<OutsideEmitter> emitters_outside(const Room& room) {
   const glm::dvec3 farthest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
   const double slack = 4.0 * 0x1p-24 * std::max({farthest.x, farthest.y, farthest.z});
   for (const Emitter& emitter : room.emitters) {
-    std::visit(
-        [&](const auto& shape) {
-          if constexpr (requires { shape.position; }) {
-            const glm::dvec3& p = shape.position;
-            const std::string which = "Emitter " + in_quotes(emitter.name) + " at (" + short_number(p.x) + ", " +
-                                      short_number(p.y) + ", " + short_number(p.z) + ") m lies ";
-            if (bounds.holds(p, slack)) {
-              const bool to_all_sides = std::is_same_v<std::decay_t<decltype(shape)>, IsotropicEmitter>;
-              if (to_all_sides && !bounds.holds(p, -slack))
-                outside.push_back(
-                    {which + "in the rim of the room: the light that it sends outwards leaves the room at once.",
-                     "Move it some centimetres inwards."});
-              return;
-            }
-            std::string range;
-            for (int k = 0; k < 3; ++k)
-              range += (k > 0 ? ", " : "") + short_number(bounds.low[k]) + " to " + short_number(bounds.high[k]);
-            outside.push_back({which + "outside the room, which reaches from x, y, z = " + range + " m.",
-                               "Check its position; Y is up."});
-          }
-        },
-        emitter.shape);
+    if (emitting_surface(emitter)) continue;
+    const glm::dvec3 p = place_of(room, emitter);
+    const std::string which = "Emitter " + in_quotes(emitter.name) + " at (" + short_number(p.x) + ", " +
+                              short_number(p.y) + ", " + short_number(p.z) + ") m lies ";
+    if (bounds.holds(p, slack)) {
+      if (emits_backwards(emitter) && !bounds.holds(p, -slack)) {
+        outside.push_back({which + "on the boundary of the room: the light that it emits outwards leaves at once.",
+                           "Move it some centimetres inwards."});
+      }
+      continue;
+    }
+    std::string range;
+    for (int k = 0; k < 3; ++k)
+      range += (k > 0 ? ", " : "") + short_number(bounds.low[k]) + " to " + short_number(bounds.high[k]);
+    outside.push_back(
+        {which + "outside the room, which reaches from x, y, z = " + range + " m.", "Check its position; Y is up."});
   }
   return outside;
 }
@@ -59,8 +61,8 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result) {
   for (const OutsideEmitter& outside : emitters_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
   if (result.settings.measured != Measured::receivers && result.impacts == 0) {
     warnings.push_back(
-        "No light met any surface. Check where the emitters are and which way they shine; a shining surface shines "
-        "from its front only.");
+        "No light met any surface. Check the positions and directions of the emitters; a surface emits light from its "
+        "front only.");
   }
   const bool roulette = result.estimator == Estimator::weight && !result.settings.max_bounces;
   constexpr double noticeable = 0.001;

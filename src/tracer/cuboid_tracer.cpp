@@ -19,6 +19,7 @@
 #include "base/lanes.hpp"
 #include "chance/directions.hpp"
 #include "room/cuboid_shape.hpp"
+#include "room/emitter_shape.hpp"
 #include "tracer/touch.hpp"
 #include "tracer/tracer.hpp"
 
@@ -381,15 +382,11 @@ std::unique_ptr<Tracer> make_cuboid_tracer(const Room& room, const Tiling& tilin
   }
   auto tracer = std::make_unique<CuboidTracer>(*shape, std::move(triangles), std::move(facets));
   for (const Emitter& emitter : room.emitters) {
-    const bool outside = std::visit(
-        [&](const auto& shape_of_emitter) {
-          if constexpr (requires { shape_of_emitter.position; }) return !tracer->holds(shape_of_emitter.position);
-          return false;
-        },
-        emitter.shape);
     // From outside the walls are seen from the other side.
-    const auto* surface = std::get_if<SurfaceEmitter>(&emitter.shape);
-    if (outside || (surface != nullptr && tracer->emits_outwards(surface->surface))) {
+    const bool outside = visit_shape(
+        emitter, [&](const auto& point) { return !tracer->holds(point.position); },
+        [&](const auto& area_light) { return tracer->emits_outwards(area_light.surface); });
+    if (outside) {
       why_not = "has an emitter that shines from outside";
       return nullptr;
     }

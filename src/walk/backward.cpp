@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 
 #include "base/frame.hpp"
-#include "chance/directions.hpp"
+#include "chance/places.hpp"
 #include "walk/estimators.hpp"
 
 namespace lichtmc {
@@ -34,7 +33,7 @@ class BackwardGoal {
         found_(batch_histories),
         direct_(batch_histories),
         cosine_(batch_histories),
-        offers_(batch_histories) {}
+        pending_irradiance_(batch_histories) {}
 
   // Photon i is to start from an origin, as its sample `sample`.
   void prepare(std::size_t i, std::uint64_t origin, std::uint64_t sample) {
@@ -58,15 +57,11 @@ class BackwardGoal {
     flight_ = 0;
     for (std::uint32_t i = 0; i < n; ++i) {
       const ReferencePoint reference = origins_->start(origin_[i], sample_[i], ids_[i], stream_, wave.rays, i);
-      const Frame frame = frame_about(reference.normal);
       const Words words = stream_.draw(ids_[i], 0, Purpose::emission);
       factor_[i] = reference.squared_sine();
-      const double squared = unit_open(words[0]) * factor_[i];
-      const double azimuth = 2.0 * std::numbers::pi * unit_open(words[1]);
-      const double sine = std::sqrt(squared);
-      const glm::dvec3 direction = sine * std::cos(azimuth) * frame.tangent +
-                                   sine * std::sin(azimuth) * frame.bitangent + std::sqrt(1.0 - squared) * frame.normal;
-      wave.rays.set_direction(i, glm::vec3(scene_->tracer->directions() * direction));
+      const ConeDirection flight =
+          sample_cosine_cone(frame_about(reference.normal), factor_[i], unit_open(words[0]), unit_open(words[1]));
+      wave.rays.set_direction(i, glm::vec3(scene_->tracer->directions() * flight.direction));
       found_[i] = 0.0;
       direct_[i] = 0.0;
     }
@@ -97,11 +92,9 @@ class BackwardGoal {
     for (std::size_t i = 0; i < rays.size; ++i) {
       const Facet& facet = tracer.facets()[rays.facet[i]];
       if (rays.behind[i] != 0 || !light_->is_area_light(facet.surface)) continue;
-      const glm::dvec3 segment = tracer.world_vector(glm::dvec3(rays.direction(i)) * double{rays.length[i]});
-      const double r = glm::length(segment);
-      const double cosine_there = std::abs(glm::dot(segment, world_normal(facet))) / r;
-      if (!(r > 0.0) || !(cosine_there > 0.0)) continue;
-      const double irradiance = light_->hit(facet.surface, double{cosine_[i]}, cosine_there, r);
+      const FlightGeometry flight = flight_geometry(tracer, rays, i);
+      if (flight.degenerate()) continue;
+      const double irradiance = light_->mis_weighted_emission(facet.surface, double{cosine_[i]}, flight);
       if constexpr (Policy::scores_every_impact) {
         found_[i] += (Policy::carries_weight ? wave.weight[i] : 1.0) * irradiance;
       } else {
@@ -126,12 +119,12 @@ class BackwardGoal {
     for (std::size_t i = 0; i < rays.size; ++i) direct_[i] = 0.0;
     for (std::size_t k = 0; k < light_->light_samples_per_point(); ++k) {
       shadow_rays_.clear();
-      asking_.clear();
-      for (std::size_t i = 0; i < rays.size; ++i) ask(wave, flight, i, k);
+      pending_.clear();
+      for (std::size_t i = 0; i < rays.size; ++i) take_light_sample(wave, flight, i, k);
       if (shadow_rays_.size == 0) continue;
       scene_->tracer->find_blocked(shadow_rays_, count_->traced);
-      for (std::size_t n = 0; n < asking_.size(); ++n) {
-        if (shadow_rays_.blocked[n] == 0) direct_[asking_[n]] += offers_[asking_[n]];
+      for (std::size_t n = 0; n < pending_.size(); ++n) {
+        if (shadow_rays_.blocked[n] == 0) direct_[pending_[n]] += pending_irradiance_[pending_[n]];
       }
     }
     if constexpr (Policy::scores_every_impact) {
@@ -152,40 +145,28 @@ class BackwardGoal {
   }
 
  private:
-  glm::dvec3 world_normal(const Facet& facet) const {
-    // Normals of the cuboid's facets are along its axes: they stay so.
-    return glm::normalize(scene_->tracer->world_vector(glm::dvec3(facet.normal)));
-  }
-
-  // Takes an offer for photon i; where something may stand between, asks first.
-  void ask(const Wave& wave, std::uint32_t flight, std::size_t i, std::size_t k) {
+  // Takes light sample k for photon i; where something may cast a shadow, adds a shadow ray to the wave of them.
+  void take_light_sample(const Wave& wave, std::uint32_t flight, std::size_t i, std::size_t k) {
     const Rays& rays = wave.rays;
     const Tracer& tracer = *scene_->tracer;
-    const Facet& facet = tracer.facets()[rays.facet[i]];
-    const glm::vec3 start = rays.start(i);
-    const glm::dvec3 normal = world_normal(facet);
-    const ReferencePoint reference{tracer.world_point(glm::dvec3(start)), rays.behind[i] != 0 ? -normal : normal, 0.0};
+    const glm::dvec3 start(rays.start(i));
+    const glm::dvec3 normal = world_normal(tracer, tracer.facets()[rays.facet[i]]);
+    const ReferencePoint reference{tracer.world_point(start), rays.behind[i] != 0 ? -normal : normal, 0.0};
     const std::uint64_t id = ids_[wave.photon[i]];
-    // A surface's own numbers for each emitter.
+    // Each emitter has random words of its own at each surface.
     const auto number = static_cast<std::uint32_t>(flight * light_->light_samples_per_point() + k);
     const Words which = stream_.draw(id, number, Purpose::light);
     const Words where = light_->has_area_lights() ? stream_.draw(id, number, Purpose::on_light) : Words{};
-    const LightSample offer = light_->offer(k, reference, which, where);
-    if (!(offer.irradiance > 0.0)) return;
-    if (!tracer.casts_shadows()) {
-      direct_[i] += offer.irradiance;
+    const LightSample sample = light_->sample_light(k, reference, which, where);
+    if (!(sample.irradiance > 0.0)) return;
+    const auto segment = tracer.casts_shadows() ? shadow_segment(tracer, start, sample.target) : std::nullopt;
+    if (!segment) {
+      direct_[i] += sample.irradiance;
       return;
     }
-    const glm::dvec3 segment = tracer.tracer_point(offer.target) - glm::dvec3(start);
-    const double length = glm::length(segment);
-    const double short_of = 2.0 * tracer.step();  // of the surface that the emitter may lie on
-    if (length <= short_of) {
-      direct_[i] += offer.irradiance;
-      return;
-    }
-    offers_[i] = offer.irradiance;
-    asking_.push_back(i);
-    shadow_rays_.add(start, glm::vec3(segment * (1.0 - short_of / length)));
+    pending_irradiance_[i] = sample.irradiance;
+    pending_.push_back(i);
+    shadow_rays_.add(rays.start(i), *segment);
   }
 
   void finish(const Wave& wave, std::size_t i) {
@@ -205,11 +186,11 @@ class BackwardGoal {
   std::vector<std::uint64_t> scores_;
   std::vector<double> factor_;  // squared sine of the field of view: the share of a hemisphere's light that it takes
   // Of the photons by their places in the wave.
-  std::vector<double> found_;   // so far, W/m² or lx
-  std::vector<double> direct_;  // at the surface that was left last
-  std::vector<float> cosine_;   // under which it was left
-  std::vector<double> offers_;
-  std::vector<std::size_t> asking_;
+  std::vector<double> found_;               // so far, W/m² or lx
+  std::vector<double> direct_;              // at the surface that was left last
+  std::vector<float> cosine_;               // under which it was left
+  std::vector<double> pending_irradiance_;  // of the light samples whose shadow rays are being traced
+  std::vector<std::size_t> pending_;
   ShadowRays shadow_rays_;
   std::uint32_t flight_ = 0;
   BackwardCount* count_ = nullptr;
@@ -284,15 +265,6 @@ BackwardScale::BackwardScale(const Room& room) {
 std::uint64_t BackwardScale::score(double irradiance) const {
   const double units = irradiance / unit;
   return units < static_cast<double>(largest_score) ? static_cast<std::uint64_t>(units + 0.5) : largest_score;
-}
-
-ReferencePoint reference_point_of(const Receiver& receiver) {
-  const glm::dvec3 n = receiver.normal;
-  const glm::dvec3 scaled = n / std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
-  ReferencePoint reference{receiver.position, glm::normalize(scaled), 0.0};
-  if (receiver.half_angle_deg < 90.0)
-    reference.least_cosine = std::cos(receiver.half_angle_deg * std::numbers::pi / 180.0);
-  return reference;
 }
 
 ReferencePoint ReceiverOrigins::start(std::uint64_t receiver, std::uint64_t /*sample*/, std::uint64_t /*id*/,

@@ -79,10 +79,6 @@ class BackwardWalk {
   BackwardWalk& operator=(const BackwardWalk&) = default;
 };
 
-// How a receiver looks at the room. Its field of view is a cone about the normal; what it sees at an angle of 0° has
-// none.
-ReferencePoint reference_point_of(const Receiver& receiver);
-
 // Where backward walks come from. Origins are numbered; walks from one come in rounds of `group`, of which only the sum
 // counts, so that a round may be spread evenly. start() sets where photon i starts and says how it looks at the room.
 class ReceiverOrigins {

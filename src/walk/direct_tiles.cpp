@@ -10,6 +10,7 @@
 
 #include "base/frame.hpp"
 #include "chance/directions.hpp"
+#include "chance/places.hpp"
 #include "walk/triangle_integral.hpp"
 
 namespace lichtmc {
@@ -63,7 +64,7 @@ double error_of(const Leaves& leaves) {
 
 // How a triangle lies in the beam of a point emitter.
 struct InBeam {
-  const PointSource& source;
+  const PointLight& source;
 
   // The angle between the axis and the nearest direction to the triangle, and the angle that it is seen under.
   double angle_off(const Triangle& t, double& half_size) const {
@@ -82,7 +83,7 @@ struct InBeam {
 
   bool dark(const Triangle& t) const {
     double half_size = 0.0;
-    return angle_off(t, half_size) > source.beam().half_angle;
+    return angle_off(t, half_size) > source.extent().half_angle;
   }
 
   // The light of a lamp changes over its distance from the surface, and over the width of its beam: triangles of half
@@ -91,7 +92,7 @@ struct InBeam {
     double half_size = 0.0;
     angle_off(t, half_size);
     constexpr double half = 0.5;
-    return half_size > half || half_size > half * source.beam().width;
+    return half_size > half || half_size > half * source.extent().width;
   }
 };
 
@@ -148,10 +149,9 @@ class LitPoints {
     const std::size_t k = std::min<std::size_t>(static_cast<std::size_t>(found - up_to_.begin()), leaves_.size() - 1);
     const IntegratedTriangle& leaf = leaves_[k];
     const double within = (light - (up_to_[k] - leaf.integral)) / leaf.integral;
-    const double root = std::sqrt(std::clamp(within, 0.0, 1.0));
     const Triangle& t = leaf.triangle;
-    return {reference(leaf, t[0] + root * (1.0 - v) * (t[1] - t[0]) + root * v * (t[2] - t[0])),
-            leaf.integral / area_of(t)};
+    const glm::dvec2 weights = uniform_on_triangle(std::clamp(within, 0.0, 1.0), v);
+    return {reference(leaf, point_of_triangle(t[0], t[1], t[2], weights)), leaf.integral / area_of(t)};
   }
   // How a point of a leaf looks at the room.
   ReferencePoint reference(const IntegratedTriangle& leaf, const glm::dvec3& point) const {
@@ -238,36 +238,38 @@ DirectIrradiance DirectTiles::shadowed(const Leaves& leaves, std::size_t face, s
   return {unshadowed * share.share, std::hypot(unshadowed * share.standard_error, share.share * by_rules)};
 }
 
-DirectIrradiance DirectTiles::by_point(const PointSource& source, std::size_t face, std::uint64_t number,
+DirectIrradiance DirectTiles::by_point(const PointLight& source, std::size_t face, std::uint64_t number,
                                        TraceCount& count) const {
   const InBeam beam{source};
   const Leaves leaves = integrate_face(
-      *faces_, face, [&](const ReferencePoint& reference) { return source.offer(reference).irradiance; },
+      *faces_, face, [&](const ReferencePoint& reference) { return source.sample_light(reference).irradiance; },
       [&](const ReferencePoint& reference) {
         return glm::dot(source.position() - reference.point, reference.normal) > 0.0;
       },
       [&](const Triangle& t) { return beam.coarse(t); }, [&](const Triangle& t) { return beam.dark(t); }, relative_,
       relative_ * level_);
   const auto seen = [&](const ReferencePoint& reference, std::uint32_t) {
-    return Sample{source.offer(reference).irradiance, !light_->blocked(reference, source.position(), count)};
+    return Sample{source.sample_light(reference).irradiance,
+                  !is_blocked(*tracer_, reference, source.position(), count)};
   };
   return shadowed(leaves, face, number, seen);
 }
 
 DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::uint64_t number,
                                          TraceCount& count) const {
-  const SurfaceSource& source = light_->surfaces()[k];
+  const AreaLight& source = light_->areas()[k];
   if (!source.lambertian() || source.triangles() > most_triangles) {
-    const auto reference = [&](std::uint32_t n) {
+    const auto random_place = [&](std::uint32_t n) {
       const Words words = stream_.draw(number, n, Purpose::direct_place);
       return faces_->reference(face, faces_->place(face, unit_open(words[0]), unit_open(words[1])));
     };
     constexpr std::uint32_t most = 4096;
-    return light_->sampled(k, reference, stream_, number, {relative_, relative_ * level_, most}, count);
+    return sample_area_light(source, *tracer_, random_place, stream_, number, {relative_, relative_ * level_, most},
+                             count);
   }
   const auto no = [](const Triangle&) { return false; };
   const Leaves leaves = integrate_face(
-      *faces_, face, [&](const ReferencePoint& reference) { return source.by_polygons(reference); },
+      *faces_, face, [&](const ReferencePoint& reference) { return source.polygon_irradiance(reference); },
       [&](const ReferencePoint& reference) { return source.reaches_above_horizon(reference); }, no, no, relative_,
       relative_ * level_);
   // Random points of an emitter close by would seldom be those that shine most: there, flights by Lambert's law find
@@ -276,17 +278,18 @@ DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::u
   const double whole_hemisphere = pi * source.radiance(1.0);
   const auto seen = [&](const ReferencePoint& reference, std::uint32_t n) {
     const Words words = stream_.draw(number, n, Purpose::direct_point);
-    if (source.by_polygons(reference) > close * whole_hemisphere) {
+    if (source.polygon_irradiance(reference) > close * whole_hemisphere) {
       const glm::dvec3 local(sample_lambert(words[0], words[1]));
       const Frame frame = frame_about(reference.normal);
       const auto target = source.nearest_hit(
           reference.point, local.x * frame.tangent + local.y * frame.bitangent + local.z * frame.normal);
       if (!target) return Sample{};
-      return Sample{whole_hemisphere, !light_->blocked(reference, *target, count)};
+      return Sample{whole_hemisphere, !is_blocked(*tracer_, reference, *target, count)};
     }
-    const LightSample offer = source.offer(reference, unit_open(words[0]), unit_open(words[1]), unit_open(words[2]));
-    if (!(offer.irradiance > 0.0)) return Sample{};
-    return Sample{offer.irradiance, !light_->blocked(reference, offer.target, count)};
+    const LightSample sample =
+        source.sample_light(reference, unit_open(words[0]), unit_open(words[1]), unit_open(words[2]));
+    if (!(sample.irradiance > 0.0)) return Sample{};
+    return Sample{sample.irradiance, !is_blocked(*tracer_, reference, sample.target, count)};
   };
   return shadowed(leaves, face, number, seen);
 }
@@ -295,7 +298,7 @@ DirectIrradiance DirectTiles::mean(std::size_t face, TraceCount& count) const {
   DirectIrradiance sum;
   double variance = 0.0;
   const std::size_t points = light_->points().size();
-  const std::size_t sources = points + light_->surfaces().size();
+  const std::size_t sources = points + light_->areas().size();
   for (std::size_t k = 0; k < sources; ++k) {
     const std::uint64_t number = face * sources + k;
     const DirectIrradiance part =

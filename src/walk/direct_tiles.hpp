@@ -36,7 +36,7 @@ class DirectTiles {
   template <class AskSeen>
   DirectIrradiance shadowed(const std::vector<IntegratedTriangle>& leaves, std::size_t face, std::uint64_t number,
                             const AskSeen& seen) const;
-  DirectIrradiance by_point(const PointSource& source, std::size_t face, std::uint64_t number, TraceCount& count) const;
+  DirectIrradiance by_point(const PointLight& source, std::size_t face, std::uint64_t number, TraceCount& count) const;
   DirectIrradiance by_surface(std::size_t k, std::size_t face, std::uint64_t number, TraceCount& count) const;
 
   const DirectLight* light_;

@@ -7,49 +7,18 @@
 
 #include <glm/geometric.hpp>
 
-#include "base/frame.hpp"
 #include "base/lanes.hpp"
 #include "chance/choice.hpp"
 #include "chance/directions.hpp"
 #include "chance/draw_many.hpp"
-#include "chance/lane_math.hpp"
+#include "chance/law_lanes.hpp"
 #include "chance/moments.hpp"
+#include "chance/places.hpp"
+#include "room/emitter_shape.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-glm::dvec3 sample(const IsotropicEmitter& /*law*/, double u, double turns) {
-  return sample_sphere(u, turns);
-}
-glm::dvec3 sample(const LambertEmitter& law, double u, double turns) {
-  return sample_generalized_lambert(law.exponent, u, turns);
-}
-glm::dvec3 sample(const SpotEmitter& law, double u, double turns) {
-  return sample_spot(law.inner, law.outer, u, turns);
-}
-
-// Sine and cosine of the angle to the emitter's axis by the laws of directions.hpp. Generalized Lambert emitters:
-// 1 − cos θ = −expm1(ln u · share), share = 1/(m + 1).
-LICHTMC_LANES void lambert_polar(std::size_t n, const std::uint32_t* LICHTMC_APART words, float share,
-                                 float* LICHTMC_APART sine, float* LICHTMC_APART cosine) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float versine = -lane_expm1(share * lane_log_unit(words[i]));
-    sine[i] = std::sqrt(versine * (2.0F - versine));
-    cosine[i] = 1.0F - versine;
-  }
-}
-
-// The whole sphere, cos θ = 1 − 2u; both poles from what is left of u, which float holds exactly there.
-LICHTMC_LANES void isotropic_polar(std::size_t n, const std::uint32_t* LICHTMC_APART words, float* LICHTMC_APART sine,
-                                   float* LICHTMC_APART cosine) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float u = (static_cast<float>(words[i]) + 0.5F) * 0x1p-32F;
-    const float rest = (static_cast<float>(~words[i]) + 0.5F) * 0x1p-32F;
-    sine[i] = 2.0F * std::sqrt(u * rest);
-    cosine[i] = rest - u;
-  }
-}
 
 // Directions at these angles to the third axis of a frame, with uniform azimuth.
 LICHTMC_LANES void aim(std::size_t n, const float* LICHTMC_APART sine_polar, const float* LICHTMC_APART cosine_polar,
@@ -77,55 +46,44 @@ Launcher::Launcher(const Room& room, const Tracer& tracer) : facets_(&tracer.fac
   std::vector<double> powers;
   for (const Emitter& emitter : room.emitters) {
     powers.push_back(emitter.power);
-    if (const auto* surface = std::get_if<SurfaceEmitter>(&emitter.shape)) {
-      sources_.emplace_back(surface_source(room, *surface, tracer));
-    } else {
-      sources_.emplace_back(point_source(emitter, tracer));
-    }
+    visit_shape(
+        emitter, [&](const auto& shape) { sources_.emplace_back(point_source(shape, tracer)); },
+        [&](const auto& shape) { sources_.emplace_back(surface_source(room, shape.surface, shape.law(), tracer)); });
   }
   // Shares of the largest first: tiny powers would lose their digits in the sum.
   const double largest = *std::max_element(powers.begin(), powers.end());
   for (double& power : powers) power /= largest;
   powers_up_to_ = cumulative(powers);
-  const auto is_area_light = [](double power) { return power > 0.0; };
-  if (std::count_if(powers.begin(), powers.end(), is_area_light) == 1)
-    only_source_ = static_cast<std::size_t>(std::find_if(powers.begin(), powers.end(), is_area_light) - powers.begin());
+  const auto emits = [](double power) { return power > 0.0; };
+  if (std::count_if(powers.begin(), powers.end(), emits) == 1)
+    only_source_ = static_cast<std::size_t>(std::find_if(powers.begin(), powers.end(), emits) - powers.begin());
 }
 
-Launcher::PointSource Launcher::point_source(const Emitter& emitter, const Tracer& tracer) {
+template <class Shape>
+Launcher::PointSource Launcher::point_source(const Shape& shape, const Tracer& tracer) {
+  const Frame frame = frame_of(shape);
+  constexpr bool has_axis = requires {
+    shape.axis;
+  };
   PointSource source;
-  glm::dvec3 position(0.0);
-  glm::dvec3 axis(0.0);
-  std::visit(
-      [&](const auto& law) {
-        if constexpr (requires { law.position; }) {
-          position = law.position;
-          source.law = law;
-        }
-        if constexpr (requires { law.axis; }) axis = law.axis;
-      },
-      emitter.shape);
-  // Scaled by its largest component first: the square of a very long or short axis would not be a double.
-  const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
-  if (largest > 0.0) axis = glm::normalize(axis / largest);
-  source.start = tracer.start(position, axis);
-  hangs_free_ = hangs_free_ && !source.start.on_surface;
-  const Frame frame = frame_about(largest > 0.0 ? axis : glm::dvec3(0.0, 0.0, 1.0));
+  source.law = shape.law();
+  source.start = tracer.start(shape.position, has_axis ? frame.normal : glm::dvec3(0.0));
   source.to_tracer = tracer.directions() * glm::dmat3(frame.tangent, frame.bitangent, frame.normal);
+  all_off_surfaces_ = all_off_surfaces_ && !source.start.on_surface;
   return source;
 }
 
-Launcher::SurfaceSource Launcher::surface_source(const Room& room, const SurfaceEmitter& emitter,
+Launcher::SurfaceSource Launcher::surface_source(const Room& room, std::size_t number, const LambertLaw& law,
                                                  const Tracer& tracer) {
-  const Surface& surface = room.surfaces[emitter.surface];
+  const Surface& surface = room.surfaces[number];
   SurfaceSource source;
-  source.exponent = emitter.exponent;
+  source.law = law;
   std::vector<double> areas;
   for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
     const glm::uvec3 corner = surface.triangles[n];
     const glm::dvec3 a = surface.positions[corner.x];
     areas.push_back(glm::length(glm::cross(surface.positions[corner.y] - a, surface.positions[corner.z] - a)));
-    source.triangles.push_back(tracer.locate(emitter.surface, n));
+    source.triangles.push_back(tracer.locate(number, n));
   }
   source.areas_up_to = cumulative(areas);
   return source;
@@ -135,10 +93,12 @@ void Launcher::launch(const Stream& stream, std::uint64_t history, Rays& rays, s
   const Words words = stream.draw(history, 0, Purpose::emission);
   const auto& source = sources_[choose(powers_up_to_, unit_fine(words[2], words[3]))];
   if (const auto* point = std::get_if<PointSource>(&source)) {
-    start_at(*point, words[0], words[1], rays, i);
+    const double u = unit_open(words[0]);
+    const double turns = unit_open(words[1]);
+    start_at(*point, std::visit([&](const auto& law) { return law.sample(u, turns); }, point->law), rays, i);
   } else {
     const auto& surface = std::get<SurfaceSource>(source);
-    const glm::dvec3 local = sample_generalized_lambert(surface.exponent, unit_open(words[0]), unit_open(words[1]));
+    const glm::dvec3 local = surface.law.sample(unit_open(words[0]), unit_open(words[1]));
     start_on(surface, glm::vec3(local), stream.draw(history, 0, Purpose::place), rays, i);
   }
 }
@@ -197,14 +157,8 @@ std::vector<std::uint32_t> Launcher::sort_by_source(std::uint32_t n, Launches& l
 
 void Launcher::launch_from(std::size_t k, Launches& launches, std::uint32_t begin, std::uint32_t end,
                            const Stream& stream, std::uint64_t first, Rays& rays, const std::uint32_t* photon) const {
-  const std::size_t n = end - begin;
-  const std::uint32_t* polar = &launches.polar[begin];
-  const std::uint32_t* azimuth = &launches.azimuth[begin];
-  float* sine_polar = &launches.sine[begin];
-  float* cosine_polar = &launches.cosine[begin];
-  const auto share = [](double exponent) { return static_cast<float>(1.0 / (exponent + 1.0)); };
   if (const auto* surface = std::get_if<SurfaceSource>(&sources_[k])) {
-    lambert_polar(n, polar, share(surface->exponent), sine_polar, cosine_polar);
+    polar_angles(surface->law, end - begin, &launches.polar[begin], &launches.sine[begin], &launches.cosine[begin]);
     for (std::uint32_t i = begin; i < end; ++i) {
       float sine = 0.0F;
       float cosine = 0.0F;
@@ -215,28 +169,32 @@ void Launcher::launch_from(std::size_t k, Launches& launches, std::uint32_t begi
     return;
   }
   const auto& point = std::get<PointSource>(sources_[k]);
-  if (!point.start.steps.empty() || std::holds_alternative<SpotEmitter>(point.law)) {
-    for (std::uint32_t i = begin; i < end; ++i) start_at(point, launches.polar[i], launches.azimuth[i], rays, i);
-    return;
-  }
-  if (const auto* lambert = std::get_if<LambertEmitter>(&point.law)) {
-    lambert_polar(n, polar, share(lambert->exponent), sine_polar, cosine_polar);
-  } else {
-    isotropic_polar(n, polar, sine_polar, cosine_polar);
-  }
-  aim(n, sine_polar, cosine_polar, azimuth, glm::mat3(point.to_tracer), &rays.dx[begin], &rays.dy[begin],
-      &rays.dz[begin]);
-  std::fill_n(&rays.facet[begin], n, no_facet);
-  std::fill_n(&rays.x[begin], n, point.start.point.x);
-  std::fill_n(&rays.y[begin], n, point.start.point.y);
-  std::fill_n(&rays.z[begin], n, point.start.point.z);
+  std::visit([&](const auto& law) { launch_from_point(point, law, launches, begin, end, rays); }, point.law);
 }
 
-void Launcher::start_at(const PointSource& source, std::uint32_t polar, std::uint32_t azimuth, Rays& rays,
-                        std::size_t i) const {
-  const double u = unit_open(polar);
-  const double turns = unit_open(azimuth);
-  const glm::dvec3 local = std::visit([&](const auto& law) { return sample(law, u, turns); }, source.law);
+// Photons of a law that is sampled in lanes start together; those of other laws, and those that must choose a side of a
+// surface that the emitter touches, one by one.
+template <class Law>
+void Launcher::launch_from_point(const PointSource& point, const Law& law, Launches& launches, std::uint32_t begin,
+                                 std::uint32_t end, Rays& rays) const {
+  if constexpr (LaneLaw<Law>) {
+    if (point.start.steps.empty()) {
+      const std::size_t n = end - begin;
+      polar_angles(law, n, &launches.polar[begin], &launches.sine[begin], &launches.cosine[begin]);
+      aim(n, &launches.sine[begin], &launches.cosine[begin], &launches.azimuth[begin], glm::mat3(point.to_tracer),
+          &rays.dx[begin], &rays.dy[begin], &rays.dz[begin]);
+      std::fill_n(&rays.facet[begin], n, no_facet);
+      std::fill_n(&rays.x[begin], n, point.start.point.x);
+      std::fill_n(&rays.y[begin], n, point.start.point.y);
+      std::fill_n(&rays.z[begin], n, point.start.point.z);
+      return;
+    }
+  }
+  for (std::uint32_t i = begin; i < end; ++i)
+    start_at(point, law.sample(unit_open(launches.polar[i]), unit_open(launches.azimuth[i])), rays, i);
+}
+
+void Launcher::start_at(const PointSource& source, const glm::dvec3& local, Rays& rays, std::size_t i) {
   const glm::vec3 direction(source.to_tracer * local);
   glm::vec3 point = source.start.point;
   // An emitter that touches a surface sends each photon off on the side it flies to.
@@ -249,13 +207,9 @@ void Launcher::start_at(const PointSource& source, std::uint32_t polar, std::uin
 void Launcher::start_on(const SurfaceSource& source, const glm::vec3& local, const Words& place, Rays& rays,
                         std::size_t i) const {
   const std::size_t n = choose(source.areas_up_to, unit_fine(place[0], place[1]));
-  // Uniform on the triangle: 1 − √u is the share of the way from the side opposite a corner, the rest is uniform along
-  // it.
-  const double root = std::sqrt(unit_open(place[2]));
-  const double b1 = root * (1.0 - unit_open(place[3]));
-  const double b2 = root * unit_open(place[3]);
+  const glm::vec2 weights(uniform_on_triangle(unit_open(place[2]), unit_open(place[3])));
   const TriangleOnFacet& triangle = source.triangles[n];
-  const glm::vec2 st = triangle.st_0 + static_cast<float>(b1) * triangle.st_1 + static_cast<float>(b2) * triangle.st_2;
+  const glm::vec2 st = triangle.st_0 + weights.x * triangle.st_1 + weights.y * triangle.st_2;
   rays.facet[i] = triangle.facet;
   rays.s[i] = st.x;
   rays.t[i] = st.y;

@@ -30,30 +30,35 @@ class Launcher {
   // histories, counted from `first`, photon i of the wave is; an array of batch_histories.
   void launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays, std::uint32_t* photon) const;
 
-  // Whether every point emitter hangs free of all surfaces.
-  bool hangs_free() const { return hangs_free_; }
+  // Whether no point emitter touches a surface.
+  bool all_off_surfaces() const { return all_off_surfaces_; }
 
  private:
   struct PointSource {
     Start start;
     glm::dmat3 to_tracer{1.0};  // from the emitter's frame, third axis its own
-    std::variant<IsotropicEmitter, LambertEmitter, SpotEmitter> law;
+    EmitterLaw law;
   };
   struct SurfaceSource {
     std::vector<double> areas_up_to;  // cumulative shares of the triangles' areas, the last is 1
     std::vector<TriangleOnFacet> triangles;
-    double exponent = 1.0;
+    LambertLaw law;  // about the normal
   };
 
-  PointSource point_source(const Emitter& emitter, const Tracer& tracer);
-  static SurfaceSource surface_source(const Room& room, const SurfaceEmitter& emitter, const Tracer& tracer);
+  template <class Shape>
+  PointSource point_source(const Shape& shape, const Tracer& tracer);
+  static SurfaceSource surface_source(const Room& room, std::size_t number, const LambertLaw& law,
+                                      const Tracer& tracer);
   struct Launches;
 
   std::vector<std::uint32_t> sort_by_source(std::uint32_t n, Launches& launches, std::uint32_t* photon) const;
   // Photons begin … end − 1 of the wave start from source k.
   void launch_from(std::size_t k, Launches& launches, std::uint32_t begin, std::uint32_t end, const Stream& stream,
                    std::uint64_t first, Rays& rays, const std::uint32_t* photon) const;
-  void start_at(const PointSource& source, std::uint32_t polar, std::uint32_t azimuth, Rays& rays, std::size_t i) const;
+  template <class Law>
+  void launch_from_point(const PointSource& point, const Law& law, Launches& launches, std::uint32_t begin,
+                         std::uint32_t end, Rays& rays) const;
+  static void start_at(const PointSource& source, const glm::dvec3& local, Rays& rays, std::size_t i);
   void start_on(const SurfaceSource& source, const glm::vec3& local, const Words& place, Rays& rays,
                 std::size_t i) const;
 
@@ -61,7 +66,7 @@ class Launcher {
   std::vector<double> powers_up_to_;  // cumulative shares of the power, the last is 1
   std::vector<std::variant<PointSource, SurfaceSource>> sources_;
   std::optional<std::size_t> only_source_;  // with power
-  bool hangs_free_ = true;
+  bool all_off_surfaces_ = true;
 };
 
 }  // namespace lichtmc

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <variant>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "chance/choice.hpp"
-#include "chance/directions.hpp"
+#include "chance/places.hpp"
 
 namespace lichtmc {
 
@@ -77,62 +76,26 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-struct BeamOf {
-  PointSource::Beam operator()(const IsotropicEmitter&) const { return {pi, pi}; }
-  PointSource::Beam operator()(const LambertEmitter& law) const {
-    // cos^m θ falls to 10⁻¹⁶ at 1 − cos θ = 36.8/m, and by half over an angle of about √(2 ln 2/m).
-    constexpr double decades = 36.8;
-    const double versine_there = -std::expm1(-decades / std::max(law.exponent, 1.0));
-    return {std::min(0.5 * pi, 2.0 * std::asin(std::sqrt(0.5 * versine_there))), 1.0 / std::sqrt(law.exponent + 1.0)};
-  }
-  PointSource::Beam operator()(const SpotEmitter& law) const { return {law.outer, law.outer}; }
-  PointSource::Beam operator()(const SurfaceEmitter&) const { return {}; }
-};
-
 }  // namespace
 
-PointSource::PointSource(const Emitter& emitter, std::size_t number) : emitter_(&emitter), number_(number) {
-  std::visit(
-      [this](const auto& shape) {
-        if constexpr (requires { shape.position; }) position_ = shape.position;
-        if constexpr (requires { shape.axis; }) {
-          const glm::dvec3 a = shape.axis;
-          axis_ = glm::normalize(a / std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}));
-        }
-      },
-      emitter.shape);
-  beam_ = std::visit(BeamOf{}, emitter.shape);
-}
-
-// Power per solid angle in a direction of length 1.
-double PointSource::intensity(const glm::dvec3& direction) const {
-  const double cosine = glm::dot(direction, axis_);
-  struct Density {
-    double cosine;
-    double operator()(const IsotropicEmitter&) const { return pdf_sphere(cosine); }
-    double operator()(const LambertEmitter& law) const { return pdf_generalized_lambert(law.exponent, cosine); }
-    double operator()(const SpotEmitter& law) const { return pdf_spot(law.inner, law.outer, cosine); }
-    double operator()(const SurfaceEmitter&) const { return 0.0; }
-  };
-  return emitter_->power * std::visit(Density{cosine}, emitter_->shape);
-}
-
-LightSample PointSource::offer(const ReferencePoint& reference) const {
+LightSample PointLight::sample_light(const ReferencePoint& reference) const {
   const glm::dvec3 segment = position_ - reference.point;
   const double r = glm::length(segment);
   if (!(r > 0.0)) return {};
   const glm::dvec3 towards = segment / r;
   const double cosine = glm::dot(towards, reference.normal);
   if (cosine <= 0.0 || cosine < reference.least_cosine) return {};
-  return {intensity(-towards) * cosine / (r * r), position_, 0.0};
+  const glm::dvec3 local(glm::dot(-towards, frame_.tangent), glm::dot(-towards, frame_.bitangent),
+                         glm::dot(-towards, frame_.normal));
+  return {intensity(law_, flux_, local) * cosine / (r * r), position_, 0.0};
 }
 
-SurfaceSource::SurfaceSource(const Room& room, const Emitter& emitter) : power_(emitter.power) {
-  const auto& shape = std::get<SurfaceEmitter>(emitter.shape);
-  surface_number_ = shape.surface;
-  surface_ = &room.surfaces[shape.surface];
-  area_m2_ = surface_area(*surface_);
-  exponent_ = shape.exponent;
+AreaLight::AreaLight(const Room& room, std::size_t surface, const LambertLaw& law, double flux)
+    : surface_(&room.surfaces[surface]),
+      surface_number_(surface),
+      flux_(flux),
+      area_m2_(surface_area(*surface_)),
+      law_(law) {
   std::vector<double> areas;
   low_ = glm::dvec3(std::numeric_limits<double>::infinity());
   high_ = -low_;
@@ -149,7 +112,7 @@ SurfaceSource::SurfaceSource(const Room& room, const Emitter& emitter) : power_(
   areas_up_to_ = cumulative(areas);
 }
 
-bool SurfaceSource::reaches_above_horizon(const ReferencePoint& reference) const {
+bool AreaLight::reaches_above_horizon(const ReferencePoint& reference) const {
   const glm::dvec3& n = reference.normal;
   const glm::dvec3 highest(n.x > 0.0 ? high_.x : low_.x, n.y > 0.0 ? high_.y : low_.y, n.z > 0.0 ? high_.z : low_.z);
   return glm::dot(highest - reference.point, n) > 0.0;
@@ -157,7 +120,7 @@ bool SurfaceSource::reaches_above_horizon(const ReferencePoint& reference) const
 
 // Cramer's rule for point + λ direction = a + s b + t c (T. Möller, B. Trumbore, Fast, Minimum Storage Ray/Triangle
 // Intersection, 1997).
-std::optional<glm::dvec3> SurfaceSource::nearest_hit(const glm::dvec3& point, const glm::dvec3& direction) const {
+std::optional<glm::dvec3> AreaLight::nearest_hit(const glm::dvec3& point, const glm::dvec3& direction) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (const std::size_t triangle : triangles_) {
     const glm::dvec3 a = corner_of(*surface_, triangle, 0);
@@ -178,17 +141,14 @@ std::optional<glm::dvec3> SurfaceSource::nearest_hit(const glm::dvec3& point, co
 }
 
 // L = Φ (m+1)/(2π A) cos^(m−1) θ.
-double SurfaceSource::radiance(double cosine) const {
-  return power_ / area_m2_ * pdf_generalized_lambert(exponent_, cosine) / cosine;
+double AreaLight::radiance(double cosine) const {
+  return flux_ / area_m2_ * law_.density_at(cosine) / cosine;
 }
 
-LightSample SurfaceSource::offer(const ReferencePoint& reference, double u, double v, double w) const {
+LightSample AreaLight::sample_light(const ReferencePoint& reference, double u, double v, double w) const {
   const std::size_t triangle = triangles_[choose(areas_up_to_, u)];
-  // Uniform on the triangle, as in the launcher.
-  const double root = std::sqrt(v);
-  const glm::dvec3 a = corner_of(*surface_, triangle, 0);
-  const glm::dvec3 target = a + root * (1.0 - w) * (corner_of(*surface_, triangle, 1) - a) +
-                            root * w * (corner_of(*surface_, triangle, 2) - a);
+  const glm::dvec3 target = point_of_triangle(corner_of(*surface_, triangle, 0), corner_of(*surface_, triangle, 1),
+                                              corner_of(*surface_, triangle, 2), uniform_on_triangle(v, w));
   const glm::dvec3 segment = target - reference.point;
   const double r = glm::length(segment);
   if (!(r > 0.0)) return {};
@@ -196,14 +156,13 @@ LightSample SurfaceSource::offer(const ReferencePoint& reference, double u, doub
   const double cosine = glm::dot(towards, reference.normal);
   const double cosine_there = -glm::dot(towards, glm::normalize(cross_of(*surface_, triangle)));
   if (cosine <= 0.0 || cosine < reference.least_cosine || cosine_there <= 0.0) return {};
-  return {power_ * pdf_generalized_lambert(exponent_, cosine_there) * cosine / (r * r), target,
-          cosine * cosine_there / (pi * r * r)};
+  return {flux_ * law_.density_at(cosine_there) * cosine / (r * r), target, cosine * cosine_there / (pi * r * r)};
 }
 
 // L/2 Σ Γ_k · n, Γ_k the angle under which edge k is seen times the normal of the plane through the point and it (J. H.
 // Lambert, Photometria, 1760; P. Schröder, P. Hanrahan, SIGGRAPH 1993).
-double SurfaceSource::by_polygons(const ReferencePoint& reference) const {
-  const double luminance = power_ / area_m2_ / pi;
+double AreaLight::polygon_irradiance(const ReferencePoint& reference) const {
+  const double luminance = flux_ / area_m2_ / pi;
   double sum = 0.0;
   for (const std::size_t triangle : triangles_) {
     std::array<glm::dvec3, 3> corners{};

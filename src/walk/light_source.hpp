@@ -1,8 +1,7 @@
-// Emitters as seen from a point: what each would send there if nothing stood between.
+// Emitters as seen from a reference point: the irradiance that each would cause there if nothing cast a shadow.
 //
-// Point emitters in closed form, E = I(θ) cos θ'/r²; Lambertian surface emitters by the closed polygon formula; any
-// surface emitter by a random point on it. Everything here is geometry in the world, in m; who stands between is
-// asked elsewhere (direct_light.hpp).
+// Point lights in closed form, E = I(θ) cos θ'/r²; Lambertian area lights by the polygon formula; any area light by a
+// random point on it. Everything here is geometry in the world, in m; shadows are in direct_light.hpp.
 #pragma once
 
 #include <cstddef>
@@ -12,86 +11,80 @@
 
 #include <glm/vec3.hpp>
 
+#include "base/frame.hpp"
+#include "lichtmc/emitter_law.hpp"
 #include "lichtmc/room.hpp"
+#include "room/emitter_shape.hpp"
+#include "walk/reference_point.hpp"
 
 namespace lichtmc {
 
-// A point with the side that it looks to, in m.
-struct ReferencePoint {
-  glm::dvec3 point{0.0};
-  glm::dvec3 normal{0.0, 1.0, 0.0};  // length 1
-  double least_cosine = 0.0;  // of the field of view: directions with a smaller cosine to the normal are not seen
-
-  // The share of a hemisphere of even light that the field of view takes.
-  double squared_sine() const { return (1.0 - least_cosine) * (1.0 + least_cosine); }
-};
-
-// One emitter's light on its way to a point: what it would bring if nothing stood between, and the way to it.
+// A sample of one emitter's light at a reference point, without shadows.
 struct LightSample {
   double irradiance = 0.0;  // W/m² or lx; 0: none
   glm::dvec3 target{0.0};   // m, the point of the emitter
-  double pdf_bsdf = 0.0;    // density with which a diffuse flight meets that point, per area; 0 for point emitters
+  double pdf_bsdf = 0.0;    // density with which a diffuse flight meets that point, per area; 0 for point lights
 };
 
-class PointSource {
+class PointLight {
  public:
-  // The emitter must outlive the source.
-  PointSource(const Emitter& emitter, std::size_t number);
+  // flux: in W or lm; number: index into Room::emitters.
+  template <PointShape Shape>
+  PointLight(const Shape& shape, double flux, std::size_t number)
+      : position_(shape.position),
+        frame_(frame_of(shape)),
+        law_(shape.law()),
+        extent_(shape.law().extent()),
+        flux_(flux),
+        number_(number) {}
 
-  LightSample offer(const ReferencePoint& reference) const;
+  LightSample sample_light(const ReferencePoint& reference) const;
 
-  // Its light lies within a cone about the axis and changes over angles of about `width`, both in rad.
-  struct Beam {
-    double half_angle = 0.0;  // beyond it there is less than 10⁻¹⁶ of the intensity on the axis
-    double width = 0.0;
-  };
-  const Beam& beam() const { return beam_; }
-
-  std::size_t number() const { return number_; }  // into Room::emitters
+  const EmitterExtent& extent() const { return extent_; }
+  std::size_t number() const { return number_; }
   const glm::dvec3& position() const { return position_; }
-  const glm::dvec3& axis() const { return axis_; }
+  const glm::dvec3& axis() const { return frame_.normal; }
 
  private:
-  double intensity(const glm::dvec3& direction) const;
-
-  const Emitter* emitter_;
+  glm::dvec3 position_;
+  Frame frame_;  // its normal is the emitter's axis
+  EmitterLaw law_;
+  EmitterExtent extent_;
+  double flux_;
   std::size_t number_;
-  glm::dvec3 position_{0.0};
-  glm::dvec3 axis_{0.0, 0.0, 1.0};
-  Beam beam_;
 };
 
-class SurfaceSource {
+class AreaLight {
  public:
-  // Room and emitter must outlive the source.
-  SurfaceSource(const Room& room, const Emitter& emitter);
+  // surface: index into Room::surfaces; law: about the normal; flux: in W or lm. The room must outlive the light.
+  AreaLight(const Room& room, std::size_t surface, const LambertLaw& law, double flux);
 
-  // The offer of the point that u, v, w (in [0, 1)) choose, uniform over the area: its mean is the emitter's
-  // irradiance, if nothing stood between.
-  LightSample offer(const ReferencePoint& reference, double u, double v, double w) const;
+  // The sample at the point that u, v, w (in [0, 1)) choose, uniform over the area: its mean is the irradiance by the
+  // emitter, without shadows.
+  LightSample sample_light(const ReferencePoint& reference, double u, double v, double w) const;
 
-  // Where a straight way from a point first meets the emitter's front, if nothing else stood in its way.
+  // Where a ray from a point first meets the front of the emitter, if nothing else is in its way.
   std::optional<glm::dvec3> nearest_hit(const glm::dvec3& point, const glm::dvec3& direction) const;
 
-  // Whether the box about the emitter reaches over a point's horizon: else it sends nothing there.
+  // Whether the emitter's bounding box reaches above the horizon of a reference point: else it contributes nothing.
   bool reaches_above_horizon(const ReferencePoint& reference) const;
 
-  bool lambertian() const { return exponent_ == 1.0; }
-  // The irradiance of a Lambertian emitter over the whole hemisphere, if nothing stood between.
-  double by_polygons(const ReferencePoint& reference) const;
+  bool lambertian() const { return law_.exponent == 1.0; }
+  // The irradiance by a Lambertian emitter over the whole hemisphere, without shadows, in closed form.
+  double polygon_irradiance(const ReferencePoint& reference) const;
   std::size_t triangles() const { return triangles_.size(); }
 
-  double radiance(double cosine) const;  // W/(m² sr) or cd/m² at an angle to the normal
+  double radiance(double cosine) const;  // W/(m² sr) or cd/m² at an angle of this cosine to the normal
   std::size_t surface() const { return surface_number_; }
   double area_m2() const { return area_m2_; }
 
  private:
   const Surface* surface_;
   std::size_t surface_number_;
-  double power_;
+  double flux_;
   double area_m2_;
-  double exponent_;
-  glm::dvec3 low_{0.0};  // the box about it
+  LambertLaw law_;
+  glm::dvec3 low_{0.0};  // bounding box
   glm::dvec3 high_{0.0};
   std::vector<double> areas_up_to_;
   std::vector<std::size_t> triangles_;  // those with an area

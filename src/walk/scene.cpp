@@ -8,6 +8,7 @@
 
 #include "base/lanes.hpp"
 #include "lichtmc/error.hpp"
+#include "room/emitter_shape.hpp"
 #include "room/enclosure.hpp"
 #include "room/nearest_tile.hpp"
 
@@ -17,9 +18,8 @@ namespace {
 
 // Whether a surface emitter's light starts inside a closed shell. Looked at in front of some of its triangles, spread
 // over it.
-bool emits_inside(const Room& room, const SurfaceEmitter& emitter, const Enclosure& enclosure) {
+bool emits_inside(const Surface& surface, const Enclosure& enclosure) {
   constexpr std::size_t samples = 16;
-  const Surface& surface = room.surfaces[emitter.surface];
   const std::size_t stride = std::max<std::size_t>(1, surface.triangles.size() / samples);
   for (std::size_t n = 0; n < surface.triangles.size(); n += stride) {
     const glm::uvec3 corner = surface.triangles[n];
@@ -38,12 +38,9 @@ bool emits_inside(const Room& room, const SurfaceEmitter& emitter, const Enclosu
 // Whether all light starts inside closed shells, so that none of it can rightly leave the room.
 bool all_inside(const Room& room, const Enclosure& enclosure) {
   return std::all_of(room.emitters.begin(), room.emitters.end(), [&](const Emitter& emitter) {
-    return std::visit(
-        [&](const auto& shape) {
-          if constexpr (requires { shape.position; }) return enclosure.encloses(shape.position);
-          if constexpr (requires { shape.surface; }) return emits_inside(room, shape, enclosure);
-        },
-        emitter.shape);
+    return visit_shape(
+        emitter, [&](const auto& point) { return enclosure.encloses(point.position); },
+        [&](const auto& area_light) { return emits_inside(room.surfaces[area_light.surface], enclosure); });
   });
 }
 
@@ -127,7 +124,7 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
     cells_are_tiles = cells_are_tiles && tile_of_cell[cell] == cell;
 
   launcher = std::make_unique<Launcher>(room, *tracer);
-  if (engine == Engine::embree && launcher->hangs_free()) {
+  if (engine == Engine::embree && launcher->all_off_surfaces()) {
     const Enclosure enclosure(room);
     if (enclosure.has_closed_shell() && all_inside(room, enclosure)) misses = Misses::retrace;
   }

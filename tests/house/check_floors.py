@@ -24,7 +24,7 @@ BELOW = {
 }
 # Public headers by the floor that provides them: a floor may use those of floors below it and its own.
 PUBLIC = {
-    "error": "base", "walk_direction": "base", "units": "base", "version": "base",
+    "error": "base", "walk_direction": "base", "emitter_law": "chance", "units": "base", "version": "base",
     "room": "room", "cuboid": "room", "overrides": "room", "tiles": "room",
     "settings": "room", "state": "room",  # plain data that every floor may read
     "communicator": "run", "mpi": "mpi",

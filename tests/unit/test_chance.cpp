@@ -95,22 +95,27 @@ TEST_CASE("sampled directions follow their densities") {
   check(
       "Lambert", [](const Words& w) { return static_cast<double>(sample_lambert(w[0], w[1]).z); }, pdf_lambert);
   check(
-      "sphere", [](const Words& w) { return sample_sphere(unit_open(w[0]), unit_open(w[1])).z; }, pdf_sphere);
+      "sphere", [](const Words& w) { return IsotropicLaw{}.sample(unit_open(w[0]), unit_open(w[1])).z; },
+      [](double) { return IsotropicLaw{}.density({}); });
   for (const double m : {0.0, 0.5, 1.0, 5.0}) {
     check(
-        "generalized Lambert",
-        [m](const Words& w) { return sample_generalized_lambert(m, unit_open(w[0]), unit_open(w[1])).z; },
-        [m](double c) { return pdf_generalized_lambert(m, c); });
+        "generalized Lambert", [m](const Words& w) { return LambertLaw{m}.sample(unit_open(w[0]), unit_open(w[1])).z; },
+        [m](double c) { return LambertLaw{m}.density_at(c); });
   }
   check(
-      "spot", [](const Words& w) { return sample_spot(0.4, 1.2, unit_open(w[0]), unit_open(w[1])).z; },
-      [](double c) { return pdf_spot(0.4, 1.2, c); });
+      "spot",
+      [](const Words& w) {
+        return SpotLaw{0.4, 1.2}.sample(unit_open(w[0]), unit_open(w[1])).z;
+      },
+      [](double c) {
+        return SpotLaw{0.4, 1.2}.density({0.0, 0.0, c});
+      });
 }
 
 TEST_CASE("a density that is one percent off is rejected") {
   const auto lambert = [](const Words& w) { return static_cast<double>(sample_lambert(w[0], w[1]).z); };
   // Exponent 1.02 in place of 1: the smallest mutation of Lambert's law that 10⁶ samples must tell.
-  CHECK_FALSE(cosines_against_density(lambert, [](double c) { return pdf_generalized_lambert(1.02, c); }).agrees);
+  CHECK_FALSE(cosines_against_density(lambert, [](double c) { return LambertLaw{1.02}.density_at(c); }).agrees);
   CHECK_FALSE(cosines_against_density(lambert, [](double c) { return c > 0.0 ? 0.5 / std::numbers::pi : 0.0; }).agrees);
 }
 
@@ -140,7 +145,7 @@ TEST_CASE("narrow beams keep their width at every exponent") {
     double squares = 0.0;
     for (int i = 0; i < samples; ++i) {
       const Words w = stream.draw(static_cast<std::uint64_t>(i), 1, Purpose::flight);
-      const glm::dvec3 v = sample_generalized_lambert(m, unit_open(w[0]), unit_open(w[1]));
+      const glm::dvec3 v = LambertLaw{m}.sample(unit_open(w[0]), unit_open(w[1]));
       const double s = v.x * v.x + v.y * v.y;
       sum += s;
       squares += s * s;
@@ -154,7 +159,7 @@ TEST_CASE("narrow beams keep their width at every exponent") {
 }
 
 TEST_CASE("an infinite exponent is a pencil beam") {
-  const glm::dvec3 v = sample_generalized_lambert(std::numeric_limits<double>::infinity(), unit_open(5), unit_open(6));
+  const glm::dvec3 v = LambertLaw{std::numeric_limits<double>::infinity()}.sample(unit_open(5), unit_open(6));
   CHECK(v == glm::dvec3(0.0, 0.0, 1.0));
 }
 

@@ -1,0 +1,65 @@
+// Emitters are points or surfaces: one visit for both kinds, which every use of an emitter's shape goes through.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <type_traits>
+#include <variant>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "base/frame.hpp"
+#include "lichtmc/room.hpp"
+
+namespace lichtmc {
+
+template <class Shape>
+concept PointShape = requires(const Shape& shape) {
+  shape.position;
+};
+
+template <class Shape>
+concept SurfaceShape = requires(const Shape& shape) {
+  shape.surface;
+};
+
+// The frame of a point emitter: its normal is the axis. An emitter without an axis has that of +Z.
+template <PointShape Shape>
+Frame frame_of(const Shape& shape) {
+  if constexpr (requires { shape.axis; }) {
+    // Scaled by its largest component first: the square of a very long or short axis would not be a double.
+    const glm::dvec3& a = shape.axis;
+    return frame_about(glm::normalize(a / std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)})));
+  } else {
+    return frame_about(glm::dvec3(0.0, 0.0, 1.0));
+  }
+}
+
+// Calls on_point(shape) for an emitter that is a point (it has a position, a law, and a frame_of()), on_surface(shape)
+// for one that is a surface. A shape that is neither does not compile.
+template <class OnPoint, class OnSurface>
+decltype(auto) visit_shape(const Emitter& emitter, const OnPoint& on_point, const OnSurface& on_surface) {
+  return std::visit(
+      [&](const auto& shape) -> decltype(auto) {
+        using Shape = std::decay_t<decltype(shape)>;
+        static_assert(PointShape<Shape> != SurfaceShape<Shape>, "an emitter is a point or a surface");
+        if constexpr (PointShape<Shape>) {
+          return on_point(shape);
+        } else {
+          return on_surface(shape);
+        }
+      },
+      emitter.shape);
+}
+
+// The surface of an area light, as index into Room::surfaces; none for a point emitter.
+inline std::optional<std::size_t> emitting_surface(const Emitter& emitter) {
+  return visit_shape(
+      emitter, [](const auto& /*point*/) -> std::optional<std::size_t> { return std::nullopt; },
+      [](const auto& surface) -> std::optional<std::size_t> { return surface.surface; });
+}
+
+}  // namespace lichtmc
