@@ -10,6 +10,7 @@
 #include "chance/lane_math.hpp"
 #include "chance/philox.hpp"
 #include "chance/stream.hpp"
+#include "lichtmc/emitter_law.hpp"
 #include "support/catch.hpp"
 #include "support/statistics.hpp"
 
