@@ -27,7 +27,7 @@ SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
 # Differences that are meant, by the key of summary.json, each with its reason. Figures of light and their standard
 # errors never stand here.
 EXCEPTIONS = {
-    "version": "names the program, not a figure",
+    "version": "names the program, not a figure; tile images have it in their header, too",
 }
 # Keys of summary.json that hold times or follow from one: two runs of one program differ in them.
 TIMES = {"seconds", "impacts_per_second", "figure_of_merit", "checkpoint_seconds"}
@@ -215,7 +215,12 @@ def simulate(program, name, room, options, folder):
 
 
 def images(folder):
-    return {file.relative_to(folder).as_posix(): file.read_bytes() for file in sorted(folder.glob("tiles/*.exr"))}
+    """The tile images by their names, without the version of the program in their headers."""
+    if not (folder / "summary.json").exists():
+        return {}
+    version = json.loads((folder / "summary.json").read_text())["version"].encode()
+    return {file.relative_to(folder).as_posix(): file.read_bytes().replace(version, b"VERSION")
+            for file in sorted(folder.glob("tiles/*.exr"))}  # fmt: skip
 
 
 def without_times(value):

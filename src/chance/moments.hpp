@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+#include "base/fields.hpp"
 #include "base/wide.hpp"
 
 namespace lichtmc {
@@ -49,11 +50,16 @@ struct Moments {
     squares += static_cast<uint128>(batches) * x * x * (square_units / batch_histories);
   }
 
-  void add(const Moments& other) {
-    sum += other.sum;
-    squares += other.squares;
-  }
+  void add(const Moments& other) { add_fields(*this, other); }
 };
+
+template <class F, AllOf<Moments>... Things>
+void visit_fields(const F& f, Things&... moments) {
+  f(Field{"sum"}, moments.sum...);
+  f(Field{"squares"}, moments.squares...);
+}
+template <>
+inline constexpr bool is_row<Moments> = true;
 
 struct Estimate {
   double mean = 0.0;            // score per history

@@ -1,6 +1,6 @@
 #include "run/collectives.hpp"
 
-#include <array>
+#include <algorithm>
 #include <bit>
 
 namespace lichtmc {
@@ -8,20 +8,6 @@ namespace lichtmc {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "integers of 128 bits are sent low word first");
-static_assert(sizeof(Moments) == 4 * sizeof(std::uint64_t) && sizeof(BackwardSums) == 4 * sizeof(std::uint64_t));
-
-template <class Thing>
-std::span<std::uint64_t> words_of(Thing* things, std::size_t n) {
-  return {reinterpret_cast<std::uint64_t*>(things), n * sizeof(Thing) / sizeof(std::uint64_t)};
-}
-
-void add_words(Communicator& communicator, std::initializer_list<std::uint64_t*> values) {
-  std::vector<std::uint64_t> words;
-  for (const std::uint64_t* value : values) words.push_back(*value);
-  communicator.sum(words);
-  std::size_t k = 0;
-  for (std::uint64_t* value : values) *value = words[k++];
-}
 
 }  // namespace
 
@@ -38,36 +24,20 @@ Part part_of(const Communicator* communicator, std::uint64_t n) {
   return {at(rank_of(communicator)), at(rank_of(communicator) + 1)};
 }
 
-void reduce(Communicator* communicator, Totals& totals) {
-  if (communicator == nullptr) return;
-  Ends& ends = totals.ends;
-  add_words(*communicator, {&totals.histories, &totals.impacts, &totals.traced.rays, &totals.traced.retraced,
-                            &totals.traced.shadow_rays, &ends.lost_histories});
-  std::array<int128, 4> ended{ends.absorbed, ends.escaped, ends.residual, ends.lost};
-  communicator->sum_wide(words_of(ended.data(), ended.size()));
-  ends.absorbed = ended[0];
-  ends.escaped = ended[1];
-  ends.residual = ended[2];
-  ends.lost = ended[3];
-  communicator->sum_wide(words_of(&totals.incident, 1));
-  communicator->sum_wide(words_of(totals.tiles.data(), totals.tiles.size()));
-  communicator->sum_wide(words_of(totals.maps.data(), totals.maps.size()));
-  communicator->sum_wide(words_of(totals.behind.data(), totals.behind.size()));
-  if (!totals.hits.empty()) communicator->sum(totals.hits);
-}
-
-void reduce(Communicator* communicator, std::vector<BackwardSums>& sums) {
-  if (communicator != nullptr) communicator->sum_wide(words_of(sums.data(), sums.size()));
-}
-
-void reduce(Communicator* communicator, BackwardCount& count) {
-  if (communicator == nullptr) return;
-  add_words(*communicator, {&count.impacts, &count.traced.rays, &count.traced.retraced, &count.traced.shadow_rays});
+void Reduction::finish() {
+  std::vector<std::uint64_t> words;
+  for (const std::uint64_t* number : words_) words.push_back(*number);
+  if (!words.empty()) communicator_.sum(words);
+  for (std::size_t k = 0; k < words.size(); ++k) *words_[k] = words[k];
+  words.clear();
+  for (const std::uint64_t* number : wide_) words.insert(words.end(), number, number + 2);
+  if (!words.empty()) communicator_.sum_wide(words);
+  for (std::size_t k = 0; k < wide_.size(); ++k) std::copy_n(&words[2 * k], 2, wide_[k]);
 }
 
 void combine(Communicator* communicator, std::vector<DirectIrradiance>& things) {
   static_assert(sizeof(DirectIrradiance) == 2 * sizeof(double) && std::is_trivially_copyable_v<DirectIrradiance>);
-  if (communicator != nullptr) communicator->sum(words_of(things.data(), things.size()));
+  if (communicator != nullptr) communicator->sum({reinterpret_cast<std::uint64_t*>(things.data()), 2 * things.size()});
 }
 
 }  // namespace lichtmc

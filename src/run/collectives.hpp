@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/fields.hpp"
 #include "lichtmc/communicator.hpp"
 #include "walk/backward.hpp"
 #include "walk/totals.hpp"
@@ -30,6 +31,37 @@ void broadcast(Communicator* communicator, Value& value) {
 // How many of the members say so; all hear the same.
 std::uint64_t count_votes(Communicator* communicator, bool mine);
 
+// Adds up the fields of things over all ranks, see base/fields.hpp.
+class Reduction {
+ public:
+  explicit Reduction(Communicator& communicator) : communicator_(communicator) {}
+
+  void add(std::uint64_t& number) { words_.push_back(&number); }
+  void add(int128& number) { wide_.push_back(reinterpret_cast<std::uint64_t*>(&number)); }
+  void add(uint128& number) { wide_.push_back(reinterpret_cast<std::uint64_t*>(&number)); }
+  void add(std::vector<std::uint64_t>& list) {
+    if (!list.empty()) communicator_.sum(list);
+  }
+  template <RowOfWords Element>
+  void add(std::vector<Element>& list) {
+    if (list.empty()) return;
+    communicator_.sum_wide({reinterpret_cast<std::uint64_t*>(list.data()), list.size() * sizeof(Element) / word});
+  }
+  template <HasFields Thing>
+  void add(Thing& thing) {
+    visit_fields([this](const Field& /*field*/, auto& value) { add(value); }, thing);
+  }
+  // Sends the single numbers.
+  void finish();
+
+ private:
+  static constexpr std::size_t word = sizeof(std::uint64_t);
+
+  Communicator& communicator_;
+  std::vector<std::uint64_t*> words_;
+  std::vector<std::uint64_t*> wide_;  // two words each
+};
+
 // A member's part of n things in a row: every thing belongs to one.
 struct Part {
   std::uint64_t first = 0;
@@ -37,10 +69,14 @@ struct Part {
 };
 Part part_of(const Communicator* communicator, std::uint64_t n);
 
-// Everyone gets the sums over all.
-void reduce(Communicator* communicator, Totals& totals);
-void reduce(Communicator* communicator, std::vector<BackwardSums>& sums);
-void reduce(Communicator* communicator, BackwardCount& count);
+// Reduction: every rank gets the sums over all ranks. Numbers travel together, lists one by one.
+template <class Thing>
+void reduce(Communicator* communicator, Thing& thing) {
+  if (communicator == nullptr) return;
+  Reduction reduction(*communicator);
+  reduction.add(thing);
+  reduction.finish();
+}
 // Of things that one member has filled in and the others have left 0: everyone gets what was filled in, bit for bit.
 void combine(Communicator* communicator, std::vector<DirectIrradiance>& things);
 

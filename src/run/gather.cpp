@@ -203,8 +203,8 @@ bool Gathering::simulate_step(std::uint64_t rounds) {
   reduce(control_.communicator, sums);
   reduce(control_.communicator, count);
   if (found_.sums.use_count() > 1) found_.sums = std::make_shared<std::vector<BackwardSums>>(*found_.sums);
-  for (std::size_t k = 0; k < sums.size(); ++k) (*found_.sums)[k].add(sums[k]);
-  found_.count.add(count);
+  for (std::size_t k = 0; k < sums.size(); ++k) add_fields((*found_.sums)[k], sums[k]);
+  add_fields(found_.count, count);
   found_.rounds = rounds;
   return true;
 }
@@ -237,8 +237,8 @@ void Gathering::take_rounds(std::uint64_t first, std::uint64_t last, std::vector
     });
     {
       const std::lock_guard lock(mutex_);
-      for (std::size_t k = 0; k < sums.size(); ++k) step_sums[work.first + k].add(sums[k]);
-      step_count.add(count);
+      for (std::size_t k = 0; k < sums.size(); ++k) add_fields(step_sums[work.first + k], sums[k]);
+      add_fields(step_count, count);
     }
     const std::uint64_t walks = (work.last - work.first) * (work.last_sample - work.first_sample);
     const unsigned alike = size_of(control_.communicator);  // the others are as far as this member

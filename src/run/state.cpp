@@ -10,6 +10,7 @@
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/version.hpp"
+#include "room/settings_fields.hpp"
 #include "run/state_data.hpp"
 
 namespace lichtmc {
@@ -54,71 +55,49 @@ std::uint64_t count_of(const std::vector<HistoryRange>& ranges) {
 
 namespace {
 
+// Adds fields to a checksum: lists with their lengths, optional ones with whether they are there.
 class StateChecksum {
  public:
-  Fingerprint of(const StateData& data) {
-    sum_.add(data.version);
-    add_all(data.room);
-    add(data.settings);
-    sum_.add(static_cast<std::uint8_t>(data.engine));
-    add_photons(data.photons);
-    add_walks(data.tile_walks);
-    add_walks(data.receivers);
-    return sum_.value();
+  template <class Thing>
+  void fields(const Thing& thing) {
+    visit_fields(
+        [this](const Field& field, const auto& value) {
+          if (field.role != FieldRole::record && field.role != FieldRole::machine) add(value);
+        },
+        thing);
   }
+  Fingerprint value() const { return sum_.value(); }
 
  private:
-  template <class Choice>
-  void add_choice(Choice choice) {
-    sum_.add(static_cast<std::uint8_t>(choice));
-  }
   template <class Number>
-  void add(const std::optional<Number>& value) {
-    sum_.add(std::uint8_t{value.has_value()});
-    if (value) sum_.add(*value);
+  requires(std::is_arithmetic_v<Number> && !RowOfWords<Number>) void add(Number value) { sum_.add(value); }
+  void add(const std::string& text) { sum_.add(text); }
+  void add(const Fingerprint& words) { sum_.add(words.data(), sizeof words); }
+  template <class Choice>
+  requires std::is_enum_v<Choice>
+  void add(Choice choice) { sum_.add(static_cast<std::uint8_t>(choice)); }
+  template <RowOfWords Row>
+  void add(const Row& row) {
+    static_assert(std::has_unique_object_representations_v<Row>);
+    sum_.add(&row, sizeof row);
   }
-  template <class Things>
-  void add_all(const Things& things) {
-    using Thing = typename Things::value_type;
-    static_assert(std::has_unique_object_representations_v<Thing>);
-    sum_.add(std::uint64_t{things.size()});
-    sum_.add(things.data(), things.size() * sizeof(Thing));
+  void add(const std::vector<ConvergencePoint>& /*record*/) {}
+  template <class Element>
+  void add(const std::vector<Element>& list) {
+    static_assert(std::has_unique_object_representations_v<Element>);
+    sum_.add(std::uint64_t{list.size()});
+    sum_.add(list.data(), list.size() * sizeof(Element));
   }
-
-  void add(const Settings& settings) {
-    add_choice(settings.estimator);
-    sum_.add(settings.photons);
-    sum_.add(settings.first_history);
-    sum_.add(std::uint8_t{settings.part});
-    add(settings.target_error);
-    add(settings.max_seconds);
-    add_choice(settings.measured);
-    add_choice(settings.tile_walk);
-    add_choice(settings.direct);
-    add(settings.max_bounces);
-    sum_.add(settings.tile_edge_m);
-    sum_.add(settings.seed);
-    add_choice(settings.engine);
+  template <class Thing>
+  requires(HasFields<Thing> && !RowOfWords<Thing>) void add(const Thing& thing) { fields(thing); }
+  template <class Thing>
+  void add(const std::shared_ptr<const Thing>& thing) {
+    add(*thing);
   }
-  void add(const Walked& walked) {
-    add_choice(walked.estimator);
-    add_all(walked.ranges);
-  }
-  void add_photons(const std::optional<Counted>& photons) {
-    sum_.add(std::uint8_t{photons.has_value()});
-    if (!photons) return;
-    add(*photons);
-    sum_.add(photons->pilot);
-    sum_.add(photons->totals->histories);
-    add_all(photons->totals->tiles);
-    add_all(photons->totals->hits);
-  }
-  void add_walks(const std::optional<BackwardState>& walks) {
-    sum_.add(std::uint8_t{walks.has_value()});
-    if (!walks) return;
-    add(*walks);
-    sum_.add(walks->group);
-    add_all(*walks->sums);
+  template <class Thing>
+  void add(const std::optional<Thing>& thing) {
+    sum_.add(std::uint8_t{thing.has_value()});
+    if (thing) add(*thing);
   }
 
   Checksum sum_;
@@ -127,7 +106,9 @@ class StateChecksum {
 }  // namespace
 
 Fingerprint fingerprint(const StateData& data) {
-  return StateChecksum().of(data);
+  StateChecksum sum;
+  sum.fields(data);
+  return sum.value();
 }
 
 void check_version(const State& state) {
@@ -187,18 +168,16 @@ class Merger {
   void check_same(const StateData& a, const StateData& b, std::size_t k) const {
     if (a.version != b.version) refuse(k, "are of lichtmc " + a.version + " and " + b.version);
     if (a.room != b.room) refuse(k, "are of different rooms");
-    const Settings& s = a.settings;
-    const Settings& t = b.settings;
-    if (s.seed != t.seed) refuse(k, "have the seeds " + std::to_string(s.seed) + " and " + std::to_string(t.seed));
-    if (s.tile_edge_m != t.tile_edge_m)
-      refuse(k, "have tiles of " + to_text(s.tile_edge_m) + " m and " + to_text(t.tile_edge_m) + " m");
-    if (s.direct != t.direct) refuse(k, "find direct light in different ways (--direct)");
-    if (s.tile_walk != t.tile_walk) refuse(k, "measure tiles in different ways (--tiles)");
-    if (s.measured != t.measured) refuse(k, "measure different things (--only)");
-    if (s.max_bounces != t.max_bounces) refuse(k, "end histories after different numbers of flights (--max-bounces)");
     if (a.engine != b.engine)
       refuse(k, "were traced by the engines " + std::string(to_string(a.engine)) + " and " +
                     std::string(to_string(b.engine)));
+    visit_fields(
+        [&](const Field& field, const auto& one, const auto& other) {
+          if (field.role == FieldRole::same && one != other)
+            refuse(k, std::string("differ in the setting '") + field.label + "' (" + field.option +
+                          "): " + setting_text(one) + " and " + setting_text(other));
+        },
+        a.settings, b.settings);
   }
 
   void check_same_walk(const Walked& a, const Walked& b, std::size_t k) const {
@@ -281,8 +260,8 @@ class Merger {
       check_same_walk(*merged, *walks, k);
       if (sums->size() != walks->sums->size() || merged->group != walks->group)
         refuse(k, "have different numbers of receivers or tiles");
-      for (std::size_t i = 0; i < sums->size(); ++i) (*sums)[i].add((*walks->sums)[i]);
-      merged->count.add(walks->count);
+      add_fields(*sums, *walks->sums);
+      add_fields(merged->count, walks->count);
       merged->seconds += walks->seconds;
     }
     sum.*slot = merged;

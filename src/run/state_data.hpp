@@ -1,4 +1,4 @@
-// What a State holds.
+// The content of a State.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/fields.hpp"
 #include "lichtmc/result.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/state.hpp"
@@ -15,10 +16,13 @@
 
 namespace lichtmc {
 
-// How many histories, or rounds, ranges have together.
+// The number of histories, or rounds, of ranges together.
 std::uint64_t count_of(const std::vector<HistoryRange>& ranges);
 
-// Of a walk in either direction.
+template <>
+inline constexpr bool is_row<HistoryRange> = true;
+
+// The part that walks in both directions have.
 struct Walked {
   Estimator estimator = Estimator::collision;  // as used
   std::string choice;                          // why, where it was chosen
@@ -36,7 +40,7 @@ struct Counted : Walked {
   std::shared_ptr<const Totals> totals;
 };
 
-// Walks back from origins. Ranges are of rounds.
+// Backward walks from origins. Ranges are of rounds.
 struct BackwardState : Walked {
   std::uint32_t group = 1;  // walks in a round
   BackwardCount count;
@@ -54,8 +58,44 @@ struct StateData {
   std::string note;
 };
 
+template <class F, class... Things>
+void visit_walked(const F& f, Things&... walked) {
+  f(Field{"estimator", FieldRole::same}, walked.estimator...);
+  f(Field{"choice", FieldRole::record}, walked.choice...);
+  f(Field{"seconds", FieldRole::record}, walked.seconds...);
+  f(Field{"ranges"}, walked.ranges...);
+  f(Field{"convergence", FieldRole::record}, walked.convergence...);
+}
+
+template <class F, AllOf<Counted>... Things>
+void visit_fields(const F& f, Things&... photons) {
+  visit_walked(f, photons...);
+  f(Field{"pilot", FieldRole::request}, photons.pilot...);
+  f(Field{"totals"}, photons.totals...);
+}
+
+template <class F, AllOf<BackwardState>... Things>
+void visit_fields(const F& f, Things&... walks) {
+  visit_walked(f, walks...);
+  f(Field{"group", FieldRole::same}, walks.group...);
+  f(Field{"count"}, walks.count...);
+  f(Field{"sums"}, walks.sums...);
+}
+
+template <class F, AllOf<StateData>... Things>
+void visit_fields(const F& f, Things&... state) {
+  f(Field{"version", FieldRole::same}, state.version...);
+  f(Field{"room", FieldRole::same}, state.room...);
+  f(Field{"engine", FieldRole::same}, state.engine...);
+  f(Field{"note", FieldRole::record}, state.note...);
+  f(Field{"settings", FieldRole::request}, state.settings...);
+  f(Field{"photons"}, state.photons...);
+  f(Field{"tile_walks"}, state.tile_walks...);
+  f(Field{"receivers"}, state.receivers...);
+}
+
 // Two states with the same fingerprint have counted the same and are to go on in the same way: a hash (XXH3, 128 bits)
-// of all but the note, the threads and how long it took.
+// of all fields but records and the use of the machine.
 Fingerprint fingerprint(const StateData& data);
 
 }  // namespace lichtmc

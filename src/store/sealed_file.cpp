@@ -11,6 +11,7 @@
 #include "base/checksum.hpp"
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
+#include "lichtmc/version.hpp"
 
 namespace lichtmc {
 
@@ -40,6 +41,11 @@ std::string seal_with(std::string_view title, const std::array<std::uint64_t, 2>
   return text;
 }
 
+// Which program writes states of this title.
+std::string writer_of(std::string_view title) {
+  return title == "lichtmc state, layout 1" ? "lichtmc 0.1.0" : "another version of lichtmc";
+}
+
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
   throw InputError("Cannot read the state " + in_quotes(file.string()) + ": " + what);
 }
@@ -67,8 +73,9 @@ void check_seal(const fs::path& file, std::string_view title) {
       refuse(file,
              "it is no state of lichtmc, or its beginning is damaged (allowed: a file state.h5 that lichtmc has "
              "written). Give another file, or run anew.");
-    refuse(file, "it is a " + in_quotes(first_line) + " (allowed: " + in_quotes(title) +
-                     "). Use the version of lichtmc that made it, or run anew.");
+    refuse(file, "it is a " + in_quotes(first_line) + ", as " + writer_of(first_line) +
+                     " writes it (allowed: " + in_quotes(title) + ", as lichtmc " + std::string(version()) +
+                     " writes it). Go on with that version, or run anew.");
   }
   std::uint64_t n = 0;
   stream.clear();

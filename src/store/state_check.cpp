@@ -10,7 +10,6 @@
 #include "run/settings_check.hpp"
 #include "store/hdf5_file.hpp"
 #include "store/photons_check.hpp"
-#include "store/possible_sums.hpp"
 #include "walk/tile_faces.hpp"
 
 namespace lichtmc {
@@ -111,7 +110,7 @@ void check_photons_of(const StateData& data) {
   if (photons.pilot > most_histories || (photons.pilot > 0 && data.settings.estimator != Estimator::automatic))
     refuse(group + " has a pilot of " + std::to_string(photons.pilot) +
            " histories, which its settings do not ask for");
-  check_photons(photons, data.settings.direct, data.settings.max_bounces.has_value());
+  check_photons(photons, data.settings.max_bounces.has_value());
 }
 
 void check_walks(const Settings& settings, const BackwardState& walks, std::uint32_t group_size,
@@ -129,13 +128,6 @@ void check_walks(const Settings& settings, const BackwardState& walks, std::uint
   if (walks.count.impacts > walks.count.traced.rays)
     refuse(group + " has " + std::to_string(walks.count.impacts) + " impacts of " +
            std::to_string(walks.count.traced.rays) + " rays");
-  const uint128 most = uint128{rounds} * group_size * BackwardScale::largest_score;
-  for (std::uint64_t k = 0; k < origins; ++k) {
-    const BackwardSums& sums = (*walks.sums)[k];
-    if (sums.sum > most || !are_possible(sums.sum, sums.squares, rounds))
-      refuse("row " + std::to_string(k) + " of sums in " + group + " is not the sums of " + std::to_string(rounds) +
-             " rounds");
-  }
 }
 
 }  // namespace

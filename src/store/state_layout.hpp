@@ -1,4 +1,4 @@
-// What is where in state.h5 (docs/state.md): said once, for writing and for reading.
+// The layout of state.h5 (docs/state.md): the fields of StateData by their names, see base/fields.hpp.
 #pragma once
 
 #include "run/state_data.hpp"
@@ -6,8 +6,8 @@
 
 namespace lichtmc {
 
-// The first line of the file. Another number wherever anything below changes.
-inline constexpr const char* state_title = "lichtmc state, layout 1";
+// The first line of the file. Another number wherever the fields or their storage change.
+inline constexpr const char* state_title = "lichtmc state, layout 2";
 
 // Puts what the data holds into the file, or fills it in from there. Throw Hdf5Error.
 void write_layout(Hdf5File& file, const StateData& data);

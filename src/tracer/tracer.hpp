@@ -14,6 +14,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "base/fields.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/tiles.hpp"
 #include "tracer/facet.hpp"
@@ -32,12 +33,15 @@ struct TraceCount {
   std::uint64_t retraced = 0;     // rays that were traced again
   std::uint64_t shadow_rays = 0;  // rays that only asked whether something stands between two points
 
-  void add(const TraceCount& other) {
-    rays += other.rays;
-    retraced += other.retraced;
-    shadow_rays += other.shadow_rays;
-  }
+  void add(const TraceCount& other) { add_fields(*this, other); }
 };
+
+template <class F, AllOf<TraceCount>... Things>
+void visit_fields(const F& f, Things&... counts) {
+  f(Field{"rays"}, counts.rays...);
+  f(Field{"retraced"}, counts.retraced...);
+  f(Field{"shadow_rays"}, counts.shadow_rays...);
+}
 
 // Where the photons of a point emitter start.
 struct Start {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/fields.hpp"
 #include "base/wide.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
@@ -30,11 +31,15 @@ struct BackwardSums {
     sum += score;
     squares += static_cast<uint128>(score) * score;
   }
-  void add(const BackwardSums& other) {
-    sum += other.sum;
-    squares += other.squares;
-  }
 };
+
+template <class F, AllOf<BackwardSums>... Things>
+void visit_fields(const F& f, Things&... sums) {
+  f(Field{"sum"}, sums.sum...);
+  f(Field{"squares"}, sums.squares...);
+}
+template <>
+inline constexpr bool is_row<BackwardSums> = true;
 
 // The unit of scores: 2⁻²⁴ of the irradiance that the emitters' power makes spread over all surfaces. A score is at
 // most 2⁵⁰ units, 6·10⁷ times that; the sum of the squares of 2²⁴ rounds of four of the largest stays below 2¹²⁸.
@@ -58,12 +63,13 @@ struct BackwardWork {
 struct BackwardCount {
   TraceCount traced;
   std::uint64_t impacts = 0;
-
-  void add(const BackwardCount& other) {
-    traced.add(other.traced);
-    impacts += other.impacts;
-  }
 };
+
+template <class F, AllOf<BackwardCount>... Things>
+void visit_fields(const F& f, Things&... count) {
+  f(Field{"impacts"}, count.impacts...);
+  f(Field{"traced"}, count.traced...);
+}
 
 class BackwardWalk {
  public:

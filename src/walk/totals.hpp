@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/fields.hpp"
 #include "base/wide.hpp"
 #include "chance/moments.hpp"
 #include "tracer/tracer.hpp"
@@ -30,9 +31,16 @@ struct Ends {
   int128 residual = 0;  // cut off; roulette: removed less added, may be negative
   int128 lost = 0;
   std::uint64_t lost_histories = 0;
-
-  void add(const Ends& other);
 };
+
+template <class F, AllOf<Ends>... Things>
+void visit_fields(const F& f, Things&... ends) {
+  f(Field{"absorbed"}, ends.absorbed...);
+  f(Field{"escaped"}, ends.escaped...);
+  f(Field{"residual"}, ends.residual...);
+  f(Field{"lost"}, ends.lost...);
+  f(Field{"lost_histories"}, ends.lost_histories...);
+}
 
 // What concerns all tiles together.
 struct Counts {
@@ -41,12 +49,11 @@ struct Counts {
   TraceCount traced;
   Ends ends;
   Moments incident;
-
-  void add(const Counts& other);
 };
 
 // Everything that batches add up to. Adding two is exact: the order does not matter.
 struct Totals : Counts {
+  Totals() = default;
   Totals(std::size_t tiles, std::size_t maps, Hits hits);
 
   std::vector<Moments> tiles;       // per tile
@@ -54,7 +61,20 @@ struct Totals : Counts {
   std::vector<Moments> maps;        // per tile map
   std::vector<uint128> behind;      // per tile map: score that came from behind
 
-  void add(const Totals& other);
+  void add(const Totals& other) { add_fields(*this, other); }
 };
+
+template <class F, AllOf<Totals>... Things>
+void visit_fields(const F& f, Things&... totals) {
+  f(Field{"histories"}, totals.histories...);
+  f(Field{"impacts"}, totals.impacts...);
+  f(Field{"traced"}, totals.traced...);
+  f(Field{"ends"}, totals.ends...);
+  f(Field{"incident"}, totals.incident...);
+  f(Field{"tiles"}, totals.tiles...);
+  f(Field{"hits"}, totals.hits...);
+  f(Field{"maps"}, totals.maps...);
+  f(Field{"behind"}, totals.behind...);
+}
 
 }  // namespace lichtmc
