@@ -119,9 +119,9 @@ TEST_CASE("numbers and text of other types, missing or strange, are refused") {
   });
 }
 
-TEST_CASE("looks that no number of histories has are refused") {
+TEST_CASE("rows of convergence that no number of histories has are refused") {
   for (const double histories : {std::numeric_limits<double>::quiet_NaN(), -1.0, 0x1p64, 1e300}) {
-    check_refused({{"array convergence has a look after", [histories](hid_t f) {
+    check_refused({{"array convergence has a row after", [histories](hid_t f) {
                       const Opened array(H5Dopen2(f, "/photons/convergence", H5P_DEFAULT), H5Dclose);
                       const std::vector<double> rows{histories, 1.0, 0.1};
                       REQUIRE(H5Dwrite(array, H5T_IEEE_F64LE, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()) >= 0);
@@ -211,7 +211,7 @@ TEST_CASE("arrays and groups that are elsewhere are refused") {
          H5Ldelete(f, "/photons/hits", H5P_DEFAULT);
          const Opened group(H5Gcreate2(f, "/photons/hits", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
        }},
-      {"it has 3 groups, of which 2 are known",
+      {"it has 4 groups and arrays, of which 3 are known",
        [](hid_t f) { H5Lmove(f, "/receivers", f, "/recievers", H5P_DEFAULT, H5P_DEFAULT); }},
       {"it has no /photons, which its settings ask for", [](hid_t f) { H5Ldelete(f, "/photons", H5P_DEFAULT); }},
   });
