@@ -178,7 +178,7 @@ void fill_in(Result& result, const Totals& totals, const Scores& scores) {
 // Rooms that have the same fingerprint have as many tiles; other programs may have changed the file.
 void check_totals(const Counted& log, const Tiling& tiling, const Scene& scene) {
   const Totals& totals = *log.totals;
-  if (totals.tiles.size() != tiling.tiles.size() || totals.maps.size() != tiling.maps.size()) {
+  if (totals.tiles.size() != tiling.tiles.size() || totals.tile_maps.size() != tiling.maps.size()) {
     throw InputError("The state has " + std::to_string(totals.tiles.size()) + " tiles, the room has " +
                      std::to_string(tiling.tiles.size()) +
                      " (allowed: as many). The state is not one of this room; run anew.");

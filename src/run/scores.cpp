@@ -78,10 +78,10 @@ std::vector<SurfaceResult> Scores::surfaces(const Totals& totals, const std::vec
     if (result.hits == 0) {
       result.standard_error = power_of_no_hit(surface, totals.histories) / result.area_m2;
     } else {
-      const Estimate power = incident_power(totals.maps[m], surface, totals.histories);
+      const Estimate power = incident_power(totals.tile_maps[m], surface, totals.histories);
       result.power = power.mean;
       result.standard_error = power.standard_error / result.area_m2;
-      behind = power.mean * static_cast<double>(totals.behind[m]) / static_cast<double>(totals.maps[m].sum);
+      behind = power.mean * static_cast<double>(totals.behind[m]) / static_cast<double>(totals.tile_maps[m].sum);
     }
     const DirectPower& direct = direct_power_[m];
     result.power += direct.power;
@@ -125,10 +125,10 @@ void Scores::counted(const Totals& totals, double& power, double& standard_error
   const auto n = static_cast<double>(totals.histories);
   double mean = 0.0;
   double mean_square = 0.0;
-  for (std::size_t m = 0; m < totals.maps.size(); ++m) {
-    if (totals.maps[m].sum == 0) continue;
+  for (std::size_t m = 0; m < totals.tile_maps.size(); ++m) {
+    if (totals.tile_maps[m].sum == 0) continue;
     const double factor = factor_[tiling_->maps[m].surface];
-    const double share = static_cast<double>(totals.maps[m].sum) / n;
+    const double share = static_cast<double>(totals.tile_maps[m].sum) / n;
     mean += share * factor;
     mean_square += share * factor * factor;
   }

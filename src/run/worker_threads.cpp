@@ -175,7 +175,7 @@ void WorkerThreads::collect() {
     }
   };
   if (communicator_ == nullptr) return hand_over(*whole_);
-  Totals of_all_ranks(whole_->tiles.size(), whole_->maps.size(), hits_);
+  Totals of_all_ranks(whole_->tiles.size(), whole_->tile_maps.size(), hits_);
   hand_over(of_all_ranks);
   reduce(communicator_, of_all_ranks);
   whole_->add(of_all_ranks);

@@ -48,8 +48,8 @@ class PhotonsCheck {
     if (hits_apart_ && hits != totals_.tiles.size()) differ("hits", hits, "tiles", totals_.tiles.size());
     if (photons_.estimator == Estimator::collision && hits > 0)
       refuse("/photons has hits beside the scores of 'collision', which are hits");
-    if (totals_.behind.size() != totals_.maps.size())
-      differ("behind", totals_.behind.size(), "maps", totals_.maps.size());
+    if (totals_.behind.size() != totals_.tile_maps.size())
+      differ("behind", totals_.behind.size(), "tile_maps", totals_.tile_maps.size());
   }
 
   // The balance: emitted = absorbed + escaped + residual + lost. Modulo 2¹²⁸ first, which no number in a file can

@@ -13,7 +13,8 @@ std::uint64_t size_of(const StateData& data) {
   std::uint64_t bytes = std::uint64_t{1} << 17;  // groups and attributes
   if (data.photons) {
     const Totals& totals = *data.photons->totals;
-    bytes += (totals.tiles.size() + totals.maps.size()) * sizeof(Moments) + totals.hits.size() * sizeof(std::uint64_t);
+    bytes +=
+        (totals.tiles.size() + totals.tile_maps.size()) * sizeof(Moments) + totals.hits.size() * sizeof(std::uint64_t);
   }
   if (data.tile_walks) bytes += data.tile_walks->sums->size() * sizeof(BackwardSums);
   if (data.receivers) bytes += data.receivers->sums->size() * sizeof(BackwardSums);

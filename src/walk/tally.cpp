@@ -35,7 +35,7 @@ void Tally::close_batch(std::uint32_t n) {
   std::uint64_t all = 0;
   for (std::size_t map = 0; map < map_scores.size(); ++map) {
     if (map_scores[map] == 0) continue;
-    totals_.maps[map].add(map_scores[map], n);
+    totals_.tile_maps[map].add(map_scores[map], n);
     all += map_scores[map];
   }
   totals_.incident.add(all, n);

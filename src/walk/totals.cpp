@@ -3,6 +3,6 @@
 namespace lichtmc {
 
 Totals::Totals(std::size_t tile_count, std::size_t map_count, Hits hits_are)
-    : tiles(tile_count), hits(hits_are == Hits::apart ? tile_count : 0), maps(map_count), behind(map_count) {}
+    : tiles(tile_count), hits(hits_are == Hits::apart ? tile_count : 0), tile_maps(map_count), behind(map_count) {}
 
 }  // namespace lichtmc

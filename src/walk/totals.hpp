@@ -58,7 +58,7 @@ struct Totals : Counts {
 
   std::vector<Moments> tiles;       // per tile
   std::vector<std::uint64_t> hits;  // per tile; empty where hits are the score
-  std::vector<Moments> maps;        // per tile map
+  std::vector<Moments> tile_maps;   // per tile map
   std::vector<uint128> behind;      // per tile map: score that came from behind
 
   void add(const Totals& other) { add_fields(*this, other); }
@@ -73,7 +73,7 @@ void visit_fields(const F& f, Things&... totals) {
   f(Field{"incident"}, totals.incident...);
   f(Field{"tiles"}, totals.tiles...);
   f(Field{"hits"}, totals.hits...);
-  f(Field{"maps"}, totals.maps...);
+  f(Field{"tile_maps"}, totals.tile_maps...);
   f(Field{"behind"}, totals.behind...);
 }
 

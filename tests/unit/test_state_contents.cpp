@@ -221,7 +221,7 @@ TEST_CASE("a state whose arrays do not fit each other is refused") {
                  {"hits of 0 rows and tiles of 24", [](StateData& d) { totals_of(d).hits.clear(); }},
                  {"hits of 24 rows and tiles of 25", [](StateData& d) { totals_of(d).tiles.emplace_back(); }},
                  {"behind of 5 rows and maps of 6", [](StateData& d) { totals_of(d).behind.pop_back(); }},
-                 {"behind of 6 rows and maps of 7", [](StateData& d) { totals_of(d).maps.emplace_back(); }}});
+                 {"behind of 6 rows and maps of 7", [](StateData& d) { totals_of(d).tile_maps.emplace_back(); }}});
   check_refused(small_state(small_settings(Estimator::collision)),
                 {{"hits beside the scores of 'collision'", [](StateData& d) { totals_of(d).hits.assign(24, 1); }}});
   check_refused(small_state(small_settings(Estimator::absorption)),

@@ -81,7 +81,7 @@ Totals defined(const std::vector<Batch>& batches, const std::vector<std::uint32_
       if (hits == Hits::apart) ++totals.hits[impact.tile];
     }
     for (std::size_t k = 0; k < scores.size(); ++k) totals.tiles[k].add(scores[k], batch.histories);
-    for (std::size_t k = 0; k < maps.size(); ++k) totals.maps[k].add(maps[k], batch.histories);
+    for (std::size_t k = 0; k < maps.size(); ++k) totals.tile_maps[k].add(maps[k], batch.histories);
     totals.incident.add(all, batch.histories);
     totals.histories += batch.histories;
   }
@@ -94,7 +94,7 @@ bool same(const Moments& a, const Moments& b) {
 
 void check_same(const Totals& a, const Totals& b) {
   for (std::size_t k = 0; k < a.tiles.size(); ++k) REQUIRE(same(a.tiles[k], b.tiles[k]));
-  for (std::size_t k = 0; k < a.maps.size(); ++k) CHECK(same(a.maps[k], b.maps[k]));
+  for (std::size_t k = 0; k < a.tile_maps.size(); ++k) CHECK(same(a.tile_maps[k], b.tile_maps[k]));
   CHECK(a.hits == b.hits);
   CHECK(same(a.incident, b.incident));
   CHECK(a.histories == b.histories);
