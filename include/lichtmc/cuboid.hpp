@@ -1,4 +1,4 @@
-// A cuboid room from a few numbers: the special case that has exact answers.
+// A cuboid room from its edges and reflectances: the special case with exact results.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -24,7 +24,7 @@ CuboidReflectances uniform_reflectance(double reflectance);
 //
 // Six surfaces in this order: "floor", "ceiling", "wall_x0", "wall_x1", "wall_z0", "wall_z1"; two triangles each; UVs
 // from 0 to 1 along the wall's two axes (u along the first of x, y, z that lies in the wall, v along the second).
-// Throws InputError where an edge is not a finite number above 0 or a reflectance is outside 0 … 1.
+// Throws InputError if an edge is not a finite number above 0 or a reflectance is outside 0 … 1.
 Room make_cuboid(const glm::dvec3& size_m, const CuboidReflectances& reflectances);
 
 }  // namespace lichtmc

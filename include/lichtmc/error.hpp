@@ -1,4 +1,4 @@
-// Errors of lichtmc, in two kinds: what the user can put right (InputError) and what the machine refused
+// Errors of lichtmc, of two kinds: those that the user can correct (InputError) and failures of the machine
 // (RuntimeError).
 //
 // Every message reads: what is wrong (the value and what is allowed). What to do.
@@ -8,7 +8,7 @@
 
 namespace lichtmc {
 
-// Base of every exception the library throws on purpose.
+// Base of every exception that the library throws on purpose.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -21,7 +21,7 @@ class InputError : public Error {
   using Error::Error;
 };
 
-// The machine could not do what was asked: disk, memory, device. Programs end with exit status 1.
+// The machine failed: disk, memory, device. Programs end with exit status 1.
 class RuntimeError : public Error {
  public:
   using Error::Error;

@@ -1,7 +1,7 @@
-// Radiometric or photometric: which kind of power a room's numbers are.
+// Radiometric or photometric: the quantity of a room's powers. Power means radiant flux (W) or luminous flux (lm).
 //
-// A room is one or the other, never a mixture. Nothing is converted between the two: the walk is linear in the power,
-// so the same histories serve both, and only the unit written beside the numbers differs.
+// A room has one quantity, never both. There is no conversion between the two: results are linear in the power, so the
+// same histories serve both, and only the unit of the numbers differs.
 #pragma once
 
 #include <string_view>
@@ -9,8 +9,8 @@
 namespace lichtmc {
 
 enum class Quantity {
-  radiometric,  // power in W, irradiance in W/m²
-  photometric,  // power in lm, illuminance in lx = lm/m²
+  radiometric,  // radiant flux in W, irradiance in W/m²
+  photometric,  // luminous flux in lm, illuminance in lx = lm/m²
 };
 
 // Unit of power: "W" or "lm".
@@ -23,7 +23,7 @@ constexpr std::string_view irradiance_unit(Quantity quantity) {
   return quantity == Quantity::radiometric ? "W/m^2" : "lx";
 }
 
-// Word for power per area: "irradiance" or "illuminance".
+// Name of power per area: "irradiance" or "illuminance".
 constexpr std::string_view irradiance_word(Quantity quantity) {
   return quantity == Quantity::radiometric ? "irradiance" : "illuminance";
 }

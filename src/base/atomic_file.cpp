@@ -13,7 +13,7 @@ namespace lichtmc {
 
 namespace {
 
-// A temporary file that is gone unless it was renamed.
+// A temporary file; the destructor removes it unless it was renamed.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& target) : target_(target), path_(target) {
@@ -28,7 +28,7 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  // Collects small pieces: a call of the system for each would take longer than making them.
+  // Buffers small pieces: a system call for each would take longer than producing them.
   void write(std::string_view bytes) {
     constexpr std::size_t enough = std::size_t{1} << 18;
     if (bytes.size() >= enough) {
@@ -86,7 +86,7 @@ void write_file_atomically(const std::filesystem::path& file, const std::functio
   temporary.become_target();
 }
 
-// Some file systems cannot flush folders: then it is as good as it gets.
+// Some file systems cannot flush folders; this is not an error.
 void flush_folder(const std::filesystem::path& folder) {
   const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (opened < 0) return;

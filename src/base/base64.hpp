@@ -1,4 +1,4 @@
-// Bytes as text that URIs and web pages hold (RFC 4648).
+// Base64: bytes as text for URIs and web pages (RFC 4648).
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// A hash of 128 bits over bytes that come piece by piece: XXH3, which finds any damage but is no protection against
-// intent. (Y. Collet, xxHash, https://xxhash.com.)
+// A 128-bit hash of bytes that are added piece by piece: XXH3. It detects accidental damage; it does not protect
+// against deliberate changes. (Y. Collet, xxHash, https://xxhash.com.)
 #pragma once
 
 #include <array>
@@ -25,13 +25,13 @@ class Checksum {
   template <class Number>
   requires std::is_arithmetic_v<Number>
   void add(Number value) { add(&value, sizeof value); }
-  // With its length, so that what follows cannot be taken for a part of it.
+  // Adds the length too, so that the boundary to what follows counts.
   void add(std::string_view text) {
     add(std::uint64_t{text.size()});
     add(text.data(), text.size());
   }
 
-  // Low and high word of what was added so far.
+  // Low and high word of the hash of everything added so far.
   std::array<std::uint64_t, 2> value() const;
 
  private:

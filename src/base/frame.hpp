@@ -1,4 +1,4 @@
-// Orthonormal frames: a third axis is given, the other two are any that complete it.
+// Orthonormal frames about a given normal.
 #pragma once
 
 #include <cmath>
@@ -15,8 +15,8 @@ struct Frame {
   glm::dvec3 normal;
 };
 
-// A frame whose normal is `normal` (length 1). Directions about a normal are uniform in their azimuth, so any such
-// frame will do.
+// A frame whose normal is `normal` (length 1). Directions about a normal are uniform in azimuth, so any such frame
+// serves.
 //
 // T. Duff, J. Burgess, P. Christensen, C. Hery, A. Kensler, M. Liani, R. Villemin: Building an Orthonormal Basis,
 // Revisited. JCGT 6(1), 2017: accurate to rounding for every normal, also for normal.z → −1.

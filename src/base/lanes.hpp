@@ -1,16 +1,16 @@
-// Plain loops that run in lanes: compiled for several instruction sets, of which the machine's best is taken when the
-// program starts.
+// Plain loops that the compiler vectorises: each is compiled for several instruction sets, and the program selects the
+// best of the machine when it starts.
 //
-// LICHTMC_LANES stands before a function that holds a loop over arrays without branches, pointers marked
-// LICHTMC_APART (they do not overlap). Contraction is off, so that all variants give the same bits.
+// LICHTMC_LANES marks a function with a loop over arrays without branches; LICHTMC_APART marks pointers to arrays that
+// do not overlap. Contraction (fused multiply-add) is off, so that all variants give the same bits.
 //
-// Arrays that such loops run over reach to whole_lanes() of their length: a loop that computes some elements too many
-// needs no second one for the last few.
+// The arrays of such loops have whole_lanes(n) elements for a length of n: a loop that computes some elements too many
+// needs no second loop for the last ones.
 #pragma once
 
 #include <cstddef>
 
-// Sanitizers are not there yet when the variants are chosen.
+// The variants are selected before sanitizers are initialised.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define LICHTMC_LANES __attribute__((target_clones("avx512f", "avx2", "default")))
@@ -21,7 +21,7 @@
 
 namespace lichtmc {
 
-// The longest vectors hold so many 32-bit numbers.
+// Number of 32-bit numbers in the longest vector register.
 inline constexpr std::size_t most_lanes = 16;
 
 constexpr std::size_t whole_lanes(std::size_t n) {

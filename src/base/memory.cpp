@@ -26,14 +26,14 @@ double process_limit() {
   return static_cast<double>(limit.rlim_cur);
 }
 
-// A file that holds a number; "max", or no file, is no limit.
+// The limit in a file that contains a number; "max", or no file, means no limit.
 double limit_in(const std::filesystem::path& file) {
   std::ifstream in(file);
   double bytes = 0.0;
   return in >> bytes ? bytes : unlimited;
 }
 
-// Of the process's group and of those around it.
+// The smallest limit of the process's control group and of the groups that contain it.
 double group_limit() {
   const std::filesystem::path root = "/sys/fs/cgroup";
   double least = std::min(limit_in(root / "memory.max"), limit_in(root / "memory/memory.limit_in_bytes"));

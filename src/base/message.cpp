@@ -7,14 +7,14 @@
 namespace lichtmc {
 
 std::string to_text(double value) {
-  std::array<char, 32> text{};  // the longest shortest double has 24 characters
+  std::array<char, 32> text{};  // the shortest form of a double has at most 24 characters
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return {text.data(), end};
 }
 
 std::string short_number(double value) {
   std::array<char, 32> text{};
-  // Thousands are read more easily than powers of ten.
+  // Thousands are easier to read than powers of ten.
   const double size = std::abs(value);
   if (size >= 999.5 && size < 999'500.0) {
     const double unit = size < 9'995.0 ? 10.0 : size < 99'950.0 ? 100.0 : 1'000.0;

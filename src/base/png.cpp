@@ -20,7 +20,7 @@ void append(void* text, void* bytes, int count) {
 
 std::string png_file(std::size_t columns, std::size_t rows, int channels, const std::vector<std::uint8_t>& pixels) {
   assert(pixels.size() == columns * rows * static_cast<std::size_t>(channels));
-  // The encoder counts a picture's bytes in an int.
+  // The encoder stores the number of bytes in an int.
   constexpr std::size_t most = std::numeric_limits<int>::max() / 2;
   std::string file;
   const int stride = static_cast<int>(columns) * channels;

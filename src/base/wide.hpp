@@ -1,4 +1,4 @@
-// Integers of 128 bits: sums that stay exact over the longest run.
+// 128-bit integers: sums that stay exact in the longest runs.
 //
 // A batch of 1024 histories with k impacts each scores up to 2¹⁰·k·2²⁴ units (see walk/totals.hpp). Its square in units
 // of 2⁻¹⁰ (see chance/moments.hpp) summed over B batches stays below 2¹²⁸ while B·k² < 2⁵⁰: 10¹³ batches for k = 10,

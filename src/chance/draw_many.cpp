@@ -1,5 +1,5 @@
-// Philox needs the upper and the lower half of products of 32-bit numbers, which compilers do not find the instruction
-// for: it is written with Highway, which also takes the best instruction set of the machine when the program runs.
+// Philox needs the upper and the lower half of products of 32-bit numbers. Compilers do not generate the instruction
+// for it, so this file uses Highway, which also selects the best instruction set of the machine at run time.
 #include "chance/draw_many.hpp"
 
 #include <array>
@@ -19,7 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
 
-// Machines without vectors: one by one.
+// Machines without vector instructions: one photon at a time.
 void DrawMany(const std::array<std::uint32_t, 2>& key, std::size_t n, const std::uint64_t* history,
               std::uint32_t flight, std::uint32_t purpose, std::uint32_t* polar, std::uint32_t* azimuth,
               std::uint64_t* chance) {
@@ -38,13 +38,13 @@ using Tag = hn::ScalableTag<std::uint64_t>;
 using Tag32 = hn::Repartition<std::uint32_t, Tag>;
 using Lanes = hn::Vec<Tag>;
 
-// Words live in the lower halves of 64-bit lanes; what is in the upper halves does no harm until the end.
+// Words are in the lower halves of 64-bit lanes; the upper halves are ignored until the end.
 HWY_INLINE Lanes Product(Lanes a, Lanes multiplier) {
   const Tag32 d;
   return hn::MulEven(hn::BitCast(d, a), hn::BitCast(d, multiplier));
 }
 
-// Counters of some photons on their way to being random words.
+// Counters of several photons; the rounds transform them to random words.
 struct Block {
   Lanes c0, c1, c2, c3;
 
@@ -83,9 +83,9 @@ void DrawMany(const std::array<std::uint32_t, 2>& key, std::size_t n, const std:
               std::uint32_t* HWY_RESTRICT azimuth, std::uint64_t* HWY_RESTRICT chance) {
   const Tag d;
   const std::size_t lanes = hn::Lanes(d);
-  // Two blocks at a time: a round waits for the one before, another block need not.
+  // Two blocks at a time: a round depends on the previous one, but not on the other block.
   static_assert(2 * hn::MaxLanes(Tag()) <= most_lanes);
-  // The keys of all rounds, a whole vector each: nothing to work out in the loop.
+  // The keys of all rounds, a whole vector each, computed before the loop.
   constexpr std::size_t rounds = 10;
   constexpr std::size_t stride = HWY_MAX_BYTES / sizeof(std::uint64_t);
   HWY_ALIGN std::array<std::uint64_t, 2 * rounds * stride> keys;

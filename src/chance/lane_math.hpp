@@ -1,7 +1,7 @@
-// Logarithm and exponential as plain arithmetic in float, so that a loop over photons runs in lanes.
+// Logarithm and exponential as plain arithmetic in float, so that a loop over photons vectorises.
 //
-// Both are accurate to some 2·10⁻⁷ of their value, as are directions in float, for which they are made; tests compare
-// them with the C library's.
+// Both have relative errors of some 2·10⁻⁷, like the directions in float that they are used for; tests compare them
+// with the C library's.
 #pragma once
 
 #include <bit>
@@ -9,8 +9,8 @@
 
 namespace lichtmc {
 
-// ln u of u = (word + ½)/2³², also where u is next to 1: there from 1 − u, which float holds as exactly as u next to 0.
-// u = 2^k (1 + f), 1 + f between √½ and √2; ln(1 + f) by S. Moshier's polynomial (Cephes, logf.c).
+// ln u of u = (word + ½)/2³². Near u = 1 it is computed from 1 − u, which float represents as precisely as u near 0. u
+// = 2^k (1 + f), 1 + f between √½ and √2; ln(1 + f) by S. Moshier's polynomial (Cephes, logf.c).
 inline float lane_log_unit(std::uint32_t word) {
   constexpr std::uint32_t sqrt_half = 0x3F3504F3U;
   const float u = (static_cast<float>(word) + 0.5F) * 0x1p-32F;
@@ -37,7 +37,7 @@ inline float lane_log_unit(std::uint32_t word) {
 // e^x − 1 for −80 < x ≤ 0, exact for small x. x = k ln 2 + r, |r| ≤ ½ ln 2; e^r − 1 by Taylor's series, whose term of
 // degree 8 is below 10⁻⁸ of it.
 inline float lane_expm1(float x) {
-  constexpr float to_whole = 0x1.8p23F;  // adding and taking it away rounds to a whole number
+  constexpr float to_whole = 0x1.8p23F;  // adding and subtracting it rounds to an integer
   const float rounded = x * 1.44269504F + to_whole;
   const float k = rounded - to_whole;
   const float r = (x - k * 0.693359375F) - k * -2.12194440e-4F;
@@ -48,7 +48,7 @@ inline float lane_expm1(float x) {
   sum = sum * r + 1.0F / 6.0F;
   sum = sum * r + 0.5F;
   const float small = r + r * r * sum;  // e^r − 1
-  // 2^k from the bits of the rounded number, whose lowest hold k.
+  // 2^k from the lowest bits of `rounded`, which contain k.
   const float scale = std::bit_cast<float>((std::bit_cast<std::uint32_t>(rounded) + 127U) << 23);
   return scale * small + (scale - 1.0F);
 }

@@ -15,10 +15,10 @@
 namespace lichtmc {
 
 // Histories in a full batch. Large enough that its start and end cost little, small enough that a run of 10⁵ histories
-// still has a hundred.
+// has about a hundred batches.
 inline constexpr std::uint32_t batch_histories = 1024;
 
-// Number of batches that hold so many histories; the last may be a part of one.
+// Number of batches for a number of histories; the last batch may be incomplete.
 constexpr std::uint64_t batches_of(std::uint64_t histories) {
   return histories / batch_histories + (histories % batch_histories != 0 ? 1 : 0);
 }
@@ -35,16 +35,16 @@ struct Moments {
     sum += x;
     const uint128 square = static_cast<uint128>(x) * x;
     constexpr std::uint64_t for_full = square_units / batch_histories;
-    // Only a last batch that is not full is rounded, by less than a thousandth of the smallest square.
+    // Only the square of an incomplete last batch is rounded, by less than a thousandth of the smallest square.
     squares += n == batch_histories ? square * for_full : (square * square_units + n / 2) / n;
   }
 
-  // Adds full batches whose scores and squares of scores have these sums,
+  // Adds full batches; given are the sums of their scores and of the squares of their scores.
   void add_sums(std::uint64_t scores, std::uint64_t squared) {
     sum += scores;
     squares += static_cast<uint128>(squared) * (square_units / batch_histories);
   }
-  // or of which each scored x (≤ 2³¹).
+  // Adds full batches that scored x (≤ 2³¹) each.
   void add_full_batches(std::uint64_t batches, std::uint32_t x) {
     sum += static_cast<uint128>(batches) * x;
     squares += static_cast<uint128>(batches) * x * x * (square_units / batch_histories);
@@ -63,7 +63,7 @@ inline constexpr bool is_row<Moments> = true;
 
 struct Estimate {
   double mean = 0.0;            // score per history
-  double standard_error = 0.0;  // of the mean; NaN where fewer than two batches were simulated
+  double standard_error = 0.0;  // of the mean; NaN for fewer than two batches
 };
 
 // Mean and error of the score per history, in units of the integers, from moments over `histories` histories (≥ 1).

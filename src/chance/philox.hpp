@@ -1,7 +1,7 @@
-// Random numbers by counting: Philox4x32-10 turns a counter and a key into four random words.
+// Counter-based random numbers: Philox4x32-10 computes four random words from a counter and a key.
 //
-// J. Salmon, M. Moraes, R. Dror, D. Shaw: Parallel random numbers: as easy as 1, 2, 3. SC 2011. Nothing is carried from
-// one draw to the next: the same counter and key give the same words on any thread, in any order.
+// J. Salmon, M. Moraes, R. Dror, D. Shaw: Parallel random numbers: as easy as 1, 2, 3. SC 2011. There is no state
+// between draws: the same counter and key give the same words on any thread, in any order.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@ double normal_tail(double z) {
 }
 
 double normal_quantile_above(double p) {
-  // Bisection: the tail is monotonic, and 200 halvings of [−40, 40] reach the last digit.
+  // Bisection: the tail is monotonic, and 200 bisections of [−40, 40] reach the last digit.
   double low = -40.0;
   double high = 40.0;
   for (int i = 0; i < 200; ++i) {

@@ -1,4 +1,4 @@
-// How unlikely a deviation is that chance alone makes.
+// Significance of deviations: tail probabilities of the normal, χ² and Student distributions.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,12 @@ double normal_quantile_above(double p);
 double chi_square_above(double k, double p);
 double chi_square_tail(double k, double chi_square);
 
-// A figure whose error was estimated from few differences follows Student's law: the standard normal variable that is
-// as unlikely as t with `freedom` (> 1) degrees of freedom. D. Peizer, J. Pratt: A Normal Approximation, 1968.
+// The standard normal value with the same tail probability as t of Student's distribution with `freedom` (> 1) degrees
+// of freedom: a deviation divided by an error that was estimated from few differences follows this distribution. D.
+// Peizer, J. Pratt: A Normal Approximation, 1968.
 double normal_from_student(double t, double freedom);
 
-// Probability that the largest of n independent standard normal variables is beyond z in size (Z. Šidák, 1967).
+// Probability that the largest absolute value of n independent standard normal variables exceeds z (Z. Šidák, 1967).
 double largest_of_normals_tail(double z, std::size_t n);
 
 }  // namespace lichtmc

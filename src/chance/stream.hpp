@@ -9,17 +9,17 @@
 
 namespace lichtmc {
 
-// What four words are drawn for. Each purpose has words of its own, so that a new one leaves all others as they are.
+// The purpose of a draw of four words. Each purpose has its own words: a new purpose does not change the others.
 enum class Purpose : std::uint32_t {
   flight = 0,    // words 0, 1: direction of the next flight; words 2, 3: whether the photon survives
   emission = 1,  // words 0, 1: direction; words 2, 3: which emitter
   place = 2,     // words 0, 1: which triangle of a surface emitter; words 2, 3: where on it
-  light = 3,     // words 0, 1: which emitter a surface's direct light is taken from; words 2, 3: unused
-  on_light = 4,  // as place, for the point of a surface emitter that direct light is taken from
-  // For direct light that is computed outside the walks: words 0 to 2 choose a point of a surface emitter;
-  direct_point = 5,
-  direct_flight = 6,  // words 0, 1: direction of a flight that may meet one;
-  direct_place = 7,   // words 0, 1: where on a tile.
+  light = 3,     // words 0, 1: which emitter is sampled for direct light; words 2, 3: unused
+  on_light = 4,  // as place: point on the surface emitter that is sampled for direct light
+  // Direct light that is computed outside the walks:
+  direct_point = 5,   // words 0 to 2: point on a surface emitter
+  direct_flight = 6,  // words 0, 1: direction of a flight that may hit one
+  direct_place = 7,   // words 0, 1: where on a tile
 };
 
 class Stream {
@@ -34,7 +34,7 @@ class Stream {
         key_);
   }
 
-  // What draw() feeds to Philox besides history and flight.
+  // The inputs of Philox in draw() besides history and flight.
   const std::array<std::uint32_t, 2>& key() const { return key_; }
   std::uint32_t word_of(Purpose purpose) const { return static_cast<std::uint32_t>(purpose) | direction_; }
 

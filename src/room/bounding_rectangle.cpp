@@ -18,7 +18,7 @@ double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Appends one side of the hull; `keep` points at the front of it stay.
+// Appends one side of the hull; its first `keep` points stay.
 template <class Points>
 void add_chain(const Points& points, std::size_t keep, std::vector<glm::dvec2>& hull) {
   for (const glm::dvec2& point : points) {
@@ -42,7 +42,7 @@ std::vector<glm::dvec2> convex_hull(std::vector<glm::dvec2> points) {
   return hull;
 }
 
-// Walks on along the hull as long as that leads further in a direction; at most once around.
+// Advances along the hull while the next corner is further in a direction; at most once around.
 std::size_t furthest(const std::vector<glm::dvec2>& hull, const glm::dvec2& direction, std::size_t from) {
   for (std::size_t n = 0; n < hull.size(); ++n) {
     const std::size_t next = (from + 1) % hull.size();
@@ -52,7 +52,7 @@ std::size_t furthest(const std::vector<glm::dvec2>& hull, const glm::dvec2& dire
   return from;
 }
 
-// Within 45° of (1, 0): a rectangle has the same sides along a direction, across it and against it.
+// Rotates a direction by quarter turns to within 45° of (1, 0): these are all directions of the same rectangle's sides.
 glm::dvec2 near_first_axis(glm::dvec2 direction) {
   if (std::abs(direction.y) > std::abs(direction.x)) direction = {direction.y, -direction.x};
   return direction.x < 0.0 ? -direction : direction;
@@ -70,7 +70,7 @@ double area_along_axes(const std::vector<glm::dvec2>& points) {
 
 // The smallest rectangle has a side along a side of the convex hull (H. Freeman, R. Shapira: Determining the
 // minimum-area encasing rectangle for an arbitrary closed curve. Communications of the ACM 18(7), 1975). The four
-// points it touches move on as the side does (G. T. Toussaint: Solving geometric problems with the rotating calipers.
+// points that it touches advance with the side (G. T. Toussaint: Solving geometric problems with the rotating calipers.
 // MELECON 1983).
 glm::dvec2 smallest_rectangle(const std::vector<glm::dvec2>& points) {
   glm::dvec2 best(1.0, 0.0);

@@ -1,4 +1,4 @@
-// The box about a room.
+// The bounding box of a room.
 #pragma once
 
 #include <limits>
@@ -11,7 +11,7 @@
 
 namespace lichtmc {
 
-// A box along the axes; without a point in it low is above high.
+// A box along the axes; in an empty one low is above high.
 struct Bounds {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
   glm::dvec3 high{-std::numeric_limits<double>::infinity()};
@@ -26,7 +26,7 @@ struct Bounds {
   }
 };
 
-// The box about all triangles of a room, in m; positions that no triangle uses do not count.
+// The bounding box of all triangles of a room, in m; positions that no triangle uses do not count.
 inline Bounds bounds_of(const Room& room) {
   Bounds bounds;
   for (const Surface& surface : room.surfaces) {

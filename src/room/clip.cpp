@@ -10,8 +10,8 @@ namespace lichtmc {
 
 namespace {
 
-// Shares up to this are rounding: a share is computed to some 1e-16, and where a triangle covers all cells that a room
-// may have (2^31) those inside it have 5e-10 each.
+// Shares up to this are rounding: the error of a share is some 1e-16, and if a triangle covers all cells that a room
+// may have (2^31), each cell inside it has 5e-10.
 constexpr double least_share = 1e-12;
 
 struct Corner {
@@ -19,7 +19,7 @@ struct Corner {
   glm::dvec2 weight{0.0};  // barycentric coordinates of the second and third corner of the triangle
 };
 
-// A convex polygon. A triangle clipped by four lines has at most seven corners; rounding may add few.
+// A convex polygon. A triangle clipped by four lines has at most seven corners; rounding may add a few.
 class Polygon {
  public:
   void add(const Corner& corner) {
@@ -43,8 +43,8 @@ Corner cut(const Corner& a, const Corner& b, int axis, double line) {
   return point;
 }
 
-// The part of a polygon with low ≤ coordinate ≤ high. A cut depends on the side and the line alone, so two neighbouring
-// bands share their cuts to the last bit and their areas add up.
+// The part of a polygon with low ≤ coordinate ≤ high. A cut depends on the side and the line alone: two neighbouring
+// bands share exactly the same cuts, and their areas add up.
 Polygon band(const Polygon& polygon, int axis, double low, double high) {
   Polygon part;
   for (std::size_t n = 0; n < polygon.size(); ++n) {
@@ -65,7 +65,7 @@ struct CellRange {
   std::uint32_t last = 0;
 };
 
-// The cells that a polygon reaches into along an axis; one that ends on a line does not reach beyond it.
+// The cells that a polygon covers along an axis; one that ends on a grid line does not cover the cell beyond.
 CellRange cells_of(const Polygon& polygon, int axis, std::uint32_t count) {
   double low = std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::lowest();
@@ -93,8 +93,8 @@ void for_each_band(const Polygon& polygon, int axis, std::uint32_t count, const 
   }
 }
 
-// Share and centroid of a polygon, in barycentric coordinates: where the chart has squeezed the triangle to a line or a
-// point, these still tell its parts. The triangle's own area is ½ there.
+// Share and centroid of a polygon, in barycentric coordinates: these distinguish its parts also if the triangle is a
+// line or a point in the chart. The triangle's own area is ½ there.
 CellPiece measure(const Polygon& polygon) {
   double doubled = 0.0;
   glm::dvec2 moment(0.0);
@@ -131,7 +131,7 @@ void for_each_cell(const std::array<glm::dvec2, 3>& corners, std::uint32_t colum
 void clip_to_cells(const std::array<glm::dvec2, 3>& corners, std::uint32_t columns, std::uint32_t rows,
                    std::vector<CellPiece>& pieces) {
   pieces.clear();
-  double rest = 0.0;  // shares that no piece has been found for yet
+  double rest = 0.0;  // shares that are not assigned to a piece yet
   for_each_cell(corners, columns, rows, [&](std::uint32_t column, std::uint32_t row, const Polygon& part) {
     CellPiece piece = measure(part);
     piece.column = column;

@@ -1,4 +1,4 @@
-// A triangle cut along the lines of a grid.
+// A triangle clipped to the cells of a grid.
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ struct CellPiece {
 
 // Cuts a triangle along the lines between the cells of a grid; `pieces` is replaced.
 //
-// corners: in cells, finite; what lies outside the grid counts in the cells at its rim. columns, rows ≥ 1. The shares
-// add up to 1, also where the triangle has no area in the grid (then they are those of its area elsewhere: each point
-// of the triangle has a cell all the same). A share that is no more than rounding is added to that of a piece near by.
+// corners: in cells, finite; parts outside the grid count in its outermost cells. columns, rows ≥ 1. The shares add up
+// to 1, also if the triangle has no area in the grid (then they are shares of its area in 3-D: each point of the
+// triangle still has a cell). A share that is only rounding is added to that of a nearby piece.
 void clip_to_cells(const std::array<glm::dvec2, 3>& corners, std::uint32_t columns, std::uint32_t rows,
                    std::vector<CellPiece>& pieces);
 
@@ -34,7 +34,7 @@ struct CellTriangle {
   std::array<glm::dvec2, 3> weights{};  // barycentric coordinates of its corners: of the whole's second and third one
 };
 
-// The same pieces as triangles, without those that are no more than rounding; `triangles` is replaced.
+// The same pieces as triangles, without those that are only rounding; `triangles` is replaced.
 void cut_into_triangles(const std::array<glm::dvec2, 3>& corners, std::uint32_t columns, std::uint32_t rows,
                         std::vector<CellTriangle>& triangles);
 

@@ -41,7 +41,7 @@ bool is_convex(const WeldedMesh& mesh) {
     const auto& [a, b, c] = mesh.corners(n);
     const glm::dvec3 cross = glm::cross(b - a, c - a);
     const double length = glm::length(cross);
-    // The plane of a sliver is uncertain; its neighbours' planes stand for it.
+    // The plane of a sliver is uncertain; the planes of its neighbours are tested instead.
     if (length <= tolerance * std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)})) continue;
     const glm::dvec3 outwards = cross / (glm::dot(cross, a - middle) < 0.0 ? -length : length);
     for (const glm::dvec3& p : mesh.places()) {

@@ -15,7 +15,7 @@ namespace lichtmc {
 
 namespace {
 
-constexpr std::size_t most_triangles = 20'000;  // pairs that meet in one coordinate are tested for overlap
+constexpr std::size_t most_triangles = 20'000;  // pairs whose ranges meet in one coordinate are tested for overlap
 
 struct Corners {
   std::size_t surface = 0;
@@ -38,8 +38,8 @@ std::vector<Corners> solid_triangles(const Room& room) {
   return all;
 }
 
-// How far a position may lie off its wall, relative to the largest coordinate: float_noise for the position, and as
-// much for each of the three corners that say where the wall is.
+// Largest distance of a position from its wall, relative to the largest coordinate: float_noise for the position, and
+// the same for each of the three corners that define the wall.
 constexpr double rounding = 4.0 * float_noise;
 
 // A vector's direction. Exactly ±1 for one along an axis, because √(x²) = |x| in floating point; glm::normalize
@@ -48,8 +48,8 @@ glm::dvec3 direction_of(const glm::dvec3& v) {
   return v / glm::length(v);
 }
 
-// Vector area of all triangles that look along `direction` or against it, as a direction. Positions inside a wall and
-// their rounding cancel out of it: only its outline counts.
+// Direction of the vector area of all triangles with normals along `direction` or against it. Positions inside a wall
+// and their rounding cancel: only its outline counts.
 glm::dvec3 common_normal(const std::vector<Corners>& triangles, const glm::dvec3& direction) {
   glm::dvec3 sum(0.0);
   for (const Corners& t : triangles) {
@@ -75,7 +75,7 @@ std::optional<std::array<glm::dvec3, 3>> find_axes(const std::vector<Corners>& t
   const glm::dvec3 tilted = common_normal(triangles, direction_of(second->cross));
   const glm::dvec3 n1 = direction_of(tilted - glm::dot(tilted, n0) * n0);
   std::array<glm::dvec3, 3> axes{n0, n1, glm::cross(n0, n1)};
-  // In the order and sense of the world's axes, as far as that goes.
+  // In the order and sense of the world's axes, as far as possible.
   for (int k = 0; k < 3; ++k) {
     const auto place = static_cast<std::size_t>(k);
     std::size_t best = place;
@@ -125,7 +125,7 @@ bool overlap(const Placed& a, const Placed& b, double tolerance) {
   return !separates(a.corners, b.corners, tolerance) && !separates(b.corners, a.corners, tolerance);
 }
 
-// Triangles tile the unit square when their areas add up to 1 and no two overlap.
+// Triangles cover the unit square exactly once if their areas add up to 1 and no two overlap.
 bool tile_the_square(const std::vector<Flat>& triangles, const glm::dvec2& tolerance) {
   double area = 0.0;
   std::vector<Placed> placed;
@@ -133,7 +133,7 @@ bool tile_the_square(const std::vector<Flat>& triangles, const glm::dvec2& toler
     area += 0.5 * twice_area(t);
     placed.push_back({t, glm::min(t[0], glm::min(t[1], t[2])), glm::max(t[0], glm::max(t[1], t[2]))});
   }
-  // The outline may be off by the tolerance on each of four sides.
+  // The outline may deviate by the tolerance on each of four sides.
   if (std::abs(area - 1.0) > 2.0 * (tolerance.x + tolerance.y)) return false;
   // From left to right, a triangle is compared with those that begin before it ends.
   std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.low.x < b.low.x; });
@@ -158,7 +158,7 @@ std::uint8_t face_of(const std::array<glm::dvec3, 3>& p, const glm::dvec3& toler
   return 6;
 }
 
-// Triangles in the axes of a cuboid, from one corner of it on so that distance from the origin costs no digits.
+// Triangles in the axes of a cuboid, relative to one corner, so that the distance from the origin costs no precision.
 struct AlongAxes {
   glm::dvec3 origin{0.0};
   std::vector<std::array<glm::dvec3, 3>> corners;  // of each triangle
@@ -185,15 +185,16 @@ AlongAxes lay_along(const std::array<glm::dvec3, 3>& axes, const std::vector<Cor
   return along;
 }
 
-// Tolerances as shares of the edges, from the largest coordinates' sizes. Rounding mixes a rotated room's coordinates,
-// so that its shortest edge suffers from its longest; not so where the edges lie along the world's axes.
+// Tolerances as shares of the edges, from the largest coordinates' sizes. In a rotated room rounding mixes the
+// coordinates: the error along the shortest edge depends on the longest one. This does not apply if the edges lie along
+// the world's axes.
 glm::dvec3 tolerances(const std::array<glm::dvec3, 3>& axes, const glm::dvec3& size, const glm::dvec3& largest) {
   const bool aligned = axes[0].x == 1.0 && axes[1].y == 1.0 && axes[2].z == 1.0;
   if (aligned) return rounding * largest / size;
   return rounding * std::max({largest.x, largest.y, largest.z}) / size;
 }
 
-// More than that is no longer rounding: the areas of a wall would not tell a hole of 1 % of it.
+// Larger deviations are not rounding: the areas of a wall would not reveal a hole of 1 % of it.
 constexpr double largest_tolerance = 0.002;
 
 }  // namespace
@@ -207,7 +208,7 @@ std::optional<CuboidShape> recognise_cuboid(const Room& room) {
   AlongAxes along = lay_along(*axes, triangles);
   const glm::dvec3 size = along.high - along.low;
   const glm::dvec3 tolerance = tolerances(*axes, size, along.largest);
-  // An edge that is not well above the rounding has no length to speak of.
+  // An edge must be well above the rounding.
   if (!(std::min({size.x, size.y, size.z}) > 0.0) ||
       std::max({tolerance.x, tolerance.y, tolerance.z}) > largest_tolerance)
     return std::nullopt;

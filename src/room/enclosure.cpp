@@ -29,16 +29,16 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-// Crossings of the ray from `start` along `direction` with a triangle: 0 or 1; nothing where it comes so close to an
-// edge that rounding decides.
+// Crossings of the ray from `start` along `direction` with a triangle: 0 or 1; nothing if it comes so close to an edge
+// that rounding would determine the result.
 std::optional<int> crossings(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& start,
                              const glm::dvec3& direction) {
   const glm::dvec3 b = triangle[1] - triangle[0];
   const glm::dvec3 c = triangle[2] - triangle[0];
   const glm::dvec3 p = glm::cross(direction, c);
   const double determinant = glm::dot(b, p);
-  if (determinant == 0.0) return 0;  // along its plane
-  // What is that thin has no area but rounding's, and a ray meets it once in 10¹².
+  if (determinant == 0.0) return 0;  // parallel to its plane
+  // The area of a triangle this thin is only rounding, and a ray hits it once in 10¹².
   const double longest = std::max(glm::length(b), glm::length(c));
   if (glm::length(glm::cross(b, c)) <= 1e-12 * longest * longest) return 0;
   const glm::dvec3 from_corner = start - triangle[0];
@@ -47,7 +47,7 @@ std::optional<int> crossings(const std::array<glm::dvec3, 3>& triangle, const gl
   const double t = glm::dot(direction, q) / determinant;
   const double nearest = std::min({s, t, 1.0 - s - t});
   // s and t are sums of some six products, each rounded, over the determinant: uncertain for slivers and grazing rays.
-  // 10⁻⁹ more is far below what rays in a fixed direction often meet.
+  // The additional 10⁻⁹ is so small that rays in a fixed direction rarely come that close.
   const double products = glm::length(from_corner) * glm::length(direction) * longest / std::abs(determinant);
   const double near_an_edge = 1e-9 + 16.0 * std::numeric_limits<double>::epsilon() * products;
   if (nearest < -near_an_edge) return 0;
@@ -58,7 +58,7 @@ std::optional<int> crossings(const std::array<glm::dvec3, 3>& triangle, const gl
 }  // namespace
 
 Enclosure::Enclosure(const WeldedMesh& mesh) {
-  // Triangles that share an edge belong together; one odd edge opens all of them.
+  // Triangles that share an edge form a group; one edge with an odd number of triangles makes the group open.
   const std::vector<WeldedEdge>& edges = mesh.edges();
   Groups groups(mesh.triangles().size());
   std::vector<std::size_t> odd;
@@ -83,7 +83,8 @@ Enclosure::Enclosure(const WeldedMesh& mesh) {
 
 std::size_t Enclosure::shells_about(const glm::dvec3& point_m) const {
   const auto inside = [&point_m](const Shell& shell) {
-    // Directions with no simple relation to a room's edges; another where one comes too close to an edge of the mesh.
+    // Directions with no simple relation to a room's edges; the next one if a ray comes too close to an edge of the
+    // mesh.
     glm::dvec3 direction(0.57735, 0.21132, 0.78868);
     for (int attempt = 0; attempt < 16; ++attempt) {
       int sum = 0;

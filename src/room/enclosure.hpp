@@ -1,4 +1,4 @@
-// Closed shells: from inside one, no light can leave through an opening.
+// Closed shells: light inside one cannot escape.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 namespace lichtmc {
 
 // The closed shells of a room: connected sets of triangles in which every edge belongs to an even number of triangles.
-// Sheets with a rim, and meshes whose neighbours meet in the middle of an edge, are not closed in this sense: the
-// answer "not enclosed" is the safe one.
+// Meshes with boundary edges, and meshes with T-junctions, are not closed in this sense: the answer "not enclosed" is
+// the safe one.
 class Enclosure {
  public:
   explicit Enclosure(const Room& room) : Enclosure(WeldedMesh(room)) {}
@@ -25,7 +25,7 @@ class Enclosure {
   // times.
   bool encloses(const glm::dvec3& point_m) const { return shells_about(point_m) > 0; }
 
-  // How many closed shells a point lies inside of.
+  // The number of closed shells that contain a point.
   std::size_t shells_about(const glm::dvec3& point_m) const;
 
  private:

@@ -40,7 +40,7 @@ Chart make_engine_chart(const Surface& surface, const std::vector<TriangleShape>
   chart.source = ChartSource::engine;
   chart.reason = std::move(reason);
   chart.cells = packing.size;
-  // Slivers lie in the middle of their cell; those without area need no cell of their own.
+  // Slivers are at the centre of their cell; those without area need no cell of their own.
   const glm::dvec2 sliver_cell = sizes.size() > laid.size() ? packing.corners.back() : glm::dvec2(0.0);
   chart.corners.resize(shapes.size());
   for (const std::uint32_t k : cut.slivers) chart.corners[k].fill(sliver_cell + 0.5);

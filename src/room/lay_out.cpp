@@ -17,7 +17,7 @@ namespace lichtmc {
 
 namespace {
 
-// Coming apart must save this share of the cells: it makes rims, along which tiles are parts of cells.
+// Dividing a patch must save this share of the cells: it adds boundaries, along which tiles are parts of cells.
 constexpr double least_saving = 0.15;
 
 struct Bounds {
@@ -37,11 +37,11 @@ struct Bounds {
   }
 };
 
-// The parts of a patch, grown from single triangles: of two parts with an edge in common those are joined first whose
-// common rectangle saves most cells, as long as it saves any.
+// The parts of a patch, grown from single triangles: of all pairs of parts with an edge in common, the pair whose
+// common rectangle saves most cells is joined first, as long as it saves any.
 class Parts {
  public:
-  // Triangles that do not count in the bounds go with a neighbour.
+  // Triangles that do not count in the bounds join a neighbour.
   Parts(const Patch& patch, const std::vector<bool>& counts, const MeshLinks& links, double edge_m);
 
   // The triangles of every part, as numbers in the patch.
@@ -53,9 +53,9 @@ class Parts {
     std::vector<std::size_t> triangles;
     std::set<std::size_t> neighbours;
     std::size_t joined_into = none;
-    std::size_t version = 0;  // goes up with every change
+    std::size_t version = 0;  // increases with every change
   };
-  // Two parts as they were when the gain was found.
+  // Two parts in the versions for which the gain was computed.
   struct Offer {
     double gain = 0.0;
     std::size_t a = 0;
@@ -111,7 +111,7 @@ double Parts::cost(const Bounds& bounds) const {
 void Parts::consider(std::size_t a, std::size_t b) {
   Bounds both = parts_[a].bounds;
   both.add(parts_[b].bounds);
-  // What is no more than rounding is no loss: slivers must find a place, and strips in line grow together.
+  // A loss within rounding is allowed, so that slivers and strips in line are joined.
   constexpr double rounding = 1e-9;
   const double together = cost(both);
   const double gain = cost(parts_[a].bounds) + cost(parts_[b].bounds) - together;
@@ -168,7 +168,7 @@ class Layer {
   std::vector<LaidPatch> lay(Patch patch) const;
 
  private:
-  // Slivers have no say in the rectangle: a spike may reach far out.
+  // Slivers do not count in the rectangle: a spike may extend far.
   std::vector<bool> counts(const Patch& patch) const;
   LaidPatch straightened(Patch patch) const;
   double filled(const LaidPatch& laid) const;
@@ -205,7 +205,7 @@ LaidPatch Layer::straightened(Patch patch) const {
       std::move(patch), bounds.low, bounds.high, {cells_along(length_m.x, edge_m_), cells_along(length_m.y, edge_m_)}};
 }
 
-// The share of the rectangle's cells that the surface's area amounts to.
+// The area of the surface as a share of the area of the rectangle's cells.
 double Layer::filled(const LaidPatch& laid) const {
   double area = 0.0;
   for (const std::uint32_t k : laid.patch.triangles) area += shapes_[k].area_m2;

@@ -38,7 +38,7 @@ Surface make_wall(const Wall& wall, const glm::dvec3& size, double reflectance) 
     surface.positions.push_back(corner);
     surface.uvs.push_back(uv);
   }
-  // u × v points along +axis for axes 0 and 2, along −axis for axis 1 (x × z = −y); the front looks inwards.
+  // u × v points along +axis for axes 0 and 2, along −axis for axis 1 (x × z = −y); the front faces inwards.
   const bool along_axis = wall.axis != 1;
   if (along_axis != wall.high) {
     surface.triangles = {{0, 1, 2}, {0, 2, 3}};

@@ -13,14 +13,14 @@ namespace {
 constexpr std::size_t most_at_an_edge = 8;
 
 struct Edge {
-  std::uint32_t low = 0;  // places of its ends
+  std::uint32_t low = 0;  // numbers of its end positions
   std::uint32_t high = 0;
   std::uint32_t triangle = 0;
   std::uint32_t number = 0;  // 0 … 2
 };
 
-// For every position the number of its place: equal coordinates, equal number. The coordinates' bits are compared,
-// after −0 has become +0, because they order anything.
+// A number for every position: equal coordinates give equal numbers. The bits of the coordinates are compared, after −0
+// has become +0, because they order all values.
 std::vector<std::uint32_t> places(const Surface& surface) {
   const auto key = [&surface](std::uint32_t n) {
     const glm::dvec3 p = surface.positions[n] + 0.0;

@@ -11,15 +11,15 @@
 
 namespace lichtmc {
 
-// Triangles are linked where they have an edge in common: the same two places, whatever the indices. A triangle two
-// corners of which are in the same place is linked to none. Nor is an edge a link that more than eight triangles meet
-// at: that is a stack of copies, through which there is no telling the way.
+// Triangles are linked if they have an edge in common: the same two positions, whatever the indices. A triangle with
+// two corners at the same position has no links. An edge that more than eight triangles share is no link: these are
+// stacked copies, among which the neighbour is ambiguous.
 class MeshLinks {
  public:
   explicit MeshLinks(const Surface& surface);
 
   // The triangles at an edge (0 … 2: from that corner to the next) of a triangle, itself included, in ascending order;
-  // empty where it is linked to none there.
+  // empty if it has no link there.
   std::span<const std::uint32_t> at_edge(std::size_t triangle, std::size_t edge) const {
     const Range range = edges_[triangle][edge];
     return {members_.data() + range.first, range.count};

@@ -23,7 +23,7 @@ struct Grid {
 
 }  // namespace
 
-// Breadth first from all tiles at once, row by row; each round fills the cells one step further out.
+// Breadth first from all tiles at once, row by row; each pass fills the cells one step further out.
 std::vector<std::uint32_t> nearest_tiles(const TileMap& map) {
   const Grid grid{map.columns, map.rows};
   std::vector<std::uint32_t> filled = map.tile_of_cell;

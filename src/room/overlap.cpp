@@ -59,7 +59,7 @@ double thickness(const FlatTriangle& triangle) {
 // the polygons' own sides, so the shortest separating shift is along one of these six (C. Ericson: Real-Time Collision
 // Detection, 2005, section 5.2).
 double penetration_depth(const FlatTriangle& a, const FlatTriangle& b) {
-  // Coordinates from a corner near by: the tolerance is about the triangles, not about where they lie.
+  // Coordinates relative to a nearby corner: the tolerance depends on the triangles, not on their position.
   const glm::dvec2 origin = a[0];
   const FlatTriangle near_a{a[0] - origin, a[1] - origin, a[2] - origin};
   const FlatTriangle near_b{b[0] - origin, b[1] - origin, b[2] - origin};
@@ -108,7 +108,7 @@ std::optional<std::size_t> OverlapIndex::find(const Member& asked, int number, c
 }
 
 void OverlapIndex::insert(const Member& member) {
-  // Cells at least as large as the triangle: it reaches into four at most.
+  // Cells at least as large as the triangle: it overlaps four at most.
   const glm::dvec2 size = member.box.high - member.box.low;
   int number = 0;
   std::frexp(std::max(size.x, size.y), &number);
@@ -126,8 +126,8 @@ void OverlapIndex::insert(const Member& member) {
   }
 }
 
-// A grid for every size of triangle, a factor of two apart, so that neither a few large triangles nor a crowd of small
-// ones spoils it (Ericson, section 7.2: hierarchical grids).
+// A grid for every size of triangle, a factor of two apart, so that neither a few large triangles nor many small ones
+// make it slow (Ericson, section 7.2: hierarchical grids).
 std::optional<std::size_t> OverlapIndex::add(const FlatTriangle& triangle, std::size_t id) {
   if (!(thickness(triangle) > tolerance_)) return std::nullopt;
   const Member asked{triangle, bounds(triangle), id};

@@ -1,4 +1,4 @@
-// Do triangles in a plane overlap? Asked one by one, for tens of thousands of them.
+// Overlap tests of triangles in a plane, one by one, for tens of thousands of them.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ using FlatTriangle = std::array<glm::dvec2, 3>;
 // The smallest of the heights of a triangle; 0 where it has no area.
 double thickness(const FlatTriangle& triangle);
 
-// The length of the shortest shift that separates two triangles, whatever their winding; 0 or less where they are
-// apart.
+// The length of the shortest shift that separates two triangles, whatever their winding; 0 or less if they do not
+// overlap.
 double penetration_depth(const FlatTriangle& a, const FlatTriangle& b);
 
 // Triangles that do not overlap each other.
@@ -47,7 +47,7 @@ class OverlapIndex {
     std::uint32_t member = 0;
     std::uint32_t next = 0;  // entry of the same cell, or no_entry
   };
-  // Cells of the size 2^level; each has the members that reach into it as a chain of entries.
+  // Cells of the size 2^level; each has the members that overlap it as a chain of entries.
   struct Level {
     std::unordered_map<std::uint64_t, std::uint32_t> first_entry;
     std::vector<Entry> entries;

@@ -11,12 +11,12 @@ namespace {
 
 // On shelves, from the highest rectangle to the lowest (E. G. Coffman, M. R. Garey, D. S. Johnson, R. E. Tarjan:
 // Performance bounds for level-oriented two-dimensional packing algorithms. SIAM Journal on Computing 9(4), 1980:
-// next-fit decreasing height). A rectangle goes on top of the one before it where the shelf is high enough for both.
+// next-fit decreasing height). A rectangle is placed on top of the previous one if the shelf is high enough for both.
 Packing pack_on_shelves(const std::vector<glm::dvec2>& sizes, const std::vector<std::size_t>& order, double width) {
   Packing packing{glm::dvec2(0.0), std::vector<glm::dvec2>(sizes.size()), {}};
-  double shelf = 0.0;    // row that the shelf stands on
+  double shelf = 0.0;    // first row of the shelf
   double height = 0.0;   // of the shelf
-  glm::dvec2 pile(0.0);  // column of the pile, and the height it has reached
+  glm::dvec2 pile(0.0);  // first column of the stack, and its height
   double pile_width = 0.0;
   for (const std::size_t n : order) {
     const glm::dvec2 size = sizes[n];
@@ -36,10 +36,6 @@ Packing pack_on_shelves(const std::vector<glm::dvec2>& sizes, const std::vector<
   packing.size.y = shelf + height;
   return packing;
 }
-
-}  // namespace
-
-namespace {
 
 Packing pack_as_they_are(const std::vector<glm::dvec2>& sizes) {
   std::vector<std::size_t> order(sizes.size());
@@ -72,7 +68,7 @@ double area(const Packing& packing) {
 
 }  // namespace
 
-// Strips that stand and strips that lie leave much room between them: all of them lying do not.
+// Upright and horizontal strips together waste much area; horizontal strips alone do not.
 Packing pack(const std::vector<glm::dvec2>& sizes) {
   Packing best = pack_as_they_are(sizes);
   std::vector<glm::dvec2> lying = sizes;

@@ -13,12 +13,12 @@ namespace lichtmc {
 
 namespace {
 
-// Cosine of the largest angle between the normals of a triangle and of its patch: 50°. A patch's lengths shrink to no
-// less than 0.64 when they are projected; the walls of a box never share a patch; and bevels and octagons, whose angle
-// is 45° but for rounding, are well on one side.
+// Cosine of the largest angle between the normals of a triangle and of its patch: 50°. Projection shortens the lengths
+// of a patch to no less than 0.64; the walls of a box never share a patch; and bevels and octagons, whose angle is 45°
+// within rounding, are well below the limit.
 constexpr double least_cosine = 0.6427876096865394;
 
-// A world axis lies in a plane where its share along the normal is no more than the rounding of float normals.
+// A world axis lies in a plane if its component along the normal is no more than the rounding of float normals.
 constexpr double in_plane = 1e-6;
 
 struct Plane {
@@ -32,8 +32,8 @@ struct Plane {
   }
 };
 
-// u along the first of x, y, z that lies in the plane, else along the one that is nearest to it; v so that it runs
-// mostly up its world axis: a wall along the axes gets the axes that make_cuboid() gives it.
+// u along the first of x, y, z that lies in the plane, otherwise along the one nearest to it; v with a positive
+// component along its nearest world axis: a wall along the axes gets the same axes as from make_cuboid().
 Plane plane_through(const glm::dvec3& origin, const glm::dvec3& normal) {
   const glm::dvec3 slope = glm::abs(normal);
   int first = 0;
@@ -60,7 +60,7 @@ class Cutter {
   Cutter(const Surface& surface, const std::vector<TriangleShape>& shapes, double noise_m)
       : surface_(surface), shapes_(shapes), noise_m_(noise_m), links_(surface), asked_by_(shapes.size(), no_one) {}
 
-  // The patch that grows from `seed`; its triangles are taken from then on.
+  // The patch that grows from `seed`; its triangles then count as taken.
   Patch grow(std::uint32_t seed);
 
   bool taken(std::uint32_t triangle) const { return asked_by_[triangle] == taken_for_good; }
@@ -76,7 +76,7 @@ class Cutter {
   const std::vector<TriangleShape>& shapes_;
   double noise_m_;
   MeshLinks links_;
-  std::vector<std::uint32_t> asked_by_;  // seed of the patch that last asked a triangle
+  std::vector<std::uint32_t> asked_by_;  // seed of the patch that last tested a triangle
 };
 
 bool Cutter::joins(std::uint32_t triangle, const Plane& plane, OverlapIndex& index, Patch& patch) {

@@ -1,4 +1,4 @@
-// Patches: a surface cut into pieces that lie nearly flat.
+// Patches: a surface cut into pieces that are nearly plane.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@
 
 namespace lichtmc {
 
-// Triangles that hang together by their edges, with normals less than 50° from that of the largest, projected on its
-// plane, where they do not overlap.
+// Triangles connected by edges, with normals less than 50° from that of the largest, projected on its plane, where they
+// do not overlap.
 struct Patch {
   std::vector<std::uint32_t> triangles;  // indices into Surface::triangles, the largest first
-  std::vector<FlatTriangle> flat;        // m, their corners in the plane: first axis as near to a world axis as can be
+  std::vector<FlatTriangle> flat;        // m, their corners in the plane: first axis as close to a world axis as possible
 };
 
 struct Patches {
   std::vector<Patch> patches;
-  std::vector<std::uint32_t> slivers;  // triangles that no patch took and that are too thin to have a normal
+  std::vector<std::uint32_t> slivers;  // triangles in no patch that are too thin to have a normal
 };
 
-// Cuts a surface into patches: from the largest triangle that is in none yet, over the edges, as far as it goes.
-// `noise_m` (≥ 0): triangles thinner than this have no direction of their own and go with any neighbour; overlaps no
+// Cuts a surface into patches: each grows from the largest triangle that is in none yet, over the edges, as far as
+// possible. `noise_m` (≥ 0): triangles thinner than this have no reliable normal and join any neighbour; overlaps no
 // deeper than this do not count.
 Patches cut_into_patches(const Surface& surface, const std::vector<TriangleShape>& shapes, double noise_m);
 

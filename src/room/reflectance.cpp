@@ -25,7 +25,7 @@ double pixels_across(const Corners& corner, const glm::dvec2& pixels) {
                    glm::length((corner[2] - corner[1]) * pixels)});
 }
 
-// Mean over a triangle by n × n congruent parts, each taken at its centroid: exact where ρ is linear.
+// Mean over a triangle by n × n congruent parts, each evaluated at its centroid: exact where ρ is linear.
 double mean_over(const Corners& corner, int n, const ReflectanceMap& map) {
   const glm::dvec2 a = (corner[1] - corner[0]) / static_cast<double>(n);
   const glm::dvec2 b = (corner[2] - corner[0]) / static_cast<double>(n);
@@ -54,7 +54,7 @@ double mean_reflectance(const Room& room, const Surface& surface) {
   if (!surface.reflectance_map) return surface.reflectance;
   const ReflectanceMap& map = room.reflectance_maps[*surface.reflectance_map];
   const glm::dvec2 pixels(map.columns, map.rows);
-  // A part for every pixel, but no more than some million parts for a surface.
+  // One part per pixel, but no more than some million parts per surface.
   constexpr double most_parts = 0x1p21;
   double parts = 0.0;
   for (const glm::uvec3& t : surface.triangles) {

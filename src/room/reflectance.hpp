@@ -1,4 +1,4 @@
-// Reflectance at a place of a map.
+// Reflectance at a position on a reflectance map.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace lichtmc {
 
-// The two neighbouring values that a texture coordinate lies between, and how far it is from the first to the second.
-// Values are at the middle of their pixels: the first of n at 0.5/n (glTF 2.0 specification, section 3.8.3).
+// The two neighbouring values of a texture coordinate, and its relative distance from the first to the second. Values
+// are at the centres of their pixels: the first of n at 0.5/n (glTF 2.0 specification, section 3.8.3).
 struct Between {
   std::uint32_t first = 0;
   std::uint32_t second = 0;
@@ -19,7 +19,7 @@ struct Between {
 };
 
 inline Between pixels_about(double coordinate, std::uint32_t count, Wrap wrap) {
-  // Into one round, or one round and back, of the picture: what is left are numbers of its own size.
+  // Reduced to one period of the image.
   double place = coordinate;
   if (wrap == Wrap::repeat) {
     place -= std::floor(place);
@@ -34,13 +34,13 @@ inline Between pixels_about(double coordinate, std::uint32_t count, Wrap wrap) {
   const std::uint32_t last = count - 1;
   Between between;
   between.share = pixel - low;
-  // Beyond the rim lies the other rim of a repeated picture, else the rim itself.
+  // Beyond an edge a repeated image continues with the opposite edge, any other with the same edge.
   between.first = low >= 0.0 ? static_cast<std::uint32_t>(low) : (wrap == Wrap::repeat ? last : 0);
   between.second = low + 1.0 < count ? static_cast<std::uint32_t>(low + 1.0) : (wrap == Wrap::repeat ? 0 : last);
   return between;
 }
 
-// ρ at a place of a map; u and v are finite.
+// ρ at a position on a reflectance map; u and v are finite.
 inline double reflectance_at(const ReflectanceMap& map, double u, double v) {
   const Between column = pixels_about(u, map.columns, map.wrap_u);
   const Between row = pixels_about(v, map.rows, map.wrap_v);
@@ -53,7 +53,7 @@ inline double reflectance_at(const ReflectanceMap& map, double u, double v) {
   return a + row.share * (along(second) - a);
 }
 
-// The highest reflectance that surfaces have anywhere; of one with a map it is the highest value of the map.
+// The highest reflectance of each surface; with a reflectance map the highest value of the map.
 class HighestReflectance {
  public:
   explicit HighestReflectance(const Room& room);

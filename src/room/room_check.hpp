@@ -5,11 +5,11 @@
 
 namespace lichtmc {
 
-// Whether surfaces and reflectance maps are sound, and there is a triangle with an area. Throws InputError as
+// Checks that surfaces and reflectance maps are valid, and that a triangle has an area. Throws InputError as
 // check_room().
 void check_surfaces(const Room& room);
 
-// Whether there are emitters, and they are sound.
+// Checks that there are emitters, and that they are valid.
 void check_emitters(const Room& room);
 
 }  // namespace lichtmc

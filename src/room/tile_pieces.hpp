@@ -1,7 +1,7 @@
-// Tiles as pieces of the room's triangles, to find points that are uniform over a tile's area.
+// Tiles as pieces of the room's triangles, to sample points that are uniform over a tile's area.
 //
-// A tile is what of a surface lies in a cell of its grid: triangles cut along the cell's sides. Points are chosen by
-// the area of these pieces in 3-D, so that a chart that stretches the surface does no harm.
+// A tile is the part of a surface in one cell of its grid: triangles clipped to the cell. Points are sampled by the
+// area of these pieces in 3-D: a chart that stretches the surface does not change their distribution.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct TilePiece {
   std::uint32_t triangle = 0;           // index into Surface::triangles
 };
 
-// A place on a surface: barycentric coordinates of the second and third corner of one of its triangles.
+// A position on a surface: barycentric coordinates of the second and third corner of one of its triangles.
 struct SurfacePlace {
   std::uint32_t triangle = 0;
   glm::dvec2 weights{0.0};
@@ -40,7 +40,8 @@ class TilePieces {
     return {pieces_.data() + first_[tile], pieces_.data() + first_[tile] + count_[tile]};
   }
 
-  // The place on a tile that u, v in [0, 1) choose, uniform over its area: u goes along the pieces, both fill each.
+  // The position on a tile for u, v in [0, 1), uniform over its area: u selects the piece, both select the position on
+  // it.
   SurfacePlace place(std::size_t tile, double u, double v) const;
 
  private:
@@ -49,7 +50,7 @@ class TilePieces {
   std::vector<std::uint32_t> count_;  // per tile
 };
 
-// The point of a surface at a place.
+// The point of a surface at a position.
 glm::dvec3 point_at(const Surface& surface, std::uint32_t triangle, const glm::dvec2& weights);
 
 }  // namespace lichtmc

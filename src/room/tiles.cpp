@@ -27,8 +27,8 @@ constexpr double most_cells = 0x1p31;
 // 2·10⁷ tiles.
 constexpr double bytes_per_cell = 212.0;
 
-// A cell's centre counts as on a triangle when it is outside by no more than this share of it: on an edge between two
-// triangles rounding must not put it on neither.
+// A cell's centre counts as on a triangle if it is outside by no more than this share of it: otherwise rounding could
+// exclude a centre on the edge between two triangles from both.
 constexpr double on_triangle = -1e-9;
 
 Chart make_chart(const Surface& surface, const std::vector<TriangleShape>& shapes, double edge_m) {
@@ -73,12 +73,12 @@ void check_cells(const Room& room, const std::vector<Chart>& charts, double edge
                    to_text(enough) + " or more, or check that the room's coordinates are metres.");
 }
 
-// One map being filled.
+// Fills one tile map.
 class MapTiler {
  public:
   MapTiler(const Surface& surface, TileMap& map) : surface_(surface), map_(map) {}
 
-  // Cuts a triangle into cells and adds its pieces to their tiles, which are numbered as they are met.
+  // Cuts a triangle into cells and adds its pieces to their tiles, which are numbered in order of appearance.
   void add(std::size_t triangle, double area_m2, const std::array<glm::dvec2, 3>& corners);
 
   // Renumbers the tiles from `first` on, row by row, and appends them.
@@ -117,7 +117,7 @@ glm::dvec3 MapTiler::point_on(std::size_t triangle, const glm::dvec3& weights) c
          weights.z * surface_.positions[corner.z];
 }
 
-// Barycentric coordinates of a place in the grid; not finite where the triangle has no area there.
+// Barycentric coordinates of a point in the grid; not finite if the triangle has no area there.
 glm::dvec3 weights_at(const glm::dvec2& place, const std::array<glm::dvec2, 3>& corners) {
   const glm::dvec2 b = corners[1] - corners[0];
   const glm::dvec2 c = corners[2] - corners[0];

@@ -1,4 +1,4 @@
-// Size, direction and thinness of a surface's triangles.
+// Area, normal and thickness of a surface's triangles.
 #pragma once
 
 #include <vector>
@@ -9,21 +9,21 @@
 
 namespace lichtmc {
 
-// How far two places can appear from each other, relative to the largest coordinate, because coordinates are floats:
-// each coordinate of each is off by at most 2⁻²⁵, together at most √2·2⁻²⁴; 2⁻²² leaves room for a transform. Shapes
-// thinner than that, and overlaps shallower than that, mean nothing.
+// The largest distance that float rounding can make between two equal positions, relative to the largest coordinate:
+// each coordinate of each has an error of at most 2⁻²⁵, together at most √2·2⁻²⁴; 2⁻²² includes a transformation.
+// Thinner shapes and shallower overlaps have no meaning.
 inline constexpr double float_noise = 0x1p-22;
 
 struct TriangleShape {
-  double area_m2 = 0.0;      // 0 also where the corners are so far out that the area is no finite number
+  double area_m2 = 0.0;      // 0 also if the corners are so far out that the area is not finite
   double thickness_m = 0.0;  // the smallest of its heights
-  glm::dvec3 normal{0.0};    // towards the front, length 1; zero where there is no area
+  glm::dvec3 normal{0.0};    // towards the front, length 1; zero if there is no area
 };
 
 // The shapes of a surface's triangles, in their order.
 std::vector<TriangleShape> triangle_shapes(const Surface& surface);
 
-// The largest edge in metres of the box about all triangles of a surface; 0 where there is none.
+// The largest edge, in metres, of the bounding box of all triangles of a surface; 0 if there are none.
 double largest_extent_m(const Surface& surface);
 
 }  // namespace lichtmc

@@ -15,12 +15,12 @@ namespace lichtmc {
 
 namespace {
 
-// As much as a texture coordinate that should be 0 or 1 may miss it by rounding: a decoded normalized integer or a
-// KHR_texture_transform in floats is off by some 2⁻²³.
+// Largest rounding error of a texture coordinate that should be 0 or 1: a decoded normalized integer or a
+// KHR_texture_transform in floats has an error of some 2⁻²³.
 constexpr double wrap_tolerance = 1e-6;
 
-// Triangles whose UVs have collapsed may make up this share of a surface: it is no more than the rounding of float
-// coordinates to which any area is known.
+// Triangles whose UVs have no area may be this share of a surface: float coordinates do not determine an area more
+// precisely.
 constexpr double collapsed_share = 1e-6;
 
 FlatTriangle uv_corners(const Surface& surface, std::size_t triangle) {
@@ -45,7 +45,7 @@ Bounds uv_bounds(const Surface& surface, const std::vector<TriangleShape>& shape
   return bounds;
 }
 
-// By how much float rounding moves UVs within these bounds against each other.
+// The largest distance by which float rounding moves UVs within these bounds relative to each other.
 double uv_noise(const Bounds& bounds) {
   const glm::dvec2 largest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
   return float_noise * std::max(largest.x, largest.y);
@@ -153,7 +153,7 @@ Chart make_uv_chart(const Surface& surface, const std::vector<TriangleShape>& sh
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const FlatTriangle uv = uv_corners(surface, k);
     for (std::size_t n = 0; n < 3; ++n) {
-      const bool known = std::isfinite(uv[n].x) && std::isfinite(uv[n].y);  // only a triangle without area may lack it
+      const bool known = std::isfinite(uv[n].x) && std::isfinite(uv[n].y);  // only triangles without area may have UVs that are not finite
       chart.corners[k][n] = known ? grid(uv[n]) : glm::dvec2(0.0);
     }
   }

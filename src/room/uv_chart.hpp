@@ -10,14 +10,14 @@
 
 namespace lichtmc {
 
-// Why a surface's UVs cannot tell its points apart, as the end of a sentence that ends in "because": "it has no UVs",
-// "its UVs wrap …", "its UVs are degenerate …", "its UVs overlap …". Empty where the UVs serve. Triangles without area
-// are not looked at.
+// Why a surface's UVs do not distinguish its points, as the part of a sentence after "because": "it has no UVs", "its
+// UVs wrap …", "its UVs are degenerate …", "its UVs overlap …". Empty if the UVs can be used. Triangles without area
+// are ignored.
 std::string uv_fault(const Surface& surface, const std::vector<TriangleShape>& shapes);
 
-// The chart of a surface without a uv_fault(): the grid spans the bounds of its UVs, and a direction gets as many cells
-// as the chart is long: its extent in u (v) times the area-weighted rms of |∂P/∂u| (|∂P/∂v|), which is exact where the
-// chart is affine. edge_m: edge of a tile in metres, > 0.
+// The chart of a surface without a uv_fault(): the grid spans the bounds of its UVs, and the number of cells along a
+// direction follows from the length of the chart: its extent in u (v) times the area-weighted rms of |∂P/∂u| (|∂P/∂v|),
+// which is exact if the chart is affine. edge_m: edge of a tile in metres, > 0.
 Chart make_uv_chart(const Surface& surface, const std::vector<TriangleShape>& shapes, double edge_m);
 
 }  // namespace lichtmc

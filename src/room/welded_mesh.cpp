@@ -38,7 +38,7 @@ class Welder {
   }
 
  private:
-  // A hash of the cell's coordinates, which are below 10⁶ + 2 in size; equal hashes of different cells only cost time.
+  // A hash of the cell's coordinates, which are below 10⁶ + 2 in size; equal hashes of different cells cost only time.
   static std::uint64_t key(const glm::dvec3& cell) {
     const auto part = [](double c) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(c) + 2); };
     return part(cell.x) | part(cell.y) << 21 | part(cell.z) << 42;
@@ -54,7 +54,7 @@ bool has_three_corners(const WeldedMesh::Triangle& t) {
   return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
 }
 
-// Leaves one of triangles with the same corners; the others keep no corners of their own.
+// Keeps one of several triangles with the same corners; the others get three equal corners.
 std::vector<std::size_t> drop_copies(std::vector<WeldedMesh::Triangle>& triangles) {
   std::vector<std::pair<WeldedMesh::Triangle, std::size_t>> order;
   order.reserve(triangles.size());

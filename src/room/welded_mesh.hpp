@@ -1,4 +1,4 @@
-// All triangles of a room as one mesh, in which corners that lie together are one.
+// All triangles of a room as one mesh, in which corners at the same position are one.
 #pragma once
 
 #include <array>
@@ -21,24 +21,24 @@ struct WeldedEdge {
   bool same_place(const WeldedEdge& other) const { return from == other.from && to == other.to; }
 };
 
-// Corners are one where they lie within a millionth of the room's size of each other: exporters round them. Triangles
-// with the same corners count once, whatever their winding: a wall that is there twice, as exporters write one for each
-// side, stops light once.
+// Corners within a millionth of the room's size of each other are one: exporters round them. Triangles with the same
+// corners count once, whatever their winding: some exporters write a wall twice, once for each side, but it blocks
+// light once.
 class WeldedMesh {
  public:
-  using Triangle = std::array<std::uint32_t, 3>;  // numbers of its corners' places
+  using Triangle = std::array<std::uint32_t, 3>;  // numbers of its corners' positions
   using Corners = std::array<glm::dvec3, 3>;      // m
 
   explicit WeldedMesh(const Room& room);
 
   // The room's triangles, surface by surface. Copies of another, and those without three corners, have equal numbers.
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  // The edges of those with three corners, the same places side by side.
+  // The edges of those with three corners, sorted so that equal edges are adjacent.
   const std::vector<WeldedEdge>& edges() const { return edges_; }
   // Triangles that are copies of another, in ascending order.
   const std::vector<std::size_t>& copies() const { return copies_; }
   const std::vector<glm::dvec3>& places() const { return places_; }
-  // A triangle's own corners, not rounded to their places.
+  // A triangle's own corners, not the merged positions.
   const Corners& corners(std::size_t triangle) const { return corners_[triangle]; }
 
  private:
@@ -49,7 +49,7 @@ class WeldedMesh {
   std::vector<glm::dvec3> places_;
 };
 
-// Calls use(first, end) for every run of edges in the same place.
+// Calls use(first, end) for every run of equal edges.
 template <class Use>
 void for_each_edge(const std::vector<WeldedEdge>& edges, const Use& use) {
   for (std::size_t first = 0, end = 0; first < edges.size(); first = end) {

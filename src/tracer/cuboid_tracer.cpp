@@ -1,9 +1,9 @@
-// Flights through an empty cuboid in closed form: λ = (d − n·a)/(n·v) for the three walls a flight goes towards, and
-// the smallest counts.
+// Flights through an empty cuboid in closed form: λ = (d − n·a)/(n·v) for the three walls that a flight approaches; the
+// smallest λ counts.
 //
 // Source: H. Schulze, Lichtausbreitung in Räumen, 2021, eq. 15-17. In the tracer's coordinates the cuboid is the unit
-// cube. A photon on a wall lies on it exactly and flies away from it, so that it cannot meet the wall it leaves, and no
-// photon can get out: no tolerance is needed.
+// cube. A photon on a wall lies exactly on it and flies away from it: it cannot hit the wall that it leaves, and no
+// photon can escape. No tolerance is needed.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,7 +40,8 @@ constexpr std::size_t t_axis(std::size_t axis) {
 
 using Three = std::array<const float*, 3>;
 
-// Where flights through the unit cube end. `behind`: bit by bit, whether a face is met on its back.
+// End points of flights through the unit cube. `behind`: bit k is 1 if face k is hit on its back. One function, so that
+// the loop vectorises as a whole.
 LICHTMC_LANES void trace_lanes(std::size_t n, const Three& start, const Three& direction, std::uint32_t behind,
                                std::uint32_t* LICHTMC_APART facet, float* LICHTMC_APART s, float* LICHTMC_APART t,
                                std::uint32_t* LICHTMC_APART back, float* LICHTMC_APART length) {
@@ -50,7 +51,7 @@ LICHTMC_LANES void trace_lanes(std::size_t n, const Three& start, const Three& d
   const float* LICHTMC_APART dx = direction[0];
   const float* LICHTMC_APART dy = direction[1];
   const float* LICHTMC_APART dz = direction[2];
-  // Distance in one coordinate to the wall that the flight goes to; infinite where it goes along the walls.
+  // λ of the wall that the flight approaches along one axis; infinite if the flight is parallel to it.
   const auto distance = [](float from, float along) {
     const float wall = along > 0.0F ? 1.0F : 0.0F;
     const float lambda = (wall - from) / along;
@@ -74,7 +75,7 @@ LICHTMC_LANES void trace_lanes(std::size_t n, const Three& start, const Three& d
     const float end_x = inside(x[i] + lambda * dx[i]);
     const float end_y = inside(y[i] + lambda * dy[i]);
     const float end_z = inside(z[i] + lambda * dz[i]);
-    // Only the light of an emitter on a wall can start towards that wall: it leaves the room at once.
+    // Only a photon of an emitter on a wall can start towards that wall; it leaves the room at once.
     const bool leaves = (facet[i] == no_facet) & (lambda <= 0.0F);
     facet[i] = leaves ? no_facet : face;
     s[i] = z_first ? end_x : (y_first ? end_z : end_y);
@@ -84,7 +85,7 @@ LICHTMC_LANES void trace_lanes(std::size_t n, const Three& start, const Three& d
   }
 }
 
-// Points on faces from their own coordinates.
+// A point on a face, from the coordinates s and t of the face.
 struct OnFace {
   float x, y, z;
 
@@ -113,7 +114,7 @@ LICHTMC_LANES void depart_lanes(std::size_t n, const std::uint32_t* LICHTMC_APAR
   }
 }
 
-// Points on the faces, and directions off them into the cube by Lambert's law.
+// Points on the faces, and directions into the cube by Lambert's law.
 LICHTMC_LANES void scatter_lanes(std::size_t n, const std::uint32_t* LICHTMC_APART facet, const float* LICHTMC_APART s,
                                  const float* LICHTMC_APART t, const std::uint32_t* LICHTMC_APART polar,
                                  const std::uint32_t* LICHTMC_APART azimuth, const std::array<float, 3>& unit,
@@ -188,7 +189,7 @@ class CuboidTracer final : public Tracer {
         result.point[k] = static_cast<float>(unit[k]);
         continue;
       }
-      // Within rounding of a wall it is on it, or the next place before it.
+      // Within rounding of a wall the point lies on it, or at the next float in front of it.
       const glm::dvec3 edge = world_vector({k == 0, k == 1, k == 2});
       const bool inside = upper ? unit[k] < wall : unit[k] > wall;
       const double length = glm::length(edge);
@@ -206,7 +207,7 @@ class CuboidTracer final : public Tracer {
     return unit.x >= 0.0F && unit.x <= 1.0F && unit.y >= 0.0F && unit.y <= 1.0F && unit.z >= 0.0F && unit.z <= 1.0F;
   }
 
-  // Whether a surface's front, from which it emits, is the outside of the cuboid anywhere.
+  // Whether a surface's front, from which it emits, is the outside of any face of the cuboid.
   bool emits_outwards(std::size_t surface) const {
     for (std::size_t face = 0; face < 6; ++face) {
       if (facets_[face].surface == surface && (behind_ >> face & 1U) != 0) return true;
@@ -231,11 +232,11 @@ class CuboidTracer final : public Tracer {
   }
 
  private:
-  // A step of float coordinates next to 1.
+  // The spacing of floats at 1.
   static constexpr double wall_rounding = 0x1p-23;
 
-  // Frame to scatter about: the world's unit vectors along the edges, in the tracer's coordinates, where they have
-  // other lengths.
+  // Frame for scattering: the world's unit vectors along the edges, in the tracer's coordinates, where they have other
+  // lengths.
   void face_frame(std::size_t face) {
     const std::size_t axis = axis_of(face);
     const auto along = [&](std::size_t k) {
@@ -256,12 +257,12 @@ class CuboidTracer final : public Tracer {
 
   glm::dvec3 corner_;
   glm::dmat3 points_{1.0};
-  std::uint32_t behind_ = 0;     // bit by bit: 1 where the inside of the room is the back of the face
+  std::uint32_t behind_ = 0;     // bit k is 1 if the inside of the room is the back of face k
   std::array<float, 3> unit_{};  // lengths of the world's unit vectors along the axes, in the tracer's coordinates
   std::vector<std::vector<TriangleOnFacet>> triangles_;
 };
 
-// The part of a room's face that one triangle is: its corners in the face's coordinates and in the surface's grid.
+// A triangle as part of a face: its corners in the face's coordinates and in the surface's grid.
 struct Piece {
   std::size_t surface = 0;
   bool front_along_axis = false;  // its normal points along the face's axis, not against it
@@ -275,7 +276,7 @@ double twice_area(const std::array<glm::dvec2, 3>& corner) {
   return a.x * b.y - a.y * b.x;
 }
 
-// The map from face coordinates to cells that a piece's corners define.
+// The affine transformation from face coordinates to cells that a piece's corners define.
 struct CellMap {
   glm::dvec2 cell_0{0.0};
   glm::dmat2 slope{0.0};
@@ -289,7 +290,7 @@ struct CellMap {
   glm::dvec2 operator()(const glm::dvec2& st) const { return cell_0 + slope * st; }
 };
 
-// UVs are floats in files: corners may miss the map by some roundings of the grid's extent.
+// UVs are floats in files: corners may deviate from the transformation by some roundings of the grid's extent.
 bool follows(const CellMap& map, const Piece& piece, double grid_extent) {
   constexpr double uv_roundings = 4.0 * 0x1p-23;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -299,8 +300,8 @@ bool follows(const CellMap& map, const Piece& piece, double grid_extent) {
   return true;
 }
 
-// The facet that a face's pieces make together; none where they belong to different surfaces, face different sides or
-// do not share one map to the tiles.
+// The facet that the pieces of a face form; none if they belong to different surfaces, face different sides or do not
+// share one transformation to cells.
 std::optional<Facet> add_face(std::size_t axis, const std::vector<Piece>& pieces, double grid_extent) {
   const auto largest = std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
     return std::abs(twice_area(a.st)) < std::abs(twice_area(b.st));
@@ -342,7 +343,7 @@ Piece make_piece(const Room& room, const Tiling& tiling, const CuboidShape& shap
     piece.st[c] = {glm::dot(from_corner, edge_s) / glm::dot(edge_s, edge_s),
                    glm::dot(from_corner, edge_t) / glm::dot(edge_t, edge_t)};
   }
-  // s × t points along the axis: the triangle's own winding in (s, t) tells which segment its front looks.
+  // s × t points along the axis: the triangle's winding in (s, t) determines the direction of its front.
   piece.front_along_axis = twice_area(piece.st) > 0.0;
   return piece;
 }

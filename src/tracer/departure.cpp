@@ -12,24 +12,23 @@ namespace lichtmc {
 
 namespace {
 
-// Where a facet is parallel to two axes the normal has one component, to the last digit, and only the coordinate along
-// it counts: such walls may stand as close to each other as they like. Near the origin a distance remains that does not
-// vanish in the products.
+// If a facet is parallel to two axes, its normal has exactly one component, and only the coordinate along it counts:
+// the distance between such walls may be arbitrarily small. Near the origin this step remains, which does not vanish in
+// the products.
 constexpr double least_step = step_roundings * 0x1p-24;
 
-// A photon keeps this many steps away from the sides of its facet, so that it stays inside where walls meet at angles
-// down to 27°.
+// Margin of a photon from the sides of its facet, in steps: it stays inside where walls meet at angles down to 27°.
 constexpr double margin_steps = 2.0;
 
-// But it is never moved by more than this share of the facet: on slivers, narrower than some steps, the margin gives
-// way.
+// A photon is never moved by more than this share of the facet: on slivers, narrower than some steps, the margin is
+// smaller.
 constexpr double largest_margin = 0x1p-10;
 
 double largest_component(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// Where a photon on a facet starts: the rule is in the header.
+// Start point of a photon on a facet; the rule is in the header.
 struct StartPoint {
   double x, y, z;
 
@@ -42,7 +41,7 @@ struct StartPoint {
     const double excess = too_far > 0.0 ? 0.5 * too_far : 0.0;
     s -= excess;
     t -= excess;
-    // In the acute corner that took one of them below its margin; the other has more than enough.
+    // In the acute corner this moved one of them below its margin; the other is well above its own.
     const double s_lacks = s < margin_s ? margin_s - s : 0.0;
     const double t_lacks = t < margin_t ? margin_t - t : 0.0;
     s += s_lacks - t_lacks;
@@ -54,7 +53,7 @@ struct StartPoint {
   }
 };
 
-// Photons on facets: where they start, and directions off them by Lambert's law, on the side named.
+// Start points on facets, and directions by Lambert's law, on the side given by `behind`.
 LICHTMC_LANES void scatter_lanes(std::size_t n, const Departure* LICHTMC_APART departures,
                                  const std::uint32_t* LICHTMC_APART facet, const float* LICHTMC_APART s,
                                  const float* LICHTMC_APART t, const std::uint32_t* LICHTMC_APART behind,

@@ -1,13 +1,13 @@
-// Leaving facets whose corners are floats.
+// How photons leave facets whose corners are floats.
 //
 // The rule:
-//  1. A photon keeps a margin from the sides of its facet: one that landed within rounding of an edge would otherwise
+//  1. A photon keeps a margin from the sides of its facet: after a hit within rounding of an edge it would otherwise
 //     start outside the room.
-//  2. It starts one step off the facet's plane, on the side that it was hit on: the facet itself would otherwise be
-//     found at distance 0.
+//  2. It starts one step off the facet's plane, on the side that was hit: otherwise the ray would hit the facet itself
+//     at distance 0.
 //
-// Both are some 10⁻⁶ of the room, below what float coordinates can tell apart, and are scored nowhere: tiles count the
-// true hit.
+// Both are some 10⁻⁶ of the room's size, below the resolution of float coordinates, and do not affect scores: tiles
+// count the true hit.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@
 
 namespace lichtmc {
 
-// What leaving a facet needs: its corners as the tracer has them, and the two lengths of the rule. Together it fills a
-// line of the cache: in large rooms every one is a walk to memory.
+// What leaving a facet requires: its corners as the tracer has them, and the two lengths of the rule. It fills one
+// cache line: in large rooms every access is a cache miss.
 struct alignas(64) Departure {
   glm::vec3 corner{0.0F};
   glm::vec3 edge_s{0.0F};
@@ -31,7 +31,7 @@ struct alignas(64) Departure {
   float step = 0.0F;       // off the plane
 };
 
-// Embree decides on which side of a plane a ray starts from (corner − start)·normal. With the start rounded to float
+// Embree determines from (corner − start)·normal on which side of a plane a ray starts. With the start rounded to float
 // and three differences and products the error is below 4 roundings (2⁻²⁴ each) of the distance between start and
 // corner and one of the coordinates; twice that is the step.
 inline constexpr double step_roundings = 8.0 * 0x1p-24;
@@ -39,7 +39,7 @@ inline constexpr double step_roundings = 8.0 * 0x1p-24;
 // A facet by its corners and its normal, of length 1; both in the tracer's coordinates.
 Departure make_departure(const std::array<glm::vec3, 3>& corners, const glm::dvec3& normal);
 
-// As Tracer::depart() and Tracer::scatter(), Rays::facet being a place in `departures`.
+// As Tracer::depart() and Tracer::scatter(); Rays::facet is an index into `departures`.
 void depart_from(const std::vector<Departure>& departures, Rays& rays);
 void scatter_from(const std::vector<Departure>& departures, Rays& rays, const std::uint32_t* polar,
                   const std::uint32_t* azimuth, float* cosines);

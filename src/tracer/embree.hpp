@@ -1,4 +1,4 @@
-// Embree 3 (Debian 12) or 4 (Debian 13): the one place where their difference shows.
+// Embree 3 (Debian 12) or 4 (Debian 13): the only file that handles their differences.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -9,7 +9,7 @@
 
 namespace lichtmc {
 
-// What accompanies the queries of one wave.
+// The arguments (Embree 4) or the context (Embree 3) for the queries of one wave.
 class EmbreeQuery {
  public:
 #if RTC_VERSION_MAJOR >= 4

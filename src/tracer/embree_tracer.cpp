@@ -1,6 +1,6 @@
 // Flights through any room by Embree.
 //
-// Embree computes in float. Three things keep that from showing:
+// Embree computes in float. Three measures keep results independent of that precision:
 //  * The room is moved to the origin and scaled: see Placement.
 //  * A hit point is computed in double from the facet's own corners, as Embree has them, and the barycentric
 //    coordinates of the hit: it lies in the facet's plane, however long the flight was (C. Waechter, N. Binder: A Fast
@@ -109,7 +109,7 @@ class EmbreeTracer final : public Tracer {
 
   bool casts_shadows() const override { return casts_shadows_; }
 
-  // Coordinates lie between −1 and 1, and no side is longer than 2√3: the step of the largest facet there can be.
+  // Coordinates lie between −1 and 1, and no side is longer than 2√3: the step of the largest possible facet.
   float step() const override { return static_cast<float>(step_roundings * 5.0); }
 
   TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const override {
@@ -129,7 +129,7 @@ class EmbreeTracer final : public Tracer {
     ray.tfar = 1.0F;
     ray.mask = 0xFFFFFFFF;
     query.occluded(scene_.get(), ray);
-    return ray.tfar < 0.0F;  // Embree's word for yes is −∞
+    return ray.tfar < 0.0F;  // Embree reports occlusion by tfar = −∞
   }
 
   void take_in(RoomTriangles triangles);
@@ -150,9 +150,9 @@ class EmbreeTracer final : public Tracer {
     return hit;
   }
 
-  // A ray that found no surface in a closed room went exactly through an edge or a corner. Four rays beside it, about a
-  // step away, cannot all do so; the nearest surface they meet is the one. One of them may start behind a wall close by
-  // and meet its outside at once: what is met within some steps counts only where nothing else is.
+  // A ray that hit no surface in a closed room went exactly through an edge or a corner. Four rays beside it, about a
+  // step away, cannot all do so; the nearest surface that they hit is the result. One of them may start behind a wall
+  // close by and hit its outside at once: a hit within some steps counts only if there is no other.
   void retrace(EmbreeQuery& query, Rays& rays, std::size_t i) const {
     const glm::vec3 start = rays.start(i);
     const glm::vec3 direction = rays.direction(i);
@@ -179,7 +179,7 @@ class EmbreeTracer final : public Tracer {
 
   static constexpr std::size_t packet_size = 8;
 
-  // Flights first … first + 7 as Embree takes them. Arrays of rays reach to whole_lanes().
+  // Copies flights first … first + 7 into a packet. The arrays of rays have whole_lanes() elements.
   static void fill(RTCRayHit8& packet, const Rays& rays, std::size_t first) {
     RTCRay8& ray = packet.ray;
     std::copy_n(&rays.x[first], packet_size, ray.org_x);
@@ -193,7 +193,7 @@ class EmbreeTracer final : public Tracer {
     std::fill_n(packet.hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
   }
 
-  // Where they ended; whether some met nothing. The normals that Embree tells point to the fronts.
+  // Copies the hits of a packet to its flights; returns whether some hit nothing. Embree's normals point to the fronts.
   bool land(const RTCRayHit8& packet, Rays& rays, std::size_t first) const {
     const RTCHit8& hit = packet.hit;
     const RTCRay8& ray = packet.ray;
@@ -210,7 +210,7 @@ class EmbreeTracer final : public Tracer {
     std::copy_n(hit.u, packet_size, &rays.s[first]);
     std::copy_n(hit.v, packet_size, &rays.t[first]);
     std::copy_n(ray.tfar, packet_size, &rays.length[first]);
-    // Those that fly on will ask for it.
+    // Flights that continue will need it.
     for (std::size_t k = 0; k < packet_size && misses == 0; ++k) __builtin_prefetch(&departures_[facet[k]]);
     return misses != 0;
   }
@@ -224,7 +224,7 @@ class EmbreeTracer final : public Tracer {
   std::vector<Departure> departures_;
 };
 
-// Embree copies what it needs, so that vertices and corners may go.
+// Embree has its own copy of vertices and corners, so they are not kept.
 void EmbreeTracer::take_in(RoomTriangles triangles) {
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   const auto fill = [geometry](RTCBufferType type, RTCFormat format, const auto& elements) {

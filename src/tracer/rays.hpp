@@ -13,7 +13,7 @@
 namespace lichtmc {
 
 struct Rays {
-  // For at least so many flights; the arrays reach to whole_lanes().
+  // For at least `capacity` flights; the arrays have whole_lanes(capacity) elements.
   explicit Rays(std::size_t capacity) {
     const std::size_t whole = whole_lanes(capacity);
     for (auto* numbers : {&x, &y, &z, &dx, &dy, &dz, &s, &t, &length}) numbers->resize(whole);
@@ -25,12 +25,12 @@ struct Rays {
   std::vector<float> x, y, z;     // where a flight starts, in the tracer's coordinates
   std::vector<float> dx, dy, dz;  // direction of flight, any length but 0
 
-  // Before a flight: the facet the photon leaves, or no_facet where it starts in the open. After it: the facet it
-  // landed on, or no_facet.
+  // Before a flight: the facet that the photon leaves, or no_facet if it starts away from surfaces. After it: the facet
+  // that it has hit, or no_facet.
   std::vector<std::uint32_t> facet;
   std::vector<float> s, t;            // where on the facet
   std::vector<std::uint32_t> behind;  // 1: on the back of the facet, 0: on its front
-  std::vector<float> length;          // of the flight, in lengths of its direction
+  std::vector<float> length;          // of the flight, in units of the length of its direction
 
   void set_start(std::size_t i, const glm::vec3& point) {
     x[i] = point.x;
@@ -42,7 +42,7 @@ struct Rays {
     dy[i] = direction.y;
     dz[i] = direction.z;
   }
-  // Where flight `from` has landed is where flight `to` has.
+  // Copies the hit of flight `from` to flight `to`.
   void move_landing(std::size_t from, std::size_t to) {
     facet[to] = facet[from];
     s[to] = s[from];
@@ -53,7 +53,7 @@ struct Rays {
   glm::vec3 direction(std::size_t i) const { return {dx[i], dy[i], dz[i]}; }
 };
 
-// Straight segments between two points each, of which only is asked whether something stands between.
+// Straight segments between two points, to be tested for a surface between them.
 struct ShadowRays {
   void clear() { size = 0; }
   void add(const glm::vec3& start, const glm::vec3& segment) {
@@ -70,7 +70,7 @@ struct ShadowRays {
   std::size_t size = 0;
   std::vector<glm::vec3> starts;      // in the tracer's coordinates
   std::vector<glm::vec3> segments;    // from start to end
-  std::vector<std::uint8_t> blocked;  // 1: something stands between
+  std::vector<std::uint8_t> blocked;  // 1: a surface lies between
 };
 
 }  // namespace lichtmc

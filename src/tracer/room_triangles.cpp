@@ -29,12 +29,12 @@ RoomTriangles make_triangles(const Room& room, const Tiling& tiling, const Place
     for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
       const glm::uvec3 triangle = surface.triangles[n];
       const glm::dvec3 a = surface.positions[triangle.x];
-      // Scaled first: the cross product of a tiny room's edges would underflow.
+      // Scaled first: otherwise the cross product of a tiny room's edges would underflow.
       const glm::dvec3 cross = glm::cross(placement.scale * (surface.positions[triangle.y] - a),
                                           placement.scale * (surface.positions[triangle.z] - a));
       const double length = glm::length(cross);
-      // A triangle without area has no tile. Rounded to float it might become a sliver that is hit: it gets one corner
-      // only, and any normal.
+      // A triangle without area has no tile. Rounded to float, it could become a sliver that rays hit: it gets the same
+      // corner three times, and any normal.
       const Frame frame = frame_about(length > 0.0 ? cross / length : glm::dvec3(0.0, 1.0, 0.0));
       const auto& cells = tiling.cells[k][n];
       made.facets.push_back({glm::vec3(frame.tangent), glm::vec3(frame.bitangent), glm::vec3(frame.normal),

@@ -1,4 +1,4 @@
-// A room as triangles of floats, one facet each: what Embree is given.
+// A room as triangles in float, one facet each: the input of Embree.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace lichtmc {
 
-// The room is moved to the origin and scaled by a power of two so that its largest half extent lies in [½, 1): neither
-// its size nor its place costs digits.
+// The room is moved to the origin and scaled by a power of two so that its largest half extent lies in [½, 1): its size
+// and position cost no precision.
 struct Placement {
   glm::dvec3 centre{0.0};  // of the room, m
   double scale = 1.0;      // 1/m
@@ -29,7 +29,7 @@ Placement place(const Room& room);
 struct RoomTriangles {
   std::vector<glm::vec3> vertices;       // in the tracer's coordinates
   std::vector<glm::uvec3> corners;       // of each triangle, in `vertices`
-  std::vector<Facet> facets;             // of each triangle; s and t go to its second and third corner
+  std::vector<Facet> facets;             // of each triangle; s and t run to its second and third corner
   std::vector<Departure> departures;     // of each triangle
   std::vector<std::size_t> first_facet;  // of each surface
 };

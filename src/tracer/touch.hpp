@@ -1,4 +1,4 @@
-// Emitters closer to a surface than coordinates can say.
+// Emitters closer to a surface than the coordinates resolve.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +22,8 @@ struct NearPlane {
 
   double distance() const { return glm::dot(normal, emitter - on_plane); }
 
-  // By how much their distance may be off where the coordinates, or the steps of a transformation to them, were floats.
-  // A room far from the origin is as large as others: what moved it there did not round it.
+  // Largest error of their distance if the coordinates, or the steps of a transformation to them, were floats.
+  // Coordinates count with at most the extent of the room: a translation far from the origin counts as exact.
   double rounding() const {
     double sum = 0.0;
     for (int k = 0; k < 3; ++k)
@@ -33,8 +33,8 @@ struct NearPlane {
 };
 
 // Whether an emitter stays on its side of a plane that is too near for the tracer, or counts as lying on it. It stays
-// where the distance is more than a rounding and its beam (`axis`, of length 1, 0 for none) does not go through the
-// plane: a lamp flush with a ceiling that lies a little behind it is meant to shine.
+// if the distance is more than a rounding and its beam (`axis`, of length 1, 0 for none) does not go through the plane:
+// a luminaire flush with a ceiling that lies a little behind it is meant to emit into the room.
 inline bool stays_before(const NearPlane& plane, const glm::dvec3& axis) {
   constexpr double along_plane = 1e-6;  // sine of the angle up to which an axis counts as parallel
   const double distance = plane.distance();

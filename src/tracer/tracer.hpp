@@ -1,7 +1,7 @@
-// One question: where does each of these rays land?
+// Ray tracers: the first surface that each ray of a wave hits.
 //
-// Two tracers answer it, the closed form of the cuboid and Embree, and they must agree. Each has coordinates of its
-// own, centred on the room and scaled to it, so that neither a room's size nor its place matters.
+// There are two, the closed form of the cuboid and Embree; their results must agree. Each has its own coordinates,
+// centred on the room and scaled to it, so that the size and position of a room do not affect the precision.
 #pragma once
 
 #include <cstdint>
@@ -22,16 +22,16 @@
 
 namespace lichtmc {
 
-// What a ray that meets no surface is.
+// What it means if a ray hits no surface.
 enum class Misses {
   escape,   // it leaves through an opening
   retrace,  // the room is closed and the ray started inside: a numerical fault; it is traced again by a slower rule
 };
 
 struct TraceCount {
-  std::uint64_t rays = 0;         // rays traced, with those traced again and shadow rays
+  std::uint64_t rays = 0;         // all rays, including those traced again and shadow rays
   std::uint64_t retraced = 0;     // rays that were traced again
-  std::uint64_t shadow_rays = 0;  // rays that only asked whether something stands between two points
+  std::uint64_t shadow_rays = 0;  // rays that test whether a surface lies between two points
 
   void add(const TraceCount& other) { add_fields(*this, other); }
 };
@@ -49,7 +49,7 @@ struct Start {
   // The emitter touches these planes (normals times the step off a surface): a photon starts this far from each,
   // on the side it flies to.
   std::vector<glm::vec3> steps;
-  bool on_surface = false;  // it touches a surface, so that some of its light may leave the room at once
+  bool on_surface = false;  // it touches a surface: part of its light may leave the room at once
 };
 
 // A triangle of the room as part of a facet: facet coordinates (s, t) = st_0 + b1·st_1 + b2·st_2 for the barycentric
@@ -65,21 +65,22 @@ class Tracer {
  public:
   virtual ~Tracer() = default;
 
-  // Ends every flight of the wave at the first surface it meets: sets facet, s, t and behind.
+  // Ends every flight of the wave at the first surface that it hits: sets facet, s, t, behind and length.
   virtual void trace(Rays& rays, Misses misses, TraceCount& count) const = 0;
 
-  // Sets where flights start that leave a facet: x, y, z from facet, s, t and behind. Flights that leave none stay as
-  // they are.
+  // Sets the start points x, y, z of flights that leave a facet, from facet, s, t and behind. Other flights do not
+  // change.
   virtual void depart(Rays& rays) const = 0;
 
-  // Sends flights off the facets they have landed on by Lambert's law, on the side named: departs, and sets dx, dy, dz
-  // from two random words each. cosines: of the angles to the normals, unless null.
+  // Scatters flights by Lambert's law from the facets that they have hit, on the side given by `behind`: sets x, y, z
+  // as depart() does, and dx, dy, dz from two random words each. cosines: receives those of the angles to the normals,
+  // unless null.
   virtual void scatter(Rays& rays, const std::uint32_t* polar, const std::uint32_t* azimuth, float* cosines) const = 0;
 
-  // Where photons of an emitter at this point start; axis: the middle of its beam, of length 1, or 0 where it has none.
-  // An emitter on a surface, as far as coordinates of floats can say, shines to both sides of it, from each side what
-  // goes there. One before a surface, closer than the tracer's own coordinates can say, stays before it, unless its
-  // beam goes through it: then the distance is taken for a rounding.
+  // Where photons of an emitter at this point start. axis: centre of its beam, of length 1, or 0 if it has none. An
+  // emitter that lies on a surface, within the rounding of float coordinates, emits to both sides: each photon starts
+  // on the side to which it flies. An emitter in front of a surface, closer than the tracer's coordinates resolve,
+  // stays in front of it, unless its beam goes through the surface: then the distance counts as rounding.
   virtual Start start(const glm::dvec3& world_point_m, const glm::dvec3& axis) const = 0;
   virtual TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const = 0;
 
@@ -87,13 +88,13 @@ class Tracer {
   // blocked by any surface between.
   virtual void find_blocked(ShadowRays& rays, TraceCount& count) const = 0;
 
-  // The same for one of them.
+  // The same for one segment.
   virtual bool is_blocked(const glm::vec3& start, const glm::vec3& segment, TraceCount& count) const = 0;
 
-  // Whether some surface can stand between two points in the room. Where none can, nothing is asked.
+  // Whether a surface can lie between two points in the room. If not, no shadow rays are traced.
   virtual bool casts_shadows() const = 0;
 
-  // The least distance from any surface that can be told apart from lying on it, in the tracer's coordinates.
+  // The smallest distance from any surface that is distinguishable from 0, in the tracer's coordinates.
   virtual float step() const = 0;
 
   // A point and a vector in the tracer's coordinates → the world, in m; and back.
@@ -125,17 +126,17 @@ class Tracer {
   glm::dmat3 from_world_{1.0};
 };
 
-// The closed form of the cuboid, or null where the room is none that it can serve; then `why_not` says why, as the end
-// of a sentence that begins with "the room".
+// The closed form of the cuboid, or null if it is not valid for this room; then `why_not` is the reason, as the end of
+// a sentence that begins with "the room".
 std::unique_ptr<Tracer> make_cuboid_tracer(const Room& room, const Tiling& tiling, std::string& why_not);
 
-// How rays meet the edges of triangles.
+// Treatment of rays at the edges of triangles.
 enum class Edges {
-  robust,  // a ray does not slip between triangles that share an edge
-  fast,    // it may, once in many millions of flights
+  robust,  // no ray passes between triangles that share an edge
+  fast,    // a ray may pass, once in many millions of flights
 };
 
-// Embree, for any room, which must outlive it. Throws RuntimeError where Embree fails.
+// Embree, for any room, which must outlive it. Throws RuntimeError if Embree fails.
 std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling, Edges edges = Edges::robust);
 
 }  // namespace lichtmc

@@ -12,7 +12,7 @@ namespace lichtmc {
 
 namespace {
 
-// Whether a point (tracer's coordinates) lies on a facet, or not farther from it than `distance`.
+// Whether a point (tracer's coordinates) lies above or below a facet, at most `distance` from its plane.
 bool touches(const Departure& facet, const glm::dvec3& point, double distance) {
   const glm::dvec3 normal(facet.normal);
   const glm::dvec3 from_corner = point - glm::dvec3(facet.corner);
@@ -36,7 +36,7 @@ class Touching {
 
   // corner_m: of the facet, in the world.
   void meet(const Departure& facet, const glm::dvec3& corner_m) {
-    // Most facets are far off.
+    // Most facets are far away.
     if (!touches(facet, point_, std::max(double{facet.step}, NearPlane::most_rounding))) return;
     const glm::dvec3 normal(facet.normal);
     const NearPlane plane{emitter_, corner_m, normal, 1.0 / scale_};

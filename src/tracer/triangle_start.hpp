@@ -1,4 +1,4 @@
-// Where photons of a point emitter start in a room of triangles.
+// Start points of a point emitter's photons in a room of triangles.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@
 
 namespace lichtmc {
 
-// As Tracer::start(). An emitter touches a facet where it is no farther from it than a step, or than its own distance
-// may be off (see NearPlane). `departures`: of the room's triangles, in the order of RoomTriangles.
+// As Tracer::start(). An emitter touches a facet if its distance from it is at most one step, or at most the error of
+// that distance (see NearPlane). `departures`: of the room's triangles, in the order of RoomTriangles.
 Start start_at(const glm::dvec3& world_point_m, const glm::dvec3& axis, const Room& room, const Placement& placement,
                const std::vector<Departure>& departures);
 

@@ -1,5 +1,5 @@
-// In rooms of many facets each point looks its facet's numbers up in memory. Where the numbers of all facets fit into a
-// vector, looking up is one instruction for all its lanes; that is written with Highway.
+// In rooms with many facets, each point reads the data of its facet from memory. If the data of all facets fit into a
+// vector register, one instruction looks them up for all lanes; this is written with Highway.
 #include "walk/cell_finder.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -18,7 +18,7 @@ using Unsigned = hn::Rebind<std::uint32_t, Tag>;
 
 #if HWY_TARGET == HWY_SCALAR
 
-// Machines without vectors look up in memory.
+// Machines without vector instructions read from memory.
 std::size_t MostFew() {
   return 0;
 }
@@ -92,7 +92,7 @@ LICHTMC_LANES void find_many(std::size_t n, const CellFinder::Row* LICHTMC_APART
                              const CellFinder::Grid* LICHTMC_APART grids, const std::uint32_t* LICHTMC_APART facet,
                              const float* LICHTMC_APART s, const float* LICHTMC_APART t,
                              std::uint32_t* LICHTMC_APART cell, std::uint32_t* LICHTMC_APART surface) {
-  // Beside the grid, or nowhere, counts as on its rim.
+  // Positions outside the grid, and NaN, count as in its outermost cells.
   constexpr float most = 2147483520.0F;  // the largest float below 2³¹
   const auto index = [](float at, std::int32_t last) {
     const float low = at > 0.0F ? at : 0.0F;

@@ -22,12 +22,12 @@ class CellFinder {
  public:
   CellFinder(const std::vector<Facet>& facets, const std::vector<SurfaceGrid>& grids);
 
-  // The cells that n points lie in, and their surfaces. A point that rounding puts beside the grid belongs to its
-  // outermost cells. All arrays reach to whole_lanes(n) and name facets that there are.
+  // The cells that n points lie in, and their surfaces. A point that rounding moves outside the grid belongs to its
+  // outermost cells. All arrays have whole_lanes(n) elements; all elements of `facet` are valid.
   void find(std::size_t n, const std::uint32_t* facet, const float* s, const float* t, std::uint32_t* cell,
             std::uint32_t* surface) const;
 
-  // A facet's place in the grid of its surface: cell = cell_0 + s·cell_s + t·cell_t. Half a line of the cache.
+  // A facet's position in the grid of its surface: cell = cell_0 + s·cell_s + t·cell_t. Half a cache line.
   struct alignas(32) Row {
     float column_0 = 0.0F;
     float column_s = 0.0F;
@@ -43,7 +43,7 @@ class CellFinder {
     std::int32_t columns = 1;
     std::int32_t first_cell = 0;
   };
-  // The same of all facets of a room of few, such as a cuboid: as many as fit into a vector.
+  // The same for rooms with few facets, such as a cuboid: as many as fit into a vector register.
   struct Few {
     std::array<float, most_lanes> column_0{}, column_s{}, column_t{}, row_0{}, row_s{}, row_t{};
     std::array<std::int32_t, most_lanes> last_column{}, last_row{}, columns{}, first_cell{};

@@ -20,7 +20,7 @@ LICHTMC_LANES std::uint64_t sum_of(std::size_t n, const std::uint64_t* LICHTMC_A
   return sum;
 }
 
-// Adds scores below 2³² and their squares up, and sets them to 0.
+// Adds scores below 2³² to the sums and their squares to the sums of squares, then sets them to 0.
 LICHTMC_LANES void fold_lanes(std::size_t n, std::uint64_t* LICHTMC_APART scores, std::uint64_t* LICHTMC_APART sums,
                               std::uint64_t* LICHTMC_APART squares) {
   for (std::size_t k = 0; k < n; ++k) {

@@ -1,4 +1,4 @@
-// The scores of a batch where tiles are few: all are swept when the batch is closed.
+// The scores of a batch in rooms with few tiles: closing the batch visits all tiles.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace lichtmc {
 
 class FewTiles {
  public:
-  // The tiles of map k are first_tile[k] … first_tile[k + 1] − 1; one number more than there are maps.
+  // The tiles of tile map k are first_tile[k] … first_tile[k + 1] − 1: one element more than there are tile maps.
   FewTiles(std::vector<std::uint32_t> first_tile, Hits hits);
 
   void score(std::uint32_t tile, std::uint64_t units) {
@@ -24,23 +24,21 @@ class FewTiles {
     for (std::size_t i = 0; i < n; ++i) ++scores[tiles[i]];
   }
 
-  // Ends a batch of n histories; returns the scores of the maps.
+  // Ends a batch of n histories; returns the scores of the tile maps.
   const std::vector<std::uint64_t>& close_batch(std::uint32_t n, Totals& totals);
 
-  // Adds what is not yet in the totals.
+  // Adds the scores and hits that are not yet in the totals.
   void add_to(Totals& totals) const;
 
  private:
-  void fold(std::size_t first, std::size_t last);
-
   std::vector<std::uint32_t> first_tile_;
   std::vector<std::uint64_t> scores_;
   std::vector<std::uint64_t> hits_;  // empty where hits are the score
   std::vector<std::uint64_t> map_scores_;
-  // Of full batches with small scores, which 64 bits can add up for a while.
+  // Sums over full batches with small scores; 64 bits suffice for most_folded batches.
   std::vector<std::uint64_t> sums_;
   std::vector<std::uint64_t> squares_;
-  std::uint32_t folded_ = 0;  // batches in them
+  std::uint32_t folded_ = 0;  // batches in sums_ and squares_
 };
 
 }  // namespace lichtmc

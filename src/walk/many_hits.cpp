@@ -39,7 +39,7 @@ LICHTMC_LANES std::uint32_t count_of(std::uint32_t map, const std::uint32_t* LIC
 }  // namespace
 
 void ManyHits::score_maps(const std::uint32_t* maps, std::size_t n) {
-  // To count a few maps one after the other in lanes costs less than to look up each impact's.
+  // Counting a few tile maps one after the other in vectorised loops costs less than one increment per impact.
   constexpr std::size_t few_maps = 8;
   if (map_scores_.size() <= few_maps) {
     for (std::uint32_t map = 0; map < map_scores_.size(); ++map) map_scores_[map] += count_of(map, maps, n);
@@ -48,7 +48,7 @@ void ManyHits::score_maps(const std::uint32_t* maps, std::size_t n) {
   }
 }
 
-// Hits of a batch of n histories, and what was counted before, go to the totals.
+// Adds the hits of a batch of n histories, and the batches counted before, to the totals.
 void ManyHits::settle(std::uint32_t tile, std::uint64_t hits, std::uint32_t n, Totals& totals) {
   if (hits != 0) totals.tiles[tile].add(hits + take_carried(tile), n);
   add_counted(tile, totals);

@@ -1,8 +1,8 @@
-// The hits of a batch where tiles are many and hits are the score.
+// The hits of a batch in rooms with many tiles, where hits are the score.
 //
-// Each impact is a walk to a place in memory of its own: a tile takes four bytes, so that as many tiles as possible
-// stay in the cache. Where tiles are many, most batches hit a tile once, some twice: these are counted and go to the
-// totals now and then.
+// Each impact accesses another address in memory: a tile takes four bytes, so that as many tiles as possible stay in
+// the cache. With many tiles, most batches that hit a tile hit it once, some twice: these batches are counted and added
+// to the totals from time to time.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ class ManyHits {
     std::size_t count = touched_count_;
     for (std::size_t i = 0; i < n; ++i) {
       std::uint32_t& at = tiles_[tiles[i]];
-      // Without a branch: the place is taken only if the tile is new in this batch.
+      // Without a branch: the element is kept only if the tile is new in this batch.
       touched[count] = tiles[i];
       count += (at & most_hits) == 0 ? std::size_t{1} : std::size_t{0};
       if ((++at & most_hits) == most_hits) carry(tiles[i]);
@@ -32,10 +32,10 @@ class ManyHits {
     score_maps(maps, n);
   }
 
-  // Ends a batch of n histories; returns the scores of the maps.
+  // Ends a batch of n histories; returns the scores of the tile maps.
   const std::vector<std::uint64_t>& close_batch(std::uint32_t n, Totals& totals);
 
-  // Adds what is not yet in the totals.
+  // Adds the hits that are not yet in the totals.
   void add_to(Totals& totals) const;
 
  private:
@@ -47,7 +47,7 @@ class ManyHits {
   static constexpr std::uint32_t twice = 0x100'0000U;
   static constexpr std::uint32_t most_twice = 0xFF00'0000U;
 
-  // More hits than two bytes hold, in one batch: one of them stays there.
+  // Hits of one batch that two bytes cannot hold; one hit stays in the tile's own bytes.
   struct Carried {
     std::uint32_t tile = 0;
     std::uint64_t hits = 0;
@@ -60,7 +60,7 @@ class ManyHits {
   void score_maps(const std::uint32_t* maps, std::size_t n);
 
   std::vector<std::uint32_t> tiles_;
-  std::vector<std::uint32_t> touched_;  // tiles that the batch has hit; one place more than there are tiles
+  std::vector<std::uint32_t> touched_;  // tiles that the batch has hit; one element more than there are tiles
   std::size_t touched_count_ = 0;
   std::vector<Carried> carried_;
   std::vector<std::uint64_t> map_scores_;

@@ -12,7 +12,7 @@ const std::vector<std::uint64_t>& ManyScores::close_batch(std::uint32_t n, Total
   if (n == batch_histories && batch_ != last_number) {
     ++batch_;
   } else {
-    // Only scores of full batches wait, and a number comes once.
+    // Only scores of full batches may stay for later, and no batch number is used twice.
     for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile) {
       settle(tile, tiles_[tile].batch == batch_ ? n : batch_histories, totals);
       tiles_[tile].batch = 0;
@@ -24,7 +24,7 @@ const std::vector<std::uint64_t>& ManyScores::close_batch(std::uint32_t n, Total
   return closed_;
 }
 
-// The score of a batch of n histories goes to the totals.
+// Adds the score of a batch of n histories to the totals.
 void ManyScores::settle(std::uint32_t tile, std::uint32_t n, Totals& totals) {
   totals.tiles[tile].add(std::exchange(tiles_[tile].score, 0), n);
 }

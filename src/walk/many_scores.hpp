@@ -1,8 +1,8 @@
-// The scores of a batch where tiles are many and impacts score weights.
+// The scores of a batch in rooms with many tiles, where impacts score weights.
 //
-// Each impact goes to one place in memory, and closing a batch to none: a tile's score stays beside the tile, with the
-// number of the batch that it belongs to, and goes to the totals when another batch hits the tile. Hits stay there
-// until they are asked for: totals that a thread keeps need no room for them.
+// Each impact accesses one address in memory, and closing a batch accesses none: a tile's score is stored with the
+// number of the batch that it belongs to, and is added to the totals when another batch hits the tile. Hits are stored
+// there until add_to(): the totals of a thread need no memory for them.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class ManyScores {
  public:
   ManyScores(std::size_t tiles, std::size_t maps);
 
-  // Tiles that will score soon are fetched from memory meanwhile.
+  // Prefetches tiles that will score soon.
   void expect(const std::uint32_t* tiles, std::size_t n, const Totals& totals) const {
     for (std::size_t i = 0; i < n; ++i) {
       __builtin_prefetch(&tiles_[tiles[i]], 1);
@@ -36,19 +36,19 @@ class ManyScores {
     if (++at.hits == 0) carry(tile);
   }
 
-  // Ends a batch of n histories; returns the scores of the maps.
+  // Ends a batch of n histories; returns the scores of the tile maps.
   const std::vector<std::uint64_t>& close_batch(std::uint32_t n, Totals& totals);
 
-  // Adds what is not yet in the totals, and all hits.
+  // Adds the scores that are not yet in the totals, and all hits.
   void add_to(Totals& totals) const;
 
  private:
   struct BatchTile {
     std::uint64_t score = 0;
-    std::uint32_t batch = 0;  // that hit the tile last
+    std::uint32_t batch = 0;  // the last one that hit the tile
     std::uint32_t hits = 0;   // modulo 2³²
   };
-  // More hits than four bytes hold: so many times 2³² besides.
+  // Hits that four bytes cannot hold: times · 2³².
   struct Carried {
     std::uint32_t tile = 0;
     std::uint64_t times = 0;

@@ -6,7 +6,7 @@ namespace lichtmc {
 
 namespace {
 
-// To look at this many tiles at the end of a batch costs less than to remember which ones it has hit.
+// Up to this many tiles, visiting all of them at the end of a batch costs less than recording which ones were hit.
 constexpr std::size_t few_tiles = std::size_t{4} * batch_histories;
 
 Tally::TileScores tiles_for(const std::vector<std::uint32_t>& first_tile, Hits hits) {
@@ -17,7 +17,7 @@ Tally::TileScores tiles_for(const std::vector<std::uint32_t>& first_tile, Hits h
   return ManyScores(tiles, maps);
 }
 
-// Where tiles are many, their hits stay beside the scores.
+// ManyScores stores hits beside the scores.
 Hits hits_in_totals(const Tally::TileScores& tiles, Hits hits) {
   return std::holds_alternative<ManyScores>(tiles) ? Hits::are_the_score : hits;
 }

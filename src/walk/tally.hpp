@@ -1,6 +1,6 @@
-// What one thread has counted.
+// The tally of one thread.
 //
-// A batch's scores are collected tile by tile first, then added to the moments as those of one batch.
+// The scores of a batch are first summed per tile, then added to the moments as one batch.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@ class Tally {
  public:
   using TileScores = std::variant<FewTiles, ManyHits, ManyScores>;
 
-  // The tiles of map k are first_tile[k] … first_tile[k + 1] − 1; one number more than there are maps.
+  // The tiles of tile map k are first_tile[k] … first_tile[k + 1] − 1: one element more than there are tile maps.
   Tally(const std::vector<std::uint32_t>& first_tile, Hits hits);
 
-  // Tiles that will score soon.
+  // Prefetches tiles that will score soon.
   void expect(const std::uint32_t* tiles, std::size_t n) const {
     if (const auto* scores = std::get_if<ManyScores>(&batch_)) scores->expect(tiles, n, totals_);
   }
@@ -54,7 +54,7 @@ class Tally {
   Counts& counts() { return totals_; }
   const Counts& counts() const { return totals_; }
 
-  // Adds all batches that were closed.
+  // Adds all closed batches.
   void add_to(Totals& sum) const;
 
  private:

@@ -1,4 +1,4 @@
-// What batches add up to: scores per tile and per tile map, and where the photons ended.
+// Sums over batches: scores per tile and per tile map, and the balance of the photons.
 //
 // Scores are integers: 1 for an impact of an analog photon, the weight in units of 2⁻²⁴ for a weighted one.
 #pragma once
@@ -24,11 +24,11 @@ enum class Hits {
   apart,
 };
 
-// Where photons ended, in the units of the score. Emitted = absorbed + escaped + residual + lost, exactly.
+// The balance of the photons, in units of the score. Emitted = absorbed + escaped + residual + lost, exactly.
 struct Ends {
   int128 absorbed = 0;
   int128 escaped = 0;
-  int128 residual = 0;  // cut off; roulette: removed less added, may be negative
+  int128 residual = 0;  // weight cut off; with Russian roulette: removed minus added, may be negative
   int128 lost = 0;
   std::uint64_t lost_histories = 0;
 };
@@ -42,7 +42,7 @@ void visit_fields(const F& f, Things&... ends) {
   f(Field{"lost_histories"}, ends.lost_histories...);
 }
 
-// What concerns all tiles together.
+// The counts for all tiles together.
 struct Counts {
   std::uint64_t histories = 0;
   std::uint64_t impacts = 0;
@@ -51,7 +51,7 @@ struct Counts {
   Moments incident;
 };
 
-// Everything that batches add up to. Adding two is exact: the order does not matter.
+// All sums over batches. Addition is exact: the order does not matter.
 struct Totals : Counts {
   Totals() = default;
   Totals(std::size_t tiles, std::size_t maps, Hits hits);

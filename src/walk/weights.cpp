@@ -12,7 +12,7 @@ inline std::int32_t units_of(double weight) {
   return static_cast<std::int32_t>(weight * weight_units + 0.5);
 }
 
-// A number below 2³² as double; conversions of signed numbers have an instruction.
+// A number below 2³² as double; only conversions of signed numbers have a vector instruction.
 inline double to_double(std::uint32_t x) {
   return static_cast<double>(static_cast<std::int32_t>(x ^ 0x80000000U)) + 0x1p31;
 }

@@ -1,4 +1,4 @@
-// The weights of a wave's photons, several at a time (see estimators.hpp for what happens to them and why).
+// The weights of a wave's photons, by vector instructions (estimators.hpp explains the estimators).
 #pragma once
 
 #include <cstddef>
@@ -6,18 +6,18 @@
 
 namespace lichtmc {
 
-// What surfaces did to weights, in units (see totals.hpp).
+// The effect of one reflection on the weights of a wave, in units (see totals.hpp).
 struct WeightLoss {
   std::int64_t absorbed = 0;
-  double lightest = 1.0;  // weight left
+  double lightest = 1.0;  // the smallest weight after it
 };
 
-// Every photon's weight falls by the reflectance of the surface it is on.
+// Multiplies every photon's weight by the reflectance of the surface that it has hit.
 WeightLoss reflect_weights(std::size_t n, const std::uint32_t* surface, const double* reflectance_of, double* weight);
 
-// Russian roulette for weights below `threshold`: they become `restored` with probability weight/restored, or end.
-// chance: as draw_many() draws them. marks: 1 for those that fly on, else 0. Returns the units removed less those
-// added.
+// Russian roulette for weights below `threshold`: a weight becomes `restored` with probability weight/restored,
+// otherwise the history ends. chance: as from draw_many(). marks: 1 for photons that survive, else 0. Returns the units
+// removed minus those added.
 std::int64_t play_roulette(std::size_t n, const std::uint64_t* chance, double threshold, double restored,
                            double* weight, std::uint8_t* marks);
 

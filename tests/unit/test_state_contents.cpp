@@ -220,8 +220,8 @@ TEST_CASE("a state whose arrays do not fit each other is refused") {
                 {{"hits of 23 rows and tiles of 24", [](StateData& d) { totals_of(d).hits.pop_back(); }},
                  {"hits of 0 rows and tiles of 24", [](StateData& d) { totals_of(d).hits.clear(); }},
                  {"hits of 24 rows and tiles of 25", [](StateData& d) { totals_of(d).tiles.emplace_back(); }},
-                 {"behind of 5 rows and maps of 6", [](StateData& d) { totals_of(d).behind.pop_back(); }},
-                 {"behind of 6 rows and maps of 7", [](StateData& d) { totals_of(d).tile_maps.emplace_back(); }}});
+                 {"behind of 5 rows and tile_maps of 6", [](StateData& d) { totals_of(d).behind.pop_back(); }},
+                 {"behind of 6 rows and tile_maps of 7", [](StateData& d) { totals_of(d).tile_maps.emplace_back(); }}});
   check_refused(small_state(small_settings(Estimator::collision)),
                 {{"hits beside the scores of 'collision'", [](StateData& d) { totals_of(d).hits.assign(24, 1); }}});
   check_refused(small_state(small_settings(Estimator::absorption)),
