@@ -66,7 +66,7 @@ struct Tiling {
 // above 0, or if the room would have more than 2^31 cells or more than fit into the machine's memory.
 Tiling make_tiling(const Room& room, double edge_m);
 
-// About how many bytes of memory a run with one thread takes for the tiles of a room.
+// The approximate memory, in bytes, of a run with two threads for the tiles of a room.
 double memory_needed(const Tiling& tiling);
 
 }  // namespace lichtmc

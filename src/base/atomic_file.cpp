@@ -30,14 +30,14 @@ class TemporaryFile {
 
   // Buffers small pieces: a system call for each would take longer than producing them.
   void write(std::string_view bytes) {
-    constexpr std::size_t enough = std::size_t{1} << 18;
-    if (bytes.size() >= enough) {
+    constexpr std::size_t buffer_size = std::size_t{1} << 18;
+    if (bytes.size() >= buffer_size) {
       flush();
       write_out(bytes);
       return;
     }
-    waiting_ += bytes;
-    if (waiting_.size() >= enough) flush();
+    buffer_ += bytes;
+    if (buffer_.size() >= buffer_size) flush();
   }
 
   void become_target() {
@@ -52,8 +52,8 @@ class TemporaryFile {
 
  private:
   void flush() {
-    write_out(waiting_);
-    waiting_.clear();
+    write_out(buffer_);
+    buffer_.clear();
   }
   void write_out(std::string_view bytes) {
     while (!bytes.empty()) {
@@ -68,12 +68,12 @@ class TemporaryFile {
     const int error = errno;
     if (!renamed_) ::unlink(path_.c_str());
     throw RuntimeError("Cannot write " + target_.string() + " (" + std::strerror(error) +
-                       "). Check that its folder is there and has room, or choose another.");
+                       "). Check that its folder exists and that the disk has free space, or choose another file.");
   }
 
   std::filesystem::path target_;
   std::filesystem::path path_;
-  std::string waiting_;
+  std::string buffer_;
   int descriptor_ = -1;
   bool renamed_ = false;
 };

@@ -21,13 +21,14 @@ void append(void* text, void* bytes, int count) {
 std::string png_file(std::size_t columns, std::size_t rows, int channels, const std::vector<std::uint8_t>& pixels) {
   assert(pixels.size() == columns * rows * static_cast<std::size_t>(channels));
   // The encoder stores the number of bytes in an int.
-  constexpr std::size_t most = std::numeric_limits<int>::max() / 2;
+  constexpr std::size_t most_bytes = std::numeric_limits<int>::max() / 2;
   std::string file;
   const int stride = static_cast<int>(columns) * channels;
-  if (pixels.size() > most || stbi_write_png_to_func(append, &file, static_cast<int>(columns), static_cast<int>(rows),
-                                                     channels, pixels.data(), stride) == 0) {
+  if (pixels.size() > most_bytes ||
+      stbi_write_png_to_func(append, &file, static_cast<int>(columns), static_cast<int>(rows), channels, pixels.data(),
+                             stride) == 0) {
     throw RuntimeError("A picture of " + std::to_string(columns) + " × " + std::to_string(rows) +
-                       " pixels cannot be made. Free some memory, or leave the report out (--no-report).");
+                       " pixels cannot be encoded. Free some memory, or leave the report out (--no-report).");
   }
   return file;
 }

@@ -34,10 +34,10 @@ inline double cells_along(double length_m, double edge_m) {
 // A point within `noise` of a grid line is moved to the line: otherwise rounding could extend a surface beyond the line
 // at which it ends, into a tile of almost no area. The noise is limited to a thousandth of a cell: where it is larger,
 // the cells are about as fine as the resolution of the coordinates.
-class GridMap {
+class GridTransform {
  public:
   // low < high in both; noise ≥ 0 in the same unit.
-  GridMap(const glm::dvec2& low, const glm::dvec2& high, const glm::dvec2& cells, double noise)
+  GridTransform(const glm::dvec2& low, const glm::dvec2& high, const glm::dvec2& cells, double noise)
       : low_(low), size_(high - low), cells_(cells), near_(glm::min(noise / size_ * cells, glm::dvec2(1e-3))) {}
 
   // Points outside are moved to the boundary.

@@ -126,7 +126,7 @@ bool overlap(const Placed& a, const Placed& b, double tolerance) {
 }
 
 // Triangles cover the unit square exactly once if their areas add up to 1 and no two overlap.
-bool tile_the_square(const std::vector<Flat>& triangles, const glm::dvec2& tolerance) {
+bool cover_the_square(const std::vector<Flat>& triangles, const glm::dvec2& tolerance) {
   double area = 0.0;
   std::vector<Placed> placed;
   for (const Flat& t : triangles) {
@@ -229,7 +229,7 @@ std::optional<CuboidShape> recognise_cuboid(const Room& room) {
   }
   for (std::size_t face = 0; face < 6; ++face) {
     const int axis = static_cast<int>(face / 2);
-    if (!tile_the_square(faces[face], {tolerance[(axis + 1) % 3], tolerance[(axis + 2) % 3]})) return std::nullopt;
+    if (!cover_the_square(faces[face], {tolerance[(axis + 1) % 3], tolerance[(axis + 2) % 3]})) return std::nullopt;
   }
   const glm::dvec3& low = along.low;
   shape.corner = along.origin + low.x * (*axes)[0] + low.y * (*axes)[1] + low.z * (*axes)[2];

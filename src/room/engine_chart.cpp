@@ -45,7 +45,7 @@ Chart make_engine_chart(const Surface& surface, const std::vector<TriangleShape>
   chart.corners.resize(shapes.size());
   for (const std::uint32_t k : cut.slivers) chart.corners[k].fill(sliver_cell + 0.5);
   for (std::size_t p = 0; p < laid.size(); ++p) {
-    const GridMap grid(laid[p].low, laid[p].high, sizes[p], noise_m);
+    const GridTransform grid(laid[p].low, laid[p].high, sizes[p], noise_m);
     const Patch& patch = laid[p].patch;
     for (std::size_t n = 0; n < patch.triangles.size(); ++n) {
       for (std::size_t corner = 0; corner < 3; ++corner) {

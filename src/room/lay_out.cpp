@@ -20,7 +20,7 @@ namespace {
 // Dividing a patch must save this share of the cells: it adds boundaries, along which tiles are parts of cells.
 constexpr double least_saving = 0.15;
 
-struct Bounds {
+struct Rectangle {
   glm::dvec2 low{std::numeric_limits<double>::max()};
   glm::dvec2 high{std::numeric_limits<double>::lowest()};
 
@@ -31,7 +31,7 @@ struct Bounds {
       high = glm::max(high, corner);
     }
   }
-  void add(const Bounds& other) {
+  void add(const Rectangle& other) {
     low = glm::min(low, other.low);
     high = glm::max(high, other.high);
   }
@@ -49,33 +49,33 @@ class Parts {
 
  private:
   struct Part {
-    Bounds bounds;
+    Rectangle bounds;
     std::vector<std::size_t> triangles;
     std::set<std::size_t> neighbours;
     std::size_t joined_into = none;
     std::size_t version = 0;  // increases with every change
   };
   // Two parts in the versions for which the gain was computed.
-  struct Offer {
+  struct Merge {
     double gain = 0.0;
     std::size_t a = 0;
     std::size_t b = 0;
     std::size_t version_a = 0;
     std::size_t version_b = 0;
-    bool operator<(const Offer& other) const {
+    bool operator<(const Merge& other) const {
       if (gain != other.gain) return gain < other.gain;
       return std::pair(a, b) > std::pair(other.a, other.b);
     }
   };
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-  double cost(const Bounds& bounds) const;
+  double cost(const Rectangle& bounds) const;
   void consider(std::size_t a, std::size_t b);
   void join(std::size_t a, std::size_t b);
 
   double edge_m_;
   std::vector<Part> parts_;
-  std::priority_queue<Offer> offers_;
+  std::priority_queue<Merge> merges_;
 };
 
 Parts::Parts(const Patch& patch, const std::vector<bool>& counts, const MeshLinks& links, double edge_m)
@@ -102,20 +102,20 @@ Parts::Parts(const Patch& patch, const std::vector<bool>& counts, const MeshLink
 }
 
 // Cells, not rounded, but no less than one each way.
-double Parts::cost(const Bounds& bounds) const {
+double Parts::cost(const Rectangle& bounds) const {
   if (bounds.empty()) return 0.0;
   const glm::dvec2 cells = glm::max((bounds.high - bounds.low) / edge_m_, glm::dvec2(1.0));
   return cells.x * cells.y;
 }
 
 void Parts::consider(std::size_t a, std::size_t b) {
-  Bounds both = parts_[a].bounds;
+  Rectangle both = parts_[a].bounds;
   both.add(parts_[b].bounds);
   // A loss within rounding is allowed, so that slivers and strips in line are joined.
   constexpr double rounding = 1e-9;
   const double together = cost(both);
   const double gain = cost(parts_[a].bounds) + cost(parts_[b].bounds) - together;
-  if (gain >= -rounding * together) offers_.push({gain, a, b, parts_[a].version, parts_[b].version});
+  if (gain >= -rounding * together) merges_.push({gain, a, b, parts_[a].version, parts_[b].version});
 }
 
 void Parts::join(std::size_t a, std::size_t b) {
@@ -140,9 +140,9 @@ void Parts::join(std::size_t a, std::size_t b) {
 }
 
 std::vector<std::vector<std::size_t>> Parts::grow() {
-  while (!offers_.empty()) {
-    const Offer best = offers_.top();
-    offers_.pop();
+  while (!merges_.empty()) {
+    const Merge best = merges_.top();
+    merges_.pop();
     if (best.version_a != parts_[best.a].version || best.version_b != parts_[best.b].version) continue;
     join(best.a, best.b);
   }
@@ -160,9 +160,9 @@ std::vector<std::vector<std::size_t>> Parts::grow() {
   return grown;
 }
 
-class Layer {
+class PatchLayout {
  public:
-  Layer(const std::vector<TriangleShape>& shapes, const MeshLinks& links, double edge_m, double noise_m)
+  PatchLayout(const std::vector<TriangleShape>& shapes, const MeshLinks& links, double edge_m, double noise_m)
       : shapes_(shapes), links_(links), edge_m_(edge_m), noise_m_(noise_m) {}
 
   std::vector<LaidPatch> lay(Patch patch) const;
@@ -179,13 +179,13 @@ class Layer {
   double noise_m_;
 };
 
-std::vector<bool> Layer::counts(const Patch& patch) const {
+std::vector<bool> PatchLayout::counts(const Patch& patch) const {
   std::vector<bool> counts;
   for (const std::uint32_t k : patch.triangles) counts.push_back(shapes_[k].thickness_m > noise_m_);
   return counts;
 }
 
-LaidPatch Layer::straightened(Patch patch) const {
+LaidPatch PatchLayout::straightened(Patch patch) const {
   const std::vector<bool> counts = this->counts(patch);
   std::vector<glm::dvec2> points;
   for (std::size_t n = 0; n < patch.triangles.size(); ++n) {
@@ -195,7 +195,7 @@ LaidPatch Layer::straightened(Patch patch) const {
   const auto turned = [&along](const glm::dvec2& p) {
     return glm::dvec2(along.x * p.x + along.y * p.y, along.x * p.y - along.y * p.x);
   };
-  Bounds bounds;
+  Rectangle bounds;
   for (std::size_t n = 0; n < patch.flat.size(); ++n) {
     for (glm::dvec2& corner : patch.flat[n]) corner = turned(corner);
     if (counts[n]) bounds.add(patch.flat[n]);
@@ -206,13 +206,13 @@ LaidPatch Layer::straightened(Patch patch) const {
 }
 
 // The area of the surface as a share of the area of the rectangle's cells.
-double Layer::filled(const LaidPatch& laid) const {
+double PatchLayout::filled(const LaidPatch& laid) const {
   double area = 0.0;
   for (const std::uint32_t k : laid.patch.triangles) area += shapes_[k].area_m2;
   return area / (laid.cells.x * laid.cells.y * edge_m_ * edge_m_);
 }
 
-std::vector<LaidPatch> Layer::lay(Patch patch) const {
+std::vector<LaidPatch> PatchLayout::lay(Patch patch) const {
   std::vector<LaidPatch> whole;
   whole.push_back(straightened(std::move(patch)));
   const Patch& straight = whole.front().patch;
@@ -237,7 +237,7 @@ std::vector<LaidPatch> Layer::lay(Patch patch) const {
 
 std::vector<LaidPatch> lay_out(Patch patch, const std::vector<TriangleShape>& shapes, const MeshLinks& links,
                                double edge_m, double noise_m) {
-  return Layer(shapes, links, edge_m, noise_m).lay(std::move(patch));
+  return PatchLayout(shapes, links, edge_m, noise_m).lay(std::move(patch));
 }
 
 }  // namespace lichtmc

@@ -24,15 +24,15 @@ struct Grid {
 }  // namespace
 
 // Breadth first from all tiles at once, row by row; each pass fills the cells one step further out.
-std::vector<std::uint32_t> nearest_tiles(const TileMap& map) {
-  const Grid grid{map.columns, map.rows};
-  std::vector<std::uint32_t> filled = map.tile_of_cell;
+std::vector<std::uint32_t> nearest_tiles(const TileMap& tile_map) {
+  const Grid grid{tile_map.columns, tile_map.rows};
+  std::vector<std::uint32_t> filled = tile_map.tile_of_cell;
   std::vector<std::uint32_t> front;
   for (std::size_t cell = 0; cell < filled.size(); ++cell) {
     if (filled[cell] == no_tile) continue;
-    bool at_rim = false;
-    grid.for_each_neighbour(cell, [&](std::size_t beside) { at_rim = at_rim || filled[beside] == no_tile; });
-    if (at_rim) front.push_back(static_cast<std::uint32_t>(cell));
+    bool at_boundary = false;
+    grid.for_each_neighbour(cell, [&](std::size_t beside) { at_boundary = at_boundary || filled[beside] == no_tile; });
+    if (at_boundary) front.push_back(static_cast<std::uint32_t>(cell));
   }
   std::vector<std::uint32_t> next;
   while (!front.empty()) {

@@ -80,18 +80,18 @@ OverlapIndex::CellRange OverlapIndex::cells(const Box& box, int level) {
   return range;
 }
 
-bool OverlapIndex::overlap(const Member& asked, std::uint32_t member) const {
+bool OverlapIndex::overlap(const Member& candidate, std::uint32_t member) const {
   const Member& other = members_[member];
-  if (asked.box.low.x >= other.box.high.x || other.box.low.x >= asked.box.high.x) return false;
-  if (asked.box.low.y >= other.box.high.y || other.box.low.y >= asked.box.high.y) return false;
-  return penetration_depth(asked.triangle, other.triangle) > tolerance_;
+  if (candidate.box.low.x >= other.box.high.x || other.box.low.x >= candidate.box.high.x) return false;
+  if (candidate.box.low.y >= other.box.high.y || other.box.low.y >= candidate.box.high.y) return false;
+  return penetration_depth(candidate.triangle, other.triangle) > tolerance_;
 }
 
-std::optional<std::size_t> OverlapIndex::find(const Member& asked, int number, const Level& level) const {
-  const CellRange range = cells(asked.box, number);
+std::optional<std::size_t> OverlapIndex::find(const Member& candidate, int number, const Level& level) const {
+  const CellRange range = cells(candidate.box, number);
   if (range.count > static_cast<double>(level.members.size())) {
     for (const std::uint32_t member : level.members) {
-      if (overlap(asked, member)) return members_[member].id;
+      if (overlap(candidate, member)) return members_[member].id;
     }
     return std::nullopt;
   }
@@ -100,7 +100,7 @@ std::optional<std::size_t> OverlapIndex::find(const Member& asked, int number, c
       const auto chain = level.first_entry.find(cell_key(x, y));
       if (chain == level.first_entry.end()) continue;
       for (std::uint32_t n = chain->second; n != no_entry; n = level.entries[n].next) {
-        if (overlap(asked, level.entries[n].member)) return members_[level.entries[n].member].id;
+        if (overlap(candidate, level.entries[n].member)) return members_[level.entries[n].member].id;
       }
     }
   }
@@ -130,11 +130,11 @@ void OverlapIndex::insert(const Member& member) {
 // make it slow (Ericson, section 7.2: hierarchical grids).
 std::optional<std::size_t> OverlapIndex::add(const FlatTriangle& triangle, std::size_t id) {
   if (!(thickness(triangle) > tolerance_)) return std::nullopt;
-  const Member asked{triangle, bounds(triangle), id};
+  const Member candidate{triangle, bounds(triangle), id};
   for (const auto& [number, level] : levels_) {
-    if (const auto met = find(asked, number, level)) return met;
+    if (const auto met = find(candidate, number, level)) return met;
   }
-  insert(asked);
+  insert(candidate);
   return std::nullopt;
 }
 

@@ -61,8 +61,8 @@ class OverlapIndex {
 
   static Box bounds(const FlatTriangle& triangle);
   static CellRange cells(const Box& box, int level);
-  std::optional<std::size_t> find(const Member& asked, int number, const Level& level) const;
-  bool overlap(const Member& asked, std::uint32_t member) const;
+  std::optional<std::size_t> find(const Member& candidate, int number, const Level& level) const;
+  bool overlap(const Member& candidate, std::uint32_t member) const;
   void insert(const Member& member);
 
   double tolerance_;

@@ -56,8 +56,8 @@ void limit_reflectance(Room& room, double highest) {
   if (above.empty()) return;
   // The float at or below the limit.
   const float limit = std::nextafter(static_cast<float>(highest), 0.0F);
-  for (ReflectanceMap& map : room.reflectance_maps) {
-    for (float& value : map.values) {
+  for (ReflectanceMap& reflectance_map : room.reflectance_maps) {
+    for (float& value : reflectance_map.values) {
       if (double{value} > highest) value = limit;
     }
   }

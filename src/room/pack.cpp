@@ -14,30 +14,30 @@ namespace {
 // next-fit decreasing height). A rectangle is placed on top of the previous one if the shelf is high enough for both.
 Packing pack_on_shelves(const std::vector<glm::dvec2>& sizes, const std::vector<std::size_t>& order, double width) {
   Packing packing{glm::dvec2(0.0), std::vector<glm::dvec2>(sizes.size()), {}};
-  double shelf = 0.0;    // first row of the shelf
-  double height = 0.0;   // of the shelf
-  glm::dvec2 pile(0.0);  // first column of the stack, and its height
-  double pile_width = 0.0;
+  double shelf = 0.0;     // first row of the shelf
+  double height = 0.0;    // of the shelf
+  glm::dvec2 stack(0.0);  // first column of the stack, and its height
+  double stack_width = 0.0;
   for (const std::size_t n : order) {
     const glm::dvec2 size = sizes[n];
-    if (pile.y + size.y > height || size.x > pile_width) {
-      pile = {pile.x + pile_width, 0.0};
-      pile_width = size.x;
-      if (pile.x + size.x > width || height == 0.0) {
+    if (stack.y + size.y > height || size.x > stack_width) {
+      stack = {stack.x + stack_width, 0.0};
+      stack_width = size.x;
+      if (stack.x + size.x > width || height == 0.0) {
         shelf += height;
         height = size.y;
-        pile.x = 0.0;
+        stack.x = 0.0;
       }
     }
-    packing.corners[n] = {pile.x, shelf + pile.y};
-    pile.y += size.y;
-    packing.size.x = std::max(packing.size.x, pile.x + size.x);
+    packing.corners[n] = {stack.x, shelf + stack.y};
+    stack.y += size.y;
+    packing.size.x = std::max(packing.size.x, stack.x + size.x);
   }
   packing.size.y = shelf + height;
   return packing;
 }
 
-Packing pack_as_they_are(const std::vector<glm::dvec2>& sizes) {
+Packing pack_without_turning(const std::vector<glm::dvec2>& sizes) {
   std::vector<std::size_t> order(sizes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&sizes](std::size_t a, std::size_t b) {
@@ -70,14 +70,14 @@ double area(const Packing& packing) {
 
 // Upright and horizontal strips together waste much area; horizontal strips alone do not.
 Packing pack(const std::vector<glm::dvec2>& sizes) {
-  Packing best = pack_as_they_are(sizes);
-  std::vector<glm::dvec2> lying = sizes;
+  Packing best = pack_without_turning(sizes);
+  std::vector<glm::dvec2> horizontal = sizes;
   std::vector<bool> turned(sizes.size(), false);
   for (std::size_t n = 0; n < sizes.size(); ++n) {
     turned[n] = sizes[n].y > sizes[n].x;
-    if (turned[n]) lying[n] = {sizes[n].y, sizes[n].x};
+    if (turned[n]) horizontal[n] = {sizes[n].y, sizes[n].x};
   }
-  Packing packing = pack_as_they_are(lying);
+  Packing packing = pack_without_turning(horizontal);
   if (area(packing) >= area(best)) return best;
   packing.turned = std::move(turned);
   return packing;

@@ -55,20 +55,20 @@ Plane plane_through(const glm::dvec3& origin, const glm::dvec3& normal) {
   return plane;
 }
 
-class Cutter {
+class PatchCutter {
  public:
-  Cutter(const Surface& surface, const std::vector<TriangleShape>& shapes, double noise_m)
-      : surface_(surface), shapes_(shapes), noise_m_(noise_m), links_(surface), asked_by_(shapes.size(), no_one) {}
+  PatchCutter(const Surface& surface, const std::vector<TriangleShape>& shapes, double noise_m)
+      : surface_(surface), shapes_(shapes), noise_m_(noise_m), links_(surface), tested_by_(shapes.size(), no_seed) {}
 
   // The patch that grows from `seed`; its triangles then count as taken.
   Patch grow(std::uint32_t seed);
 
-  bool taken(std::uint32_t triangle) const { return asked_by_[triangle] == taken_for_good; }
+  bool taken(std::uint32_t triangle) const { return tested_by_[triangle] == taken_mark; }
   bool thin(std::uint32_t triangle) const { return !(shapes_[triangle].thickness_m > noise_m_); }
 
  private:
-  static constexpr std::uint32_t no_one = 0xFFFFFFFF;
-  static constexpr std::uint32_t taken_for_good = 0xFFFFFFFE;
+  static constexpr std::uint32_t no_seed = 0xFFFFFFFF;
+  static constexpr std::uint32_t taken_mark = 0xFFFFFFFE;
 
   bool joins(std::uint32_t triangle, const Plane& plane, OverlapIndex& index, Patch& patch);
 
@@ -76,10 +76,10 @@ class Cutter {
   const std::vector<TriangleShape>& shapes_;
   double noise_m_;
   MeshLinks links_;
-  std::vector<std::uint32_t> asked_by_;  // seed of the patch that last tested a triangle
+  std::vector<std::uint32_t> tested_by_;  // seed of the patch that last tested a triangle
 };
 
-bool Cutter::joins(std::uint32_t triangle, const Plane& plane, OverlapIndex& index, Patch& patch) {
+bool PatchCutter::joins(std::uint32_t triangle, const Plane& plane, OverlapIndex& index, Patch& patch) {
   if (!thin(triangle) && glm::dot(shapes_[triangle].normal, plane.normal) < least_cosine) return false;
   const glm::uvec3 corner = surface_.triangles[triangle];
   const FlatTriangle flat{plane(surface_.positions[corner.x]), plane(surface_.positions[corner.y]),
@@ -87,12 +87,12 @@ bool Cutter::joins(std::uint32_t triangle, const Plane& plane, OverlapIndex& ind
   if (index.add(flat, triangle)) return false;
   patch.triangles.push_back(triangle);
   patch.flat.push_back(flat);
-  asked_by_[triangle] = taken_for_good;
+  tested_by_[triangle] = taken_mark;
   return true;
 }
 
 // Breadth first, so that a patch stays compact where overlap ends it (a spiral stair: turn by turn).
-Patch Cutter::grow(std::uint32_t seed) {
+Patch PatchCutter::grow(std::uint32_t seed) {
   Patch patch;
   const Plane plane = plane_through(surface_.positions[surface_.triangles[seed].x], shapes_[seed].normal);
   OverlapIndex index(noise_m_);
@@ -100,8 +100,8 @@ Patch Cutter::grow(std::uint32_t seed) {
   for (std::size_t n = 0; n < patch.triangles.size(); ++n) {
     for (std::size_t edge = 0; edge < 3; ++edge) {
       for (const std::uint32_t neighbour : links_.at_edge(patch.triangles[n], edge)) {
-        if (taken(neighbour) || asked_by_[neighbour] == seed) continue;
-        asked_by_[neighbour] = seed;
+        if (taken(neighbour) || tested_by_[neighbour] == seed) continue;
+        tested_by_[neighbour] = seed;
         joins(neighbour, plane, index, patch);
       }
     }
@@ -116,7 +116,7 @@ Patches cut_into_patches(const Surface& surface, const std::vector<TriangleShape
   std::iota(by_area.begin(), by_area.end(), 0U);
   std::stable_sort(by_area.begin(), by_area.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return shapes[a].area_m2 > shapes[b].area_m2; });
-  Cutter cutter(surface, shapes, noise_m);
+  PatchCutter cutter(surface, shapes, noise_m);
   Patches result;
   for (const std::uint32_t seed : by_area) {
     if (!cutter.taken(seed) && !cutter.thin(seed)) result.patches.push_back(cutter.grow(seed));

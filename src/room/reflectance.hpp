@@ -41,11 +41,11 @@ inline Between pixels_about(double coordinate, std::uint32_t count, Wrap wrap) {
 }
 
 // ρ at a position on a reflectance map; u and v are finite.
-inline double reflectance_at(const ReflectanceMap& map, double u, double v) {
-  const Between column = pixels_about(u, map.columns, map.wrap_u);
-  const Between row = pixels_about(v, map.rows, map.wrap_v);
-  const float* first = map.values.data() + std::size_t{row.first} * map.columns;
-  const float* second = map.values.data() + std::size_t{row.second} * map.columns;
+inline double reflectance_at(const ReflectanceMap& reflectance_map, double u, double v) {
+  const Between column = pixels_about(u, reflectance_map.columns, reflectance_map.wrap_u);
+  const Between row = pixels_about(v, reflectance_map.rows, reflectance_map.wrap_v);
+  const float* first = reflectance_map.values.data() + std::size_t{row.first} * reflectance_map.columns;
+  const float* second = reflectance_map.values.data() + std::size_t{row.second} * reflectance_map.columns;
   const auto along = [&column](const float* values) {
     return double{values[column.first]} + column.share * (double{values[column.second]} - double{values[column.first]});
   };
@@ -58,11 +58,11 @@ class HighestReflectance {
  public:
   explicit HighestReflectance(const Room& room);
   double of(const Surface& surface) const {
-    return surface.reflectance_map ? of_map_[*surface.reflectance_map] : surface.reflectance;
+    return surface.reflectance_map ? of_reflectance_map_[*surface.reflectance_map] : surface.reflectance;
   }
 
  private:
-  std::vector<double> of_map_;
+  std::vector<double> of_reflectance_map_;
 };
 
 }  // namespace lichtmc

@@ -20,7 +20,7 @@ struct Cut {
 };
 
 // The pieces of a surface's front tiles, in the order of its triangles.
-std::vector<Cut> cuts_of(const Surface& surface, const TileMap& map,
+std::vector<Cut> cuts_of(const Surface& surface, const TileMap& tile_map,
                          const std::vector<std::array<glm::dvec2, 3>>& cells) {
   std::vector<Cut> cuts;
   std::vector<CellTriangle> triangles;
@@ -28,9 +28,9 @@ std::vector<Cut> cuts_of(const Surface& surface, const TileMap& map,
   for (std::uint32_t n = 0; n < shapes.size(); ++n) {
     const double area = shapes[n].area_m2;
     if (!(area > 0.0)) continue;
-    cut_into_triangles(cells[n], map.columns, map.rows, triangles);
+    cut_into_triangles(cells[n], tile_map.columns, tile_map.rows, triangles);
     for (const CellTriangle& one : triangles) {
-      const std::uint32_t tile = map.tile_of_cell[std::size_t{one.row} * map.columns + one.column];
+      const std::uint32_t tile = tile_map.tile_of_cell[std::size_t{one.row} * tile_map.columns + one.column];
       if (tile != no_tile) cuts.push_back({tile, one.share * area, {0.0, one.weights, n}});
     }
   }
@@ -41,9 +41,9 @@ std::vector<Cut> cuts_of(const Surface& surface, const TileMap& map,
 
 TilePieces::TilePieces(const Room& room, const Tiling& tiling)
     : first_(tiling.tiles.size()), count_(tiling.tiles.size()) {
-  for (const TileMap& map : tiling.maps) {
-    if (map.side == Side::back) continue;
-    std::vector<Cut> cuts = cuts_of(room.surfaces[map.surface], map, tiling.cells[map.surface]);
+  for (const TileMap& tile_map : tiling.maps) {
+    if (tile_map.side == Side::back) continue;
+    std::vector<Cut> cuts = cuts_of(room.surfaces[tile_map.surface], tile_map, tiling.cells[tile_map.surface]);
     std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.tile < b.tile; });
     for (std::size_t k = 0; k < cuts.size();) {
       std::size_t end = k;

@@ -74,15 +74,15 @@ void check_cells(const Room& room, const std::vector<Chart>& charts, double edge
 }
 
 // Fills one tile map.
-class MapTiler {
+class TileMapBuilder {
  public:
-  MapTiler(const Surface& surface, TileMap& map) : surface_(surface), map_(map) {}
+  TileMapBuilder(const Surface& surface, TileMap& tile_map) : surface_(surface), tile_map_(tile_map) {}
 
   // Cuts a triangle into cells and adds its pieces to their tiles, which are numbered in order of appearance.
   void add(std::size_t triangle, double area_m2, const std::array<glm::dvec2, 3>& corners);
 
   // Renumbers the tiles from `first` on, row by row, and appends them.
-  void finish(std::uint32_t map_index, std::vector<Tile>& tiles);
+  void finish(std::uint32_t tile_map_index, std::vector<Tile>& tiles);
 
  private:
   struct Draft {
@@ -95,13 +95,13 @@ class MapTiler {
   glm::dvec3 point_on(std::size_t triangle, const glm::dvec3& weights) const;
 
   const Surface& surface_;
-  TileMap& map_;
+  TileMap& tile_map_;
   std::vector<CellPiece> pieces_;
   std::vector<Draft> drafts_;
 };
 
-MapTiler::Draft& MapTiler::draft_of(const CellPiece& piece) {
-  std::uint32_t& number = map_.tile_of_cell[std::size_t{piece.row} * map_.columns + piece.column];
+TileMapBuilder::Draft& TileMapBuilder::draft_of(const CellPiece& piece) {
+  std::uint32_t& number = tile_map_.tile_of_cell[std::size_t{piece.row} * tile_map_.columns + piece.column];
   if (number == no_tile) {
     number = static_cast<std::uint32_t>(drafts_.size());
     drafts_.emplace_back();
@@ -111,7 +111,7 @@ MapTiler::Draft& MapTiler::draft_of(const CellPiece& piece) {
   return drafts_[number];
 }
 
-glm::dvec3 MapTiler::point_on(std::size_t triangle, const glm::dvec3& weights) const {
+glm::dvec3 TileMapBuilder::point_on(std::size_t triangle, const glm::dvec3& weights) const {
   const glm::uvec3 corner = surface_.triangles[triangle];
   return weights.x * surface_.positions[corner.x] + weights.y * surface_.positions[corner.y] +
          weights.z * surface_.positions[corner.z];
@@ -128,8 +128,8 @@ glm::dvec3 weights_at(const glm::dvec2& place, const std::array<glm::dvec2, 3>& 
   return {1.0 - second - third, second, third};
 }
 
-void MapTiler::add(std::size_t triangle, double area_m2, const std::array<glm::dvec2, 3>& corners) {
-  clip_to_cells(corners, map_.columns, map_.rows, pieces_);
+void TileMapBuilder::add(std::size_t triangle, double area_m2, const std::array<glm::dvec2, 3>& corners) {
+  clip_to_cells(corners, tile_map_.columns, tile_map_.rows, pieces_);
   for (const CellPiece& piece : pieces_) {
     Draft& draft = draft_of(piece);
     const double piece_m2 = piece.share * area_m2;
@@ -146,9 +146,9 @@ void MapTiler::add(std::size_t triangle, double area_m2, const std::array<glm::d
   }
 }
 
-void MapTiler::finish(std::uint32_t map_index, std::vector<Tile>& tiles) {
+void TileMapBuilder::finish(std::uint32_t tile_map_index, std::vector<Tile>& tiles) {
   tiles.reserve(tiles.size() + drafts_.size());
-  for (std::uint32_t& number : map_.tile_of_cell) {
+  for (std::uint32_t& number : tile_map_.tile_of_cell) {
     if (number == no_tile) continue;
     const Draft& draft = drafts_[number];
     if (!(draft.tile.area_m2 > 0.0)) {  // an area too small for a double
@@ -157,22 +157,22 @@ void MapTiler::finish(std::uint32_t map_index, std::vector<Tile>& tiles) {
     }
     number = static_cast<std::uint32_t>(tiles.size());
     tiles.push_back(draft.tile);
-    tiles.back().map = map_index;
+    tiles.back().map = tile_map_index;
   }
 }
 
-TileMap front_map(const Surface& surface, std::size_t index, const Chart& chart) {
-  TileMap map;
-  map.name = surface.name;
-  map.surface = index;
-  map.chart = chart.source;
-  map.chart_reason = chart.reason;
-  map.columns = static_cast<std::uint32_t>(chart.cells.x);
-  map.rows = static_cast<std::uint32_t>(chart.cells.y);
-  map.uv_min = chart.uv_min;
-  map.uv_max = chart.uv_max;
-  map.tile_of_cell.assign(std::size_t{map.columns} * map.rows, no_tile);
-  return map;
+TileMap front_tile_map(const Surface& surface, std::size_t index, const Chart& chart) {
+  TileMap tile_map;
+  tile_map.name = surface.name;
+  tile_map.surface = index;
+  tile_map.chart = chart.source;
+  tile_map.chart_reason = chart.reason;
+  tile_map.columns = static_cast<std::uint32_t>(chart.cells.x);
+  tile_map.rows = static_cast<std::uint32_t>(chart.cells.y);
+  tile_map.uv_min = chart.uv_min;
+  tile_map.uv_max = chart.uv_max;
+  tile_map.tile_of_cell.assign(std::size_t{tile_map.columns} * tile_map.rows, no_tile);
+  return tile_map;
 }
 
 // The back has the front's grid and geometry; its tiles follow the front's in the same order.
@@ -196,7 +196,7 @@ void add_back(Tiling& tiling, std::size_t first_tile) {
 
 double memory_needed(const Tiling& tiling) {
   double cells = 0.0;
-  for (const TileMap& map : tiling.maps) cells += static_cast<double>(map.tile_of_cell.size());
+  for (const TileMap& tile_map : tiling.maps) cells += static_cast<double>(tile_map.tile_of_cell.size());
   return bytes_per_cell * cells;
 }
 
@@ -217,13 +217,13 @@ Tiling make_tiling(const Room& room, double edge_m) {
   for (std::size_t k = 0; k < charts.size(); ++k) {
     const Surface& surface = room.surfaces[k];
     const std::size_t first_tile = tiling.tiles.size();
-    TileMap map = front_map(surface, k, charts[k]);
-    MapTiler tiler(surface, map);
+    TileMap tile_map = front_tile_map(surface, k, charts[k]);
+    TileMapBuilder tiler(surface, tile_map);
     for (std::size_t n = 0; n < shapes[k].size(); ++n) {
       if (shapes[k][n].area_m2 > 0.0) tiler.add(n, shapes[k][n].area_m2, charts[k].corners[n]);
     }
     tiler.finish(static_cast<std::uint32_t>(tiling.maps.size()), tiling.tiles);
-    tiling.maps.push_back(std::move(map));
+    tiling.maps.push_back(std::move(tile_map));
     if (surface.sides == Sides::both) add_back(tiling, first_tile);
     tiling.cells.push_back(std::move(charts[k].corners));
   }

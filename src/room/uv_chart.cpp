@@ -28,13 +28,13 @@ FlatTriangle uv_corners(const Surface& surface, std::size_t triangle) {
   return {surface.uvs[corner.x], surface.uvs[corner.y], surface.uvs[corner.z]};
 }
 
-struct Bounds {
+struct Rectangle {
   glm::dvec2 low{std::numeric_limits<double>::max()};
   glm::dvec2 high{std::numeric_limits<double>::lowest()};
 };
 
-Bounds uv_bounds(const Surface& surface, const std::vector<TriangleShape>& shapes) {
-  Bounds bounds;
+Rectangle uv_bounds(const Surface& surface, const std::vector<TriangleShape>& shapes) {
+  Rectangle bounds;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     if (!(shapes[k].area_m2 > 0.0)) continue;
     for (const glm::dvec2& uv : uv_corners(surface, k)) {
@@ -46,7 +46,7 @@ Bounds uv_bounds(const Surface& surface, const std::vector<TriangleShape>& shape
 }
 
 // The largest distance by which float rounding moves UVs within these bounds relative to each other.
-double uv_noise(const Bounds& bounds) {
+double uv_noise(const Rectangle& bounds) {
   const glm::dvec2 largest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
   return float_noise * std::max(largest.x, largest.y);
 }
@@ -141,19 +141,20 @@ std::string uv_fault(const Surface& surface, const std::vector<TriangleShape>& s
 }
 
 Chart make_uv_chart(const Surface& surface, const std::vector<TriangleShape>& shapes, double edge_m) {
-  const Bounds bounds = uv_bounds(surface, shapes);
+  const Rectangle bounds = uv_bounds(surface, shapes);
   const double noise = uv_noise(bounds);
   const glm::dvec2 length_m = (bounds.high - bounds.low) * glm::sqrt(mean_square_stretch(surface, shapes, noise));
   Chart chart;
   chart.cells = {cells_along(length_m.x, edge_m), cells_along(length_m.y, edge_m)};
   chart.uv_min = bounds.low;
   chart.uv_max = bounds.high;
-  const GridMap grid(bounds.low, bounds.high, chart.cells, noise);
+  const GridTransform grid(bounds.low, bounds.high, chart.cells, noise);
   chart.corners.resize(shapes.size());
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const FlatTriangle uv = uv_corners(surface, k);
     for (std::size_t n = 0; n < 3; ++n) {
-      const bool known = std::isfinite(uv[n].x) && std::isfinite(uv[n].y);  // only triangles without area may have UVs that are not finite
+      const bool known = std::isfinite(uv[n].x) &&
+                         std::isfinite(uv[n].y);  // only triangles without area may have UVs that are not finite
       chart.corners[k][n] = known ? grid(uv[n]) : glm::dvec2(0.0);
     }
   }

@@ -247,7 +247,7 @@ class CuboidTracer final : public Tracer {
       return v;
     };
     Facet& facet = facets_[face];
-    const bool normal_inwards = glm::dot(facet.normal, glm::vec3(1.0F)) > 0.0F;  // along the axis, see add_face()
+    const bool normal_inwards = glm::dot(facet.normal, glm::vec3(1.0F)) > 0.0F;  // along the axis, see facet_of_face()
     facet.tangent = along(s_axis(axis));
     facet.bitangent = along(t_axis(axis));
     facet.normal = normal_inwards ? along(axis) : -along(axis);
@@ -277,11 +277,11 @@ double twice_area(const std::array<glm::dvec2, 3>& corner) {
 }
 
 // The affine transformation from face coordinates to cells that a piece's corners define.
-struct CellMap {
+struct FaceToCells {
   glm::dvec2 cell_0{0.0};
   glm::dmat2 slope{0.0};
 
-  explicit CellMap(const Piece& piece) {
+  explicit FaceToCells(const Piece& piece) {
     const glm::dmat2 st(piece.st[1] - piece.st[0], piece.st[2] - piece.st[0]);
     const glm::dmat2 cells(piece.cell[1] - piece.cell[0], piece.cell[2] - piece.cell[0]);
     slope = cells * glm::inverse(st);
@@ -291,10 +291,10 @@ struct CellMap {
 };
 
 // UVs are floats in files: corners may deviate from the transformation by some roundings of the grid's extent.
-bool follows(const CellMap& map, const Piece& piece, double grid_extent) {
+bool follows(const FaceToCells& to_cells, const Piece& piece, double grid_extent) {
   constexpr double uv_roundings = 4.0 * 0x1p-23;
   for (std::size_t k = 0; k < 3; ++k) {
-    const glm::dvec2 miss = map(piece.st[k]) - piece.cell[k];
+    const glm::dvec2 miss = to_cells(piece.st[k]) - piece.cell[k];
     if (std::max(std::abs(miss.x), std::abs(miss.y)) > uv_roundings * grid_extent) return false;
   }
   return true;
@@ -302,28 +302,29 @@ bool follows(const CellMap& map, const Piece& piece, double grid_extent) {
 
 // The facet that the pieces of a face form; none if they belong to different surfaces, face different sides or do not
 // share one transformation to cells.
-std::optional<Facet> add_face(std::size_t axis, const std::vector<Piece>& pieces, double grid_extent) {
+std::optional<Facet> facet_of_face(std::size_t axis, const std::vector<Piece>& pieces, double grid_extent) {
   const auto largest = std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
     return std::abs(twice_area(a.st)) < std::abs(twice_area(b.st));
   });
-  const CellMap map(*largest);
+  const FaceToCells to_cells(*largest);
   for (const Piece& piece : pieces) {
     if (piece.surface != largest->surface || piece.front_along_axis != largest->front_along_axis) return std::nullopt;
-    if (!follows(map, piece, grid_extent)) return std::nullopt;
+    if (!follows(to_cells, piece, grid_extent)) return std::nullopt;
   }
   Facet facet;
   facet.surface = static_cast<std::uint32_t>(largest->surface);
   facet.normal[static_cast<glm::length_t>(axis)] = largest->front_along_axis ? 1.0F : -1.0F;
-  facet.cell_0 = map.cell_0;
-  facet.cell_s = map.slope[0];
-  facet.cell_t = map.slope[1];
+  facet.cell_0 = to_cells.cell_0;
+  facet.cell_s = to_cells.slope[0];
+  facet.cell_t = to_cells.slope[1];
   return facet;
 }
 
 double grid_extent(const Tiling& tiling, std::size_t surface) {
   double extent = 1.0;
-  for (const TileMap& map : tiling.maps) {
-    if (map.surface == surface) extent = std::max({extent, double{1} * map.columns, double{1} * map.rows});
+  for (const TileMap& tile_map : tiling.maps) {
+    if (tile_map.surface == surface)
+      extent = std::max({extent, double{1} * tile_map.columns, double{1} * tile_map.rows});
   }
   return extent;
 }
@@ -348,6 +349,45 @@ Piece make_piece(const Room& room, const Tiling& tiling, const CuboidShape& shap
   return piece;
 }
 
+// The triangles of a room, sorted by the faces of the cuboid.
+struct Faces {
+  std::array<std::vector<Piece>, 6> pieces;             // of each face; without triangles that have no area
+  std::vector<std::vector<TriangleOnFacet>> triangles;  // [surface][triangle]
+};
+
+Faces sort_by_face(const Room& room, const Tiling& tiling, const CuboidShape& shape) {
+  Faces faces;
+  faces.triangles.resize(room.surfaces.size());
+  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
+    for (std::size_t n = 0; n < room.surfaces[k].triangles.size(); ++n) {
+      const Piece piece = make_piece(room, tiling, shape, k, n);
+      const std::uint8_t face = shape.face_of_triangle[k][n];
+      faces.triangles[k].push_back(
+          {face, glm::vec2(piece.st[0]), glm::vec2(piece.st[1] - piece.st[0]), glm::vec2(piece.st[2] - piece.st[0])});
+      if (twice_area(piece.st) != 0.0) faces.pieces[face].push_back(piece);
+    }
+  }
+  return faces;
+}
+
+// The facets of all six faces; fewer if a face does not form one facet.
+std::vector<Facet> make_facets(const Tiling& tiling, const std::array<std::vector<Piece>, 6>& pieces) {
+  std::vector<Facet> facets;
+  for (std::size_t face = 0; face < 6; ++face) {
+    const auto facet = facet_of_face(axis_of(face), pieces[face], grid_extent(tiling, pieces[face].front().surface));
+    if (!facet) break;
+    facets.push_back(*facet);
+  }
+  return facets;
+}
+
+// Whether an emitter is outside the cuboid or emits out of it: its light would hit the other side of the walls.
+bool emits_outside(const Emitter& emitter, const CuboidTracer& tracer) {
+  return visit_shape(
+      emitter, [&](const auto& point) { return !tracer.holds(point.position); },
+      [&](const auto& area_light) { return tracer.emits_outwards(area_light.surface); });
+}
+
 }  // namespace
 
 std::unique_ptr<Tracer> make_cuboid_tracer(const Room& room, const Tiling& tiling, std::string& why_not) {
@@ -358,39 +398,20 @@ std::unique_ptr<Tracer> make_cuboid_tracer(const Room& room, const Tiling& tilin
   }
   if (std::any_of(room.surfaces.begin(), room.surfaces.end(),
                   [](const Surface& surface) { return surface.reflectance_map.has_value(); })) {
-    why_not = "has a texture for a reflectance";
+    why_not = "has a reflectance map";
     return nullptr;
   }
-  std::array<std::vector<Piece>, 6> pieces;
-  std::vector<std::vector<TriangleOnFacet>> triangles(room.surfaces.size());
-  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
-    for (std::size_t n = 0; n < room.surfaces[k].triangles.size(); ++n) {
-      const Piece piece = make_piece(room, tiling, *shape, k, n);
-      const std::uint8_t face = shape->face_of_triangle[k][n];
-      triangles[k].push_back(
-          {face, glm::vec2(piece.st[0]), glm::vec2(piece.st[1] - piece.st[0]), glm::vec2(piece.st[2] - piece.st[0])});
-      if (twice_area(piece.st) != 0.0) pieces[face].push_back(piece);
-    }
+  Faces faces = sort_by_face(room, tiling, *shape);
+  std::vector<Facet> facets = make_facets(tiling, faces.pieces);
+  if (facets.size() < 6) {
+    why_not = "has a wall that consists of several surfaces, or whose UVs are not one affine transformation";
+    return nullptr;
   }
-  std::vector<Facet> facets;
-  for (std::size_t face = 0; face < 6; ++face) {
-    const auto facet = add_face(axis_of(face), pieces[face], grid_extent(tiling, pieces[face].front().surface));
-    if (!facet) {
-      why_not = "has a wall that is made of several surfaces, or whose UVs are not one map";
-      return nullptr;
-    }
-    facets.push_back(*facet);
-  }
-  auto tracer = std::make_unique<CuboidTracer>(*shape, std::move(triangles), std::move(facets));
-  for (const Emitter& emitter : room.emitters) {
-    // From outside the walls are seen from the other side.
-    const bool outside = visit_shape(
-        emitter, [&](const auto& point) { return !tracer->holds(point.position); },
-        [&](const auto& area_light) { return tracer->emits_outwards(area_light.surface); });
-    if (outside) {
-      why_not = "has an emitter that shines from outside";
-      return nullptr;
-    }
+  auto tracer = std::make_unique<CuboidTracer>(*shape, std::move(faces.triangles), std::move(facets));
+  if (std::any_of(room.emitters.begin(), room.emitters.end(),
+                  [&tracer](const Emitter& emitter) { return emits_outside(emitter, *tracer); })) {
+    why_not = "has an emitter outside, or one that emits outwards";
+    return nullptr;
   }
   return tracer;
 }

@@ -48,7 +48,7 @@ void throw_embree_error(RTCDevice device, const std::string& what) {
 
 class EmbreeTracer final : public Tracer {
  public:
-  EmbreeTracer(const Room& room, const Tiling& tiling, Edges edges) : room_(&room), placement_(place(room)) {
+  EmbreeTracer(const Room& room, const Tiling& tiling, Edges edges) : room_(&room), placement_(placement_of(room)) {
     if (!device_) throw_embree_error(nullptr, "starting");
     scene_ = {rtcNewScene(device_.get()), &rtcReleaseScene};
     if (edges == Edges::robust) rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
@@ -56,10 +56,10 @@ class EmbreeTracer final : public Tracer {
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
     set_place(placement_.centre, glm::dmat3(1.0 / placement_.scale));
     casts_shadows_ = !is_convex(WeldedMesh(room));
-    take_in(make_triangles(room, tiling, placement_));
-    throw_embree_error(device_.get(), "taking in the room");
+    load(make_triangles(room, tiling, placement_));
+    throw_embree_error(device_.get(), "reading the room");
     rtcCommitScene(scene_.get());
-    throw_embree_error(device_.get(), "sorting the room's triangles");
+    throw_embree_error(device_.get(), "building the tree of the room's triangles");
   }
 
   void trace(Rays& rays, Misses misses, TraceCount& count) const override {
@@ -96,13 +96,13 @@ class EmbreeTracer final : public Tracer {
     EmbreeQuery query;
     ++count.rays;
     ++count.shadow_rays;
-    return meets_something(query, start, segment);
+    return is_occluded(query, start, segment);
   }
 
   void find_blocked(ShadowRays& rays, TraceCount& count) const override {
     EmbreeQuery query;
     for (std::size_t i = 0; i < rays.size; ++i)
-      rays.blocked[i] = meets_something(query, rays.starts[i], rays.segments[i]) ? 1 : 0;
+      rays.blocked[i] = is_occluded(query, rays.starts[i], rays.segments[i]) ? 1 : 0;
     count.rays += rays.size;
     count.shadow_rays += rays.size;
   }
@@ -117,7 +117,7 @@ class EmbreeTracer final : public Tracer {
   }
 
  private:
-  bool meets_something(EmbreeQuery& query, const glm::vec3& start, const glm::vec3& segment) const {
+  bool is_occluded(EmbreeQuery& query, const glm::vec3& start, const glm::vec3& segment) const {
     RTCRay ray{};
     ray.org_x = start.x;
     ray.org_y = start.y;
@@ -132,7 +132,7 @@ class EmbreeTracer final : public Tracer {
     return ray.tfar < 0.0F;  // Embree reports occlusion by tfar = −∞
   }
 
-  void take_in(RoomTriangles triangles);
+  void load(RoomTriangles triangles);
 
   RTCRayHit intersect(EmbreeQuery& query, const glm::vec3& start, const glm::vec3& direction) const {
     RTCRayHit hit{};
@@ -225,7 +225,7 @@ class EmbreeTracer final : public Tracer {
 };
 
 // Embree has its own copy of vertices and corners, so they are not kept.
-void EmbreeTracer::take_in(RoomTriangles triangles) {
+void EmbreeTracer::load(RoomTriangles triangles) {
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   const auto fill = [geometry](RTCBufferType type, RTCFormat format, const auto& elements) {
     using Element = std::decay_t<decltype(elements[0])>;

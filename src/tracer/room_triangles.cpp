@@ -11,7 +11,7 @@
 
 namespace lichtmc {
 
-Placement place(const Room& room) {
+Placement placement_of(const Room& room) {
   const auto [low, high] = bounds_of(room);
   const glm::dvec3 half = 0.5 * (high - low);
   int exponent = 0;

@@ -23,7 +23,7 @@ struct Placement {
   glm::dvec3 operator()(const glm::dvec3& world_m) const { return scale * (world_m - centre); }
 };
 
-Placement place(const Room& room);
+Placement placement_of(const Room& room);
 
 // The triangles of all surfaces, one surface after the other, in the order of Surface::triangles.
 struct RoomTriangles {

@@ -35,7 +35,7 @@ class Touching {
   }
 
   // corner_m: of the facet, in the world.
-  void meet(const Departure& facet, const glm::dvec3& corner_m) {
+  void test(const Departure& facet, const glm::dvec3& corner_m) {
     // Most facets are far away.
     if (!touches(facet, point_, std::max(double{facet.step}, NearPlane::most_rounding))) return;
     const glm::dvec3 normal(facet.normal);
@@ -74,7 +74,7 @@ Start start_at(const glm::dvec3& world_point_m, const glm::dvec3& axis, const Ro
   Touching touching(world_point_m, axis, placement);
   auto facet = departures.begin();
   for (const Surface& surface : room.surfaces) {
-    for (const glm::uvec3& triangle : surface.triangles) touching.meet(*facet++, surface.positions[triangle.x]);
+    for (const glm::uvec3& triangle : surface.triangles) touching.test(*facet++, surface.positions[triangle.x]);
   }
   return touching.start();
 }

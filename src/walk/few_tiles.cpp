@@ -37,17 +37,17 @@ FewTiles::FewTiles(std::vector<std::uint32_t> first_tile, Hits hits)
     : first_tile_(std::move(first_tile)),
       scores_(first_tile_.back()),
       hits_(hits == Hits::apart ? first_tile_.back() : 0),
-      map_scores_(first_tile_.size() - 1),
+      tile_map_scores_(first_tile_.size() - 1),
       sums_(first_tile_.back()),
       squares_(first_tile_.back()) {}
 
 const std::vector<std::uint64_t>& FewTiles::close_batch(std::uint32_t n, Totals& totals) {
-  for (std::size_t map = 0; map < map_scores_.size(); ++map) {
-    const std::uint32_t first = first_tile_[map];
-    const std::uint32_t last = first_tile_[map + 1];
-    map_scores_[map] = sum_of(last - first, &scores_[first]);
-    if (map_scores_[map] == 0) continue;
-    if (n == batch_histories && map_scores_[map] < small_score) {
+  for (std::size_t tile_map = 0; tile_map < tile_map_scores_.size(); ++tile_map) {
+    const std::uint32_t first = first_tile_[tile_map];
+    const std::uint32_t last = first_tile_[tile_map + 1];
+    tile_map_scores_[tile_map] = sum_of(last - first, &scores_[first]);
+    if (tile_map_scores_[tile_map] == 0) continue;
+    if (n == batch_histories && tile_map_scores_[tile_map] < small_score) {
       fold_lanes(last - first, &scores_[first], &sums_[first], &squares_[first]);
       continue;
     }
@@ -60,7 +60,7 @@ const std::vector<std::uint64_t>& FewTiles::close_batch(std::uint32_t n, Totals&
     std::fill(hits_.begin(), hits_.end(), 0);
     folded_ = 0;
   }
-  return map_scores_;
+  return tile_map_scores_;
 }
 
 void FewTiles::add_to(Totals& totals) const {

@@ -7,8 +7,8 @@
 
 namespace lichtmc {
 
-ManyHits::ManyHits(std::size_t tiles, std::size_t maps)
-    : tiles_(tiles), touched_(tiles + 1), map_scores_(maps), closed_(maps) {}
+ManyHits::ManyHits(std::size_t tiles, std::size_t tile_maps)
+    : tiles_(tiles), touched_(tiles + 1), tile_map_scores_(tile_maps), closed_(tile_maps) {}
 
 const std::vector<std::uint64_t>& ManyHits::close_batch(std::uint32_t n, Totals& totals) {
   const std::uint32_t most_counted = n == batch_histories ? 2 : 0;
@@ -23,28 +23,30 @@ const std::vector<std::uint64_t>& ManyHits::close_batch(std::uint32_t n, Totals&
     if ((at & most_once) == most_once || at >= most_twice) settle(touched_[k], 0, n, totals);
   }
   touched_count_ = 0;
-  std::swap(map_scores_, closed_);
-  std::fill(map_scores_.begin(), map_scores_.end(), 0);
+  std::swap(tile_map_scores_, closed_);
+  std::fill(tile_map_scores_.begin(), tile_map_scores_.end(), 0);
   return closed_;
 }
 
 namespace {
 
-LICHTMC_LANES std::uint32_t count_of(std::uint32_t map, const std::uint32_t* LICHTMC_APART maps, std::size_t n) {
+LICHTMC_LANES std::uint32_t count_of(std::uint32_t tile_map, const std::uint32_t* LICHTMC_APART tile_maps,
+                                     std::size_t n) {
   std::uint32_t count = 0;
-  for (std::size_t i = 0; i < n; ++i) count += maps[i] == map ? 1U : 0U;
+  for (std::size_t i = 0; i < n; ++i) count += tile_maps[i] == tile_map ? 1U : 0U;
   return count;
 }
 
 }  // namespace
 
-void ManyHits::score_maps(const std::uint32_t* maps, std::size_t n) {
+void ManyHits::score_tile_maps(const std::uint32_t* tile_maps, std::size_t n) {
   // Counting a few tile maps one after the other in vectorised loops costs less than one increment per impact.
-  constexpr std::size_t few_maps = 8;
-  if (map_scores_.size() <= few_maps) {
-    for (std::uint32_t map = 0; map < map_scores_.size(); ++map) map_scores_[map] += count_of(map, maps, n);
+  constexpr std::size_t few_tile_maps = 8;
+  if (tile_map_scores_.size() <= few_tile_maps) {
+    for (std::uint32_t tile_map = 0; tile_map < tile_map_scores_.size(); ++tile_map)
+      tile_map_scores_[tile_map] += count_of(tile_map, tile_maps, n);
   } else {
-    for (std::size_t i = 0; i < n; ++i) ++map_scores_[maps[i]];
+    for (std::size_t i = 0; i < n; ++i) ++tile_map_scores_[tile_maps[i]];
   }
 }
 

@@ -15,10 +15,10 @@ namespace lichtmc {
 
 class ManyHits {
  public:
-  ManyHits(std::size_t tiles, std::size_t maps);
+  ManyHits(std::size_t tiles, std::size_t tile_maps);
 
   // A hit for each of n impacts.
-  void score_each(const std::uint32_t* tiles, const std::uint32_t* maps, std::size_t n) {
+  void score_each(const std::uint32_t* tiles, const std::uint32_t* tile_maps, std::size_t n) {
     std::uint32_t* touched = touched_.data();
     std::size_t count = touched_count_;
     for (std::size_t i = 0; i < n; ++i) {
@@ -29,7 +29,7 @@ class ManyHits {
       if ((++at & most_hits) == most_hits) carry(tiles[i]);
     }
     touched_count_ = count;
-    score_maps(maps, n);
+    score_tile_maps(tile_maps, n);
   }
 
   // Ends a batch of n histories; returns the scores of the tile maps.
@@ -57,13 +57,13 @@ class ManyHits {
   void settle(std::uint32_t tile, std::uint64_t hits, std::uint32_t n, Totals& totals);
   void add_counted(std::uint32_t tile, Totals& totals) const;
 
-  void score_maps(const std::uint32_t* maps, std::size_t n);
+  void score_tile_maps(const std::uint32_t* tile_maps, std::size_t n);
 
   std::vector<std::uint32_t> tiles_;
   std::vector<std::uint32_t> touched_;  // tiles that the batch has hit; one element more than there are tiles
   std::size_t touched_count_ = 0;
   std::vector<Carried> carried_;
-  std::vector<std::uint64_t> map_scores_;
+  std::vector<std::uint64_t> tile_map_scores_;
   std::vector<std::uint64_t> closed_;
 };
 

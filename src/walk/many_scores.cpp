@@ -5,7 +5,8 @@
 
 namespace lichtmc {
 
-ManyScores::ManyScores(std::size_t tiles, std::size_t maps) : tiles_(tiles), map_scores_(maps), closed_(maps) {}
+ManyScores::ManyScores(std::size_t tiles, std::size_t tile_maps)
+    : tiles_(tiles), tile_map_scores_(tile_maps), closed_(tile_maps) {}
 
 const std::vector<std::uint64_t>& ManyScores::close_batch(std::uint32_t n, Totals& totals) {
   constexpr std::uint32_t last_number = 0xFFFFFFFFU;
@@ -19,8 +20,8 @@ const std::vector<std::uint64_t>& ManyScores::close_batch(std::uint32_t n, Total
     }
     batch_ = 1;
   }
-  std::swap(map_scores_, closed_);
-  std::fill(map_scores_.begin(), map_scores_.end(), 0);
+  std::swap(tile_map_scores_, closed_);
+  std::fill(tile_map_scores_.begin(), tile_map_scores_.end(), 0);
   return closed_;
 }
 

@@ -15,7 +15,7 @@ namespace lichtmc {
 
 class ManyScores {
  public:
-  ManyScores(std::size_t tiles, std::size_t maps);
+  ManyScores(std::size_t tiles, std::size_t tile_maps);
 
   // Prefetches tiles that will score soon.
   void expect(const std::uint32_t* tiles, std::size_t n, const Totals& totals) const {
@@ -25,14 +25,14 @@ class ManyScores {
     }
   }
 
-  void score(std::uint32_t tile, std::uint32_t map, std::uint64_t units, Totals& totals) {
+  void score(std::uint32_t tile, std::uint32_t tile_map, std::uint64_t units, Totals& totals) {
     BatchTile& at = tiles_[tile];
     if (at.batch != batch_) {
       settle(tile, batch_histories, totals);
       at.batch = batch_;
     }
     at.score += units;
-    map_scores_[map] += units;
+    tile_map_scores_[tile_map] += units;
     if (++at.hits == 0) carry(tile);
   }
 
@@ -60,7 +60,7 @@ class ManyScores {
   std::uint32_t batch_ = 1;  // number of the batch being simulated
   std::vector<BatchTile> tiles_;
   std::vector<Carried> carried_;
-  std::vector<std::uint64_t> map_scores_;
+  std::vector<std::uint64_t> tile_map_scores_;
   std::vector<std::uint64_t> closed_;
 };
 

@@ -11,10 +11,10 @@ constexpr std::size_t few_tiles = std::size_t{4} * batch_histories;
 
 Tally::TileScores tiles_for(const std::vector<std::uint32_t>& first_tile, Hits hits) {
   const std::size_t tiles = first_tile.back();
-  const std::size_t maps = first_tile.size() - 1;
+  const std::size_t tile_maps = first_tile.size() - 1;
   if (tiles <= few_tiles) return FewTiles(first_tile, hits);
-  if (hits == Hits::are_the_score) return ManyHits(tiles, maps);
-  return ManyScores(tiles, maps);
+  if (hits == Hits::are_the_score) return ManyHits(tiles, tile_maps);
+  return ManyScores(tiles, tile_maps);
 }
 
 // ManyScores stores hits beside the scores.
@@ -30,13 +30,13 @@ Tally::Tally(const std::vector<std::uint32_t>& first_tile, Hits hits)
 
 void Tally::close_batch(std::uint32_t n) {
   assert(n >= 1 && n <= batch_histories);
-  const std::vector<std::uint64_t>& map_scores = std::visit(
+  const std::vector<std::uint64_t>& tile_map_scores = std::visit(
       [&](auto& tiles) -> const std::vector<std::uint64_t>& { return tiles.close_batch(n, totals_); }, batch_);
   std::uint64_t all = 0;
-  for (std::size_t map = 0; map < map_scores.size(); ++map) {
-    if (map_scores[map] == 0) continue;
-    totals_.tile_maps[map].add(map_scores[map], n);
-    all += map_scores[map];
+  for (std::size_t tile_map = 0; tile_map < tile_map_scores.size(); ++tile_map) {
+    if (tile_map_scores[tile_map] == 0) continue;
+    totals_.tile_maps[tile_map].add(tile_map_scores[tile_map], n);
+    all += tile_map_scores[tile_map];
   }
   totals_.incident.add(all, n);
   totals_.histories += n;

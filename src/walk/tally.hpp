@@ -28,25 +28,26 @@ class Tally {
   }
 
   // One unit for each of n impacts on tiles of tile maps, where hits are the score.
-  void score_each(const std::uint32_t* tiles, const std::uint32_t* maps, std::size_t n) {
+  void score_each(const std::uint32_t* tiles, const std::uint32_t* tile_maps, std::size_t n) {
     if (auto* few = std::get_if<FewTiles>(&batch_)) {
       few->score_each(tiles, n);
     } else {
-      std::get<ManyHits>(batch_).score_each(tiles, maps, n);
+      std::get<ManyHits>(batch_).score_each(tiles, tile_maps, n);
     }
   }
   // units[i] (> 0) for impact i, where hits are counted apart.
-  void score_each(const std::uint32_t* tiles, const std::uint32_t* maps, const std::uint32_t* units, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) score(tiles[i], maps[i], units[i]);
+  void score_each(const std::uint32_t* tiles, const std::uint32_t* tile_maps, const std::uint32_t* units,
+                  std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) score(tiles[i], tile_maps[i], units[i]);
   }
-  void score(std::uint32_t tile, std::uint32_t map, std::uint64_t units) {
+  void score(std::uint32_t tile, std::uint32_t tile_map, std::uint64_t units) {
     if (auto* few = std::get_if<FewTiles>(&batch_)) {
       few->score(tile, units);
     } else {
-      std::get<ManyScores>(batch_).score(tile, map, units, totals_);
+      std::get<ManyScores>(batch_).score(tile, tile_map, units, totals_);
     }
   }
-  void score_behind(std::uint32_t map, std::uint64_t units) { totals_.behind[map] += units; }
+  void score_behind(std::uint32_t tile_map, std::uint64_t units) { totals_.behind[tile_map] += units; }
 
   // Ends a batch of n histories (1 … batch_histories).
   void close_batch(std::uint32_t n);

@@ -54,7 +54,7 @@ struct Counts {
 // All sums over batches. Addition is exact: the order does not matter.
 struct Totals : Counts {
   Totals() = default;
-  Totals(std::size_t tiles, std::size_t maps, Hits hits);
+  Totals(std::size_t tiles, std::size_t tile_maps, Hits hits);
 
   std::vector<Moments> tiles;       // per tile
   std::vector<std::uint64_t> hits;  // per tile; empty where hits are the score

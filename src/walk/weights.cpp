@@ -29,17 +29,17 @@ LICHTMC_LANES std::int64_t reflect_lanes(std::size_t n, const std::uint32_t* LIC
   return absorbed;
 }
 
-LICHTMC_LANES double lightest_of(std::size_t n, const double* LICHTMC_APART weight) {
+LICHTMC_LANES double smallest_of(std::size_t n, const double* LICHTMC_APART weight) {
   constexpr std::size_t side_by_side = 8;
-  double lightest[side_by_side] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+  double smallest[side_by_side] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
   std::size_t i = 0;
   for (; i + side_by_side <= n; i += side_by_side) {
     for (std::size_t k = 0; k < side_by_side; ++k)
-      lightest[k] = weight[i + k] < lightest[k] ? weight[i + k] : lightest[k];
+      smallest[k] = weight[i + k] < smallest[k] ? weight[i + k] : smallest[k];
   }
-  for (; i < n; ++i) lightest[0] = weight[i] < lightest[0] ? weight[i] : lightest[0];
+  for (; i < n; ++i) smallest[0] = weight[i] < smallest[0] ? weight[i] : smallest[0];
   double least = 1.0;
-  for (const double one : lightest) least = one < least ? one : least;
+  for (const double one : smallest) least = one < least ? one : least;
   return least;
 }
 
@@ -49,15 +49,15 @@ LICHTMC_LANES std::int64_t roulette_lanes(std::size_t n, const std::uint64_t* LI
   std::int64_t removed = 0;
   const std::int64_t added = units_of(restored);
   for (std::size_t i = 0; i < n; ++i) {
-    const double light = weight[i];
+    const double before = weight[i];
     // unit_fine() of the words 2 and 3.
     const double draw = to_double(static_cast<std::uint32_t>(chance[i] >> 32)) * 0x1p-32 +
                         to_double(static_cast<std::uint32_t>(chance[i]) >> 11) * 0x1p-53;
-    const bool plays = light < threshold;
-    const bool wins = plays & (draw * restored < light);
-    removed += plays ? units_of(light) - (wins ? added : 0) : 0;
-    weight[i] = wins ? restored : light;
-    marks[i] = static_cast<std::uint8_t>(!plays | wins);
+    const bool below = before < threshold;
+    const bool survives = below & (draw * restored < before);
+    removed += below ? units_of(before) - (survives ? added : 0) : 0;
+    weight[i] = survives ? restored : before;
+    marks[i] = static_cast<std::uint8_t>(!below | survives);
   }
   return removed;
 }
@@ -70,7 +70,7 @@ LICHTMC_LANES void units_lanes(std::size_t n, const double* LICHTMC_APART weight
 
 WeightLoss reflect_weights(std::size_t n, const std::uint32_t* surface, const double* reflectance_of, double* weight) {
   const std::int64_t absorbed = reflect_lanes(n, surface, reflectance_of, weight);
-  return {absorbed, lightest_of(n, weight)};
+  return {absorbed, smallest_of(n, weight)};
 }
 
 std::int64_t play_roulette(std::size_t n, const std::uint64_t* chance, double threshold, double restored,

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Checks that a folder of src/ includes only folders below it, and that a library is named in its own folder only.
+"""Checks that a folder of src/ includes only folders below it, and that a library is included in its own folder only.
 
-Usage: check_floors.py PROJECT_DIR
+Usage: check_layers.py PROJECT_DIR
 """
 import pathlib
 import re
 import sys
 
-# Floors from the ground up; the wings gltf and output see base, chance, room and the public headers.
+# Layers from the lowest up; the adapters gltf and output see base, chance, room and the public headers.
 BELOW = {
     "base": [],
     "chance": ["base"],
@@ -22,18 +22,18 @@ BELOW = {
     "gltf": ["base", "chance", "room"],
     "output": ["base", "chance", "room"],
 }
-# Public headers by the floor that provides them: a floor may use those of floors below it and its own.
+# Public headers by the layer that provides them: a layer may use its own headers and those of the layers below it.
 PUBLIC = {
     "error": "base", "walk_direction": "base", "emitter_law": "chance", "units": "base", "version": "base",
     "room": "room", "cuboid": "room", "overrides": "room", "tiles": "room",
-    "settings": "room", "state": "room",  # plain data that every floor may read
+    "settings": "room", "state": "room",  # plain data that every layer may read
     "communicator": "run", "mpi": "mpi",
     "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
     "paths": "walk", "picture": "view",
     "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output",
 }
-WINGS_SEE_RESULTS = {"output": ["result", "inspect", "study", "picture", "paths", "lit_room"], "gltf": ["result", "picture", "paths"]}
-# Libraries that one file or folder alone may name.
+ADAPTERS_SEE_RESULTS = {"output": ["result", "inspect", "study", "picture", "paths", "lit_room"], "gltf": ["result", "picture", "paths"]}
+# Libraries that only these files or folders may include.
 LIBRARIES = {
     r"embree\d?/": ["src/tracer/embree.hpp"],
     r"tiny_gltf": ["src/gltf/"],
@@ -52,16 +52,16 @@ LIBRARIES = {
 
 def faults(project):
     for file in sorted(project.glob("src/*/*.[ch]pp")):
-        floor = file.parent.name
+        layer = file.parent.name
         for include in re.findall(r'#include "([^"]+)"', file.read_text()):
             folder, _, name = include.partition("/")
             if folder == "lichtmc":
                 provider = PUBLIC.get(name.removesuffix(".hpp"))
-                allowed = [floor] + BELOW[floor]
-                if provider not in allowed and name.removesuffix(".hpp") not in WINGS_SEE_RESULTS.get(floor, []):
-                    yield f"{file}: includes {include}, which belongs to the floor '{provider}'"
-            elif folder != floor and folder not in BELOW[floor]:
-                yield f"{file}: includes {include}, which is not below the floor '{floor}'"
+                allowed = [layer] + BELOW[layer]
+                if provider not in allowed and name.removesuffix(".hpp") not in ADAPTERS_SEE_RESULTS.get(layer, []):
+                    yield f"{file}: includes {include}, which belongs to the layer '{provider}'"
+            elif folder != layer and folder not in BELOW[layer]:
+                yield f"{file}: includes {include}, which is not below the layer '{layer}'"
     for pattern in ("src/*/*.[ch]pp", "include/lichtmc/*.hpp", "apps/*/*.[ch]pp"):
         for file in sorted(project.glob(pattern)):
             name = file.relative_to(project).as_posix()

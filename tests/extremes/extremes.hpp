@@ -1,4 +1,4 @@
-// Figures that the extreme cases share.
+// Functions that the tests of extreme cases share.
 #pragma once
 
 #include <cmath>
@@ -39,7 +39,7 @@ inline void check_all_finite(const Result& result) {
   CHECK(result.lost_histories == 0);
 }
 
-// The tiles that got light.
+// The tiles with light.
 inline std::vector<std::size_t> lit_tiles(const Result& result) {
   std::vector<std::size_t> lit;
   for (std::size_t k = 0; k < result.tiles.size(); ++k) {
@@ -48,7 +48,7 @@ inline std::vector<std::size_t> lit_tiles(const Result& result) {
   return lit;
 }
 
-// The message that a room or a setting is refused with; empty if it is not.
+// The message with which a room or a setting is refused; empty if it is accepted.
 template <class Work>
 std::string refusal(const Work& work) {
   try {

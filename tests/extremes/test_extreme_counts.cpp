@@ -1,4 +1,4 @@
-// No history, one, and more than 32 bits can number.
+// No history, one history, and more histories than 32 bits can number.
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -20,7 +20,7 @@ constexpr std::uint64_t boundary = std::uint64_t{1} << 32U;
 
 const Abandon never = [] { return false; };
 
-// A cube ready to be walked through, for histories of any number.
+// A cube prepared for walks with any history numbers.
 struct Walks {
   Room room = unit_cube(0.6, paper_emitter());
   Tiling tiling = make_tiling(room, 0.1);
@@ -48,7 +48,7 @@ bool same_sums(const Totals& a, const Totals& b) {
 
 }  // namespace
 
-TEST_CASE("extreme: a run of no history is refused, of one nobody knows the error") {
+TEST_CASE("extreme: a run of no history is refused, and one history has no known error") {
   for (const Engine engine : both_engines) {
     const Room room = unit_cube(0.6, paper_emitter());
     const std::string message = refusal([&] { simulate(room, settings_of(Estimator::collision, engine, 0, 1)); });
@@ -61,7 +61,7 @@ TEST_CASE("extreme: a run of no history is refused, of one nobody knows the erro
       CHECK(std::isnan(one.incident_standard_error));
       for (const TileResult& tile : one.tiles) {
         REQUIRE(std::isfinite(tile.power));
-        // Tiles that were hit: unknown. Those that were not: what one history that missed them allows.
+        // Tiles that were hit: unknown. The others: the error that one history without a hit allows.
         if (tile.hits > 0) REQUIRE(std::isnan(tile.standard_error));
         if (tile.hits == 0) REQUIRE(tile.standard_error > 0.0);
       }
@@ -69,8 +69,8 @@ TEST_CASE("extreme: a run of no history is refused, of one nobody knows the erro
   }
 }
 
-TEST_CASE("extreme: of 2²⁴ + 1 photons each is counted") {
-  // Floats count no further than 2²⁴.
+TEST_CASE("extreme: each of 2²⁴ + 1 photons is counted") {
+  // Floats cannot count beyond 2²⁴.
   constexpr std::uint64_t photons = (std::uint64_t{1} << 24U) + 1;
   Settings settings = settings_of(Estimator::collision, Engine::cuboid, 1, 1, 1.0);
   settings.photons = photons;
@@ -82,7 +82,7 @@ TEST_CASE("extreme: of 2²⁴ + 1 photons each is counted") {
   CHECK(result.balance.absorbed == 1.0);
 }
 
-TEST_CASE("extreme: 2³¹ and 2³² + 7 photons add up to the last") {
+TEST_CASE("extreme: 2³¹ and 2³² + 7 photons are counted exactly") {
   const Walks walks(Estimator::collision);
   const Totals batch = walks.of(0, batch_histories);
   Totals sum = batch;
@@ -102,7 +102,7 @@ TEST_CASE("extreme: 2³¹ and 2³² + 7 photons add up to the last") {
   CHECK(mean.standard_error > 0.0);
 }
 
-TEST_CASE("extreme: histories beyond 2³² are others than those before") {
+TEST_CASE("extreme: histories beyond 2³² differ from those before") {
   const Stream stream(1);
   for (const std::uint64_t history : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{4'000'000'000}}) {
     for (const Purpose purpose : {Purpose::emission, Purpose::flight})
@@ -123,14 +123,14 @@ TEST_CASE("extreme: a batch across 2³² is the sum of its two parts") {
     parts.add(walks.of(boundary, 24));
     CHECK(whole.histories == 1024);
     CHECK(same_sums(whole, parts));
-    // Were the upper half of the number lost, the second part would be that of the first photons.
+    // If the upper half of the number were lost, the second part would repeat the first photons.
     Totals wrapped = walks.of(boundary - 1000, 1000);
     wrapped.add(walks.of(0, 24));
     CHECK_FALSE(same_sums(whole, wrapped));
   }
 }
 
-TEST_CASE("extreme: a batch of launches across 2³² is that of single photons") {
+TEST_CASE("extreme: a batch of launches across 2³² equals that of single photons") {
   const Walks walks(Estimator::collision);
   const Stream stream(1);
   Rays together(batch_histories);
@@ -139,7 +139,7 @@ TEST_CASE("extreme: a batch of launches across 2³² is that of single photons")
   walks.scene.launcher->launch_all(stream, boundary - 1000, batch_histories, together, photon.data());
   for (std::uint32_t i = 0; i < batch_histories; ++i) {
     walks.scene.launcher->launch(stream, boundary - 1000 + photon[i], single, i);
-    // Directions in lanes follow those one by one to some roundings.
+    // Directions of vectorised loops agree with those of single photons within some roundings.
     REQUIRE(together.dx[i] == Approx(single.dx[i]).margin(2e-6));
     REQUIRE(together.dy[i] == Approx(single.dy[i]).margin(2e-6));
     REQUIRE(together.dz[i] == Approx(single.dz[i]).margin(2e-6));
@@ -153,7 +153,7 @@ TEST_CASE("extreme: twenty million weights of 0.6 add up to twelve million") {
     Settings settings = settings_of(Estimator::weight, engine, 1, 1, 1.0);
     settings.photons = photons;
     settings.max_bounces = 2;
-    // Straight down on a floor of 0.6; what it reflects lands once more.
+    // Straight down on a floor of reflectance 0.6; the reflected light has one more impact.
     const Result result = simulate(unit_cube(0.6, lambert({0.5, 0.5, 0.5}, {0, -1, 0}, 1e30)), settings);
     const double others = result.incident - power_on(result, "floor");
     CHECK(power_on(result, "floor") == 1.0);

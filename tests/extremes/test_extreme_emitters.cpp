@@ -1,4 +1,4 @@
-// Emitters where they touch things, and laws at their limits.
+// Emitters that touch surfaces, and emission laws at their limits.
 #include <limits>
 #include <utility>
 
@@ -25,7 +25,7 @@ Emitter beam(const glm::dvec3& from, const glm::dvec3& axis) {
 
 }  // namespace
 
-TEST_CASE("extreme: an emitter on a wall does not light that wall") {
+TEST_CASE("extreme: an emitter on a wall does not illuminate that wall") {
   for (const Engine engine : both_engines) {
     const Result result = simulate_in(lambert({0.3, 0.0, 0.6}, {0, 1, 0}, 1.0), engine);
     CHECK(power_on(result, "floor") == 0.0);
@@ -49,7 +49,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("extreme: an emitter outside a closed room lights nothing inside") {
+TEST_CASE("extreme: an emitter outside a closed room illuminates nothing inside") {
   Room room = unit_cube(0.5, isotropic({0.5, 1.5, 0.5}));
   Surface plate;
   plate.name = "plate";
@@ -63,7 +63,7 @@ TEST_CASE("extreme: an emitter outside a closed room lights nothing inside") {
   CHECK_FALSE(result.warnings.empty());
 }
 
-TEST_CASE("extreme: an emitter on the floor that shines down lights nothing, and ends") {
+TEST_CASE("extreme: an emitter on the floor that emits downwards illuminates nothing, and the run ends") {
   for (const Engine engine : both_engines) {
     const Result result = simulate_in(lambert({0.3, 0.0, 0.6}, {0, -1, 0}, 1.0), engine);
     CHECK(result.incident == 0.0);
@@ -78,9 +78,9 @@ TEST_CASE(
     check_shares({share(power_on(along, "floor"), 0.5, n)});
     CHECK(along.incident == 1.0);
     CHECK(simulate_in(isotropic({0.3, 1e-9, 0.6}), engine).incident == 1.0);
-    // Behind the floor by a rounding is on it where the light goes into the room.
+    // Behind the floor by a rounding counts as on it if the emitter emits into the room.
     CHECK(simulate_in(lambert({0.3, -1e-9, 0.6}, {0, 1, 0}, 1.0), engine).incident == 1.0);
-    // At 1 m floats, which files hold, cannot say so little.
+    // At 1 m the floats of files do not resolve this distance.
     check_shares({share(simulate_in(isotropic({1.0 - 1e-9, 0.3, 0.6}), engine).incident, 0.5, n)});
   }
 }
@@ -122,7 +122,7 @@ TEST_CASE("extreme: a beam at a corner, an edge or a diagonal is counted exactly
   }
 }
 
-TEST_CASE("extreme: a beam at the border of tiles goes to tiles beside it, all of it") {
+TEST_CASE("extreme: a beam at the border of tiles is counted completely on the adjacent tiles") {
   for (const Engine engine : both_engines) {
     const Result result = simulate_in(beam({0.5, 0.5, 0.45}, {0, -1, 0}), engine);
     CHECK(result.incident == 1.0);
@@ -145,7 +145,7 @@ TEST_CASE("extreme: a uniform hemisphere (m = 0) at the cube's centre: a third d
 }
 
 TEST_CASE("extreme: a Lambert emitter (m = 1) at the cube's centre") {
-  // From the form factor of a parallel square seen over its corner at distances ½, ½, ½, four times.
+  // From the form factor of a parallel square over its corner at distances ½, ½, ½, four times.
   constexpr double floor = 0.554126423980;
   constexpr double wall = 0.111468394005;
   for (const Engine engine : both_engines) {
@@ -168,7 +168,7 @@ TEST_CASE("extreme: narrow beams (m = 10⁶, 10³⁰ and the largest number) end
   }
 }
 
-TEST_CASE("extreme: exponents below 0 and those that are no numbers are refused") {
+TEST_CASE("extreme: exponents below 0 and NaN are refused") {
   for (const double exponent : {-1e-9, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
     const std::string message = refusal([&] {
       simulate_in(lambert({0.5, 0.5, 0.5}, {0, -1, 0}, exponent), Engine::cuboid);

@@ -1,4 +1,4 @@
-// Meshes at the limits of what a mesh is.
+// Meshes at the limits of validity.
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -19,7 +19,7 @@ Result walk_in(const Room& room, double tile_edge_m = 0.1, std::uint64_t seed = 
   return simulate(room, settings_of(Estimator::collision, Engine::embree, photons, seed, tile_edge_m));
 }
 
-// Takes a surface's triangles and UVs away.
+// Removes a surface's triangles and UVs.
 Surface& cleared(Room& room, std::string_view name) {
   Surface& surface = room.surfaces[surface_number(room, name)];
   surface.positions.clear();
@@ -62,7 +62,7 @@ Room plates(double gap, double reflectance) {
     const glm::dvec3 corner(-0.5, 0.5 * side * gap, -0.5);
     const glm::dvec3 x(1.0, 0.0, 0.0);
     const glm::dvec3 z(0.0, 0.0, 1.0);
-    // The fronts look at each other.
+    // The fronts face each other.
     add_quad(plate, corner, side < 0.0 ? z : x, side < 0.0 ? x : z);
     room.surfaces.push_back(plate);
   }
@@ -85,7 +85,7 @@ TEST_CASE("extreme: a floor of slivers, a thousand strips down to a billionth of
   const Room plain = unit_cube(0.6, paper_emitter());
   Room room = plain;
   Surface& floor = cleared(room, "floor");
-  // 997 strips of widths that fall by the same factor from 0.015 m to 10⁻⁹ m, and three that fill what is left.
+  // 997 strips of widths that fall by the same factor from 0.015 m to 10⁻⁹ m, and three that fill the rest.
   constexpr int strips = 997;
   std::vector<double> edges{0.0};
   for (int k = 0; k < strips; ++k)
@@ -121,7 +121,7 @@ TEST_CASE("extreme: a floor with corners on the middle of walls' edges (T-juncti
   }
 }
 
-TEST_CASE("extreme: a triangle that is there twice takes no light twice") {
+TEST_CASE("extreme: a duplicate triangle does not count light twice") {
   const Room plain = unit_cube(0.6, paper_emitter());
   for (const bool turned : {false, true}) {
     Room room = plain;
@@ -139,8 +139,8 @@ TEST_CASE("extreme: a triangle that is there twice takes no light twice") {
   }
 }
 
-TEST_CASE("extreme: a second floor in the first one's place, turned over, with another reflectance") {
-  // Which of the two a photon meets is not defined; that each lands on one of them is.
+TEST_CASE("extreme: a second floor at the position of the first one, turned over, with another reflectance") {
+  // Which of the two a photon hits is undefined; but every photon hits one of them.
   Room room = unit_cube(0.6, paper_emitter());
   Surface second = room.surfaces[surface_number(room, "floor")];
   second.name = "second";
@@ -156,7 +156,7 @@ TEST_CASE("extreme: a second floor in the first one's place, turned over, with a
   CHECK(told);
 }
 
-TEST_CASE("extreme: triangles without area change not a digit") {
+TEST_CASE("extreme: triangles without area change no bit") {
   const Room plain = unit_cube(0.6, paper_emitter());
   Room room = plain;
   Surface& floor = room.surfaces[surface_number(room, "floor")];
@@ -173,7 +173,7 @@ TEST_CASE("extreme: triangles without area change not a digit") {
   check_same_tile_powers(with, walk_in(plain));
 }
 
-TEST_CASE("extreme: a triangle of 10⁻³⁰ m² takes no light and no figure of it is infinite") {
+TEST_CASE("extreme: a triangle of 10⁻³⁰ m² receives no light and all its figures are finite") {
   Room room = unit_cube(0.6, paper_emitter());
   Surface speck;
   speck.name = "speck";
@@ -185,7 +185,7 @@ TEST_CASE("extreme: a triangle of 10⁻³⁰ m² takes no light and no figure of
   CHECK(surface_named(result, "speck").mean_irradiance == 0.0);
 }
 
-TEST_CASE("extreme: a wall against the back of another, nothing between") {
+TEST_CASE("extreme: a wall against the back of another, without a gap") {
   // Two cubes side by side, each with a wall of its own where they touch.
   Room room = unit_cube(0.6, paper_emitter());
   for (Surface surface : unit_cube(0.6, paper_emitter()).surfaces) {
@@ -197,7 +197,7 @@ TEST_CASE("extreme: a wall against the back of another, nothing between") {
   check_all_finite(result);
   CHECK(result.balance.escaped == 0.0);
   for (const SurfaceResult& surface : result.surfaces) {
-    // The two walls in one plane are one to the light: it lands on either.
+    // The two walls in one plane act as one: photons hit either of them.
     if (surface.name.starts_with("next_") && surface.name != "next_wall_x0") CHECK(surface.power == 0.0);
   }
   check_shares({{result.incident, result.incident_standard_error, 2.5, 0.0}});
@@ -211,12 +211,12 @@ TEST_CASE("extreme: plates a billionth of a metre apart keep their light") {
   check_all_finite(result);
   CHECK(power_on(result, "lower.back") == 0.0);
   CHECK(power_on(result, "upper.back") == 0.0);
-  // A photon leaves by the edges once in 10⁹ flights.
+  // A photon escapes at the edges once in 10⁹ flights.
   check_shares({{result.incident, result.incident_standard_error, 2.0, 0.0}});
 }
 
-TEST_CASE("extreme: between plates 1 mm and 1 µm apart all light but the form factor's rest arrives") {
-  // Twice the gap, less what the corners take.
+TEST_CASE("extreme: plates 1 mm and 1 µm apart exchange light by their form factor") {
+  // Twice the gap, minus the part of the corners.
   CHECK(1.0 - opposite_squares(1e-3) == Approx(0.00199436809).epsilon(1e-8));
   for (const double gap : {1e-3, 1e-4, 1e-5, 1e-6}) {
     Room room = plates(gap, 0.0);
@@ -237,7 +237,7 @@ TEST_CASE("extreme: between plates 1 mm and 1 µm apart all light but the form f
   }
 }
 
-TEST_CASE("extreme: a box that stands flush on the floor") {
+TEST_CASE("extreme: a box flush on the floor") {
   Room room = unit_cube(0.5, isotropic({0.5, 0.8, 0.5}));
   Surface box = make_box({0.4, 0.3, 0.4});
   box.reflectance = 0.5;
@@ -247,7 +247,7 @@ TEST_CASE("extreme: a box that stands flush on the floor") {
   check_all_finite(result);
   CHECK(result.balance.escaped == 0.0);
   CHECK(result.balance.absorbed == Approx(1.0).epsilon(1e-12));
-  // Under it nothing arrives: on tiles of the floor that it covers, and on its own underside.
+  // No light arrives under it: on the floor tiles that it covers, and on its own underside.
   std::size_t covered = 0;
   for (std::size_t k = 0; k < result.tiles.size(); ++k) {
     const Tile& tile = result.tiling.tiles[k];
@@ -259,7 +259,7 @@ TEST_CASE("extreme: a box that stands flush on the floor") {
   CHECK(covered == 16);
 }
 
-TEST_CASE("extreme: corners that differ by a digit, or in the sign of a zero, leave no gap") {
+TEST_CASE("extreme: corners that differ by one float step, or in the sign of a zero, leave no gap") {
   Room room = unit_cube(0.6, paper_emitter());
   std::uint32_t bits = 1;
   for (Surface& surface : room.surfaces) {
@@ -267,7 +267,7 @@ TEST_CASE("extreme: corners that differ by a digit, or in the sign of a zero, le
       for (int k = 0; k < 3; ++k) {
         bits = bits * 1664525U + 1013904223U;
         const float to = (bits >> 31U) != 0U ? 2.0F : -2.0F;
-        // One step of the floats that a file holds, up or down; of zeros the sign.
+        // One step of the floats of a file, up or down; for zeros the sign.
         position[k] = position[k] == 0.0 ? std::copysign(0.0, double{to})
                                          : double{std::nextafter(static_cast<float>(position[k]), to)};
       }

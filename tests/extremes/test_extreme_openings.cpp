@@ -1,4 +1,4 @@
-// Rooms with next to nothing in them, rooms with holes, and the ways that light takes through them.
+// Rooms of few surfaces, rooms with openings, and path lengths in them.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -58,14 +58,14 @@ TEST_CASE("extreme: six walls of different reflectance that emit what they absor
 }
 
 TEST_CASE("extreme: a room of one triangle") {
-  // Right angle and legs of 1 m, the lamp 1 m over the right angle: Ω = 2 atan(1/(1 + 2√2 + …)), by van Oosterom.
+  // Right angle and legs of 1 m, the emitter 1 m above the right angle: Ω = 2 atan(1/(1 + 2√2 + …)), by van Oosterom.
   const double solid_angle = 0.02704336199 * 4.0 * std::numbers::pi;
   const Result result = walk_in(room_of(one_triangle(0.0), isotropic({0, 1, 0})));
   check_shares({share(result.incident, solid_angle / (4.0 * std::numbers::pi), n)});
   CHECK(result.balance.escaped + result.incident == Approx(1.0).epsilon(1e-15));
 }
 
-TEST_CASE("extreme: a room without surfaces is refused, one that no light meets is not") {
+TEST_CASE("extreme: a room without surfaces is refused, a room whose surfaces receive no light is not") {
   Room room;
   room.source = "nothing";
   room.emitters.push_back(isotropic({0, 1, 0}));
@@ -98,7 +98,7 @@ TEST_CASE("extreme: a cube that lacks one triangle of twelve loses a twelfth of 
   CHECK(result.balance.escaped + result.incident == Approx(1.0).epsilon(1e-15));
 }
 
-TEST_CASE("extreme: coordinates, normals and indices that are none are named") {
+TEST_CASE("extreme: invalid coordinates, normals and indices are named") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinite = std::numeric_limits<double>::infinity();
   const auto complaint = [](const auto& spoil) {
@@ -115,10 +115,10 @@ TEST_CASE("extreme: coordinates, normals and indices that are none are named") {
     const std::string normal = complaint([&](Room& room) { room.receivers[0].normal.x = value; });
     INFO(normal);
     CHECK(normal.find("desk") != std::string::npos);
-    const std::string lamp =
+    const std::string message =
         complaint([&](Room& room) { std::get<IsotropicEmitter>(room.emitters[0].shape).position.z = value; });
-    INFO(lamp);
-    CHECK(lamp.find("isotropic") != std::string::npos);
+    INFO(message);
+    CHECK(message.find("isotropic") != std::string::npos);
   }
   const std::string index = complaint([](Room& room) { room.surfaces[3].triangles[1].y = 99; });
   INFO(index);
@@ -140,7 +140,8 @@ TEST_CASE("extreme: an emitting triangle without area is refused") {
   CHECK(message.find("line") != std::string::npos);
 }
 
-TEST_CASE("extreme: no way is shorter than the shortest, in the centre of a sphere all are the radius") {
+TEST_CASE(
+    "extreme: no flight is shorter than the shortest possible, and from the centre of a sphere all equal the radius") {
   Surface ball = make_sphere(256);
   ball.reflectance = 0.0;
   const Room room = room_of(ball, isotropic({0, 0, 0}));
@@ -150,7 +151,7 @@ TEST_CASE("extreme: no way is shorter than the shortest, in the centre of a sphe
   TraceCount count;
   const Stream stream(1);
   const double metres = glm::length(scene.tracer->world_vector({1.0, 0.0, 0.0}));
-  // 256 bands of flat panels stay within 1 − cos(π/256)² of the sphere; floats give the rest.
+  // 256 bands of flat panels stay within 1 − cos(π/256)² of the sphere; the rest is rounding to float.
   const double nearest = std::pow(std::cos(std::numbers::pi / 256.0), 2) - 1e-6;
   for (std::uint32_t i = 0; i < batch_histories; ++i) scene.launcher->launch(stream, i, rays, i);
   rays.size = batch_histories;
@@ -163,7 +164,7 @@ TEST_CASE("extreme: no way is shorter than the shortest, in the centre of a sphe
   }
 }
 
-TEST_CASE("extreme: round the corner of an L no light goes straight") {
+TEST_CASE("extreme: no direct light around the corner of an L") {
   Room room = read_gltf(std::string(LICHTMC_SCENES) + "/l_room.gltf");
   for (Surface& surface : room.surfaces) surface.reflectance = 0.0;
   room.receivers.clear();

@@ -1,4 +1,4 @@
-// Receivers that see nothing, everything, or sit on a lamp; and lamps that add up.
+// Receivers with an empty or full field of view, or on an emitter; and sums over emitters.
 #include <cmath>
 #include <numbers>
 
@@ -26,11 +26,13 @@ ReceiverResult seen(const Room& empty, const Receiver& receiver, Engine engine, 
 
 }  // namespace
 
-TEST_CASE("extreme: a receiver with a field of view of 0 sees nothing, one of 90 degrees half a world, none more") {
+TEST_CASE(
+    "extreme: a field of view of 0 degrees receives nothing, one of 90 degrees the hemisphere, and larger ones are "
+    "refused") {
   const Room room = unit_cube(0.6, isotropic({0.5, 0.8, 0.5}));
   for (const Engine engine : both_engines) {
     CHECK(seen(room, at({0.5, 0.2, 0.5}, {0, 1, 0}, 0.0), engine).irradiance == 0.0);
-    // As the floor under it, which has no field of view: 1/(4π r²) and what the room adds.
+    // As the floor under it, which has no field of view: 1/(4π r²) plus the indirect light of the room.
     const ReceiverResult whole = seen(room, at({0.5, 0.0, 0.5}, {0, 1, 0}, 90.0), engine);
     CHECK(whole.direct == Approx(1.0 / (4.0 * std::numbers::pi * 0.64)).epsilon(1e-12));
     CHECK(whole.indirect > 0.0);
@@ -42,8 +44,8 @@ TEST_CASE("extreme: a receiver with a field of view of 0 sees nothing, one of 90
   }
 }
 
-TEST_CASE("extreme: a lamp on the very edge of the field of view is on the same side of it for both engines") {
-  // 45 degrees from the normal, to the last digit or one beside it.
+TEST_CASE("extreme: an emitter exactly at the edge of the field of view is on the same side of it for both engines") {
+  // 45 degrees from the normal, exactly or with a difference in the last digit.
   const Room room = unit_cube(0.0, isotropic({0.75, 0.75, 0.5}));
   const auto direct = [&](Engine engine, double angle) {
     return seen(room, at({0.25, 0.25, 0.5}, {0, 1, 0}, angle), engine, 1024).direct;
@@ -59,24 +61,24 @@ TEST_CASE("extreme: a lamp on the very edge of the field of view is on the same 
   }
 }
 
-TEST_CASE("extreme: a receiver that looks away from the lamp gets nothing straight from it") {
+TEST_CASE("extreme: a receiver that faces away from the emitter gets no direct light") {
   const Room room = unit_cube(0.6, isotropic({0.5, 0.8, 0.5}));
   for (const Engine engine : both_engines) {
     const ReceiverResult away = seen(room, at({0.5, 0.4, 0.5}, {0, -1, 0}), engine);
     CHECK(away.direct == 0.0);
     CHECK(away.indirect > 0.0);
-    CHECK(seen(room, at({0.5, 0.8, 0.2}, {0, 1, 0}), engine).direct == 0.0);  // in the plane of the lamp
+    CHECK(seen(room, at({0.5, 0.8, 0.2}, {0, 1, 0}), engine).direct == 0.0);  // in the plane of the emitter
   }
 }
 
-TEST_CASE("extreme: a receiver on a lamp is refused by name") {
+TEST_CASE("extreme: a receiver on an emitter is refused by name") {
   for (const Engine engine : both_engines) {
     const Room room = unit_cube(0.6, isotropic({0.5, 0.8, 0.5}));
     const std::string message = refusal([&] { seen(room, at({0.5, 0.8, 0.5}, {0, 1, 0}), engine); });
     INFO(message);
     CHECK(message.find("'at'") != std::string::npos);
     CHECK(message.find("isotropic") != std::string::npos);
-    // A hair beside it is a place like any other.
+    // A very small distance beside it the position is valid.
     CHECK(seen(room, at({0.5, 0.8 - 1e-9, 0.5}, {0, 1, 0}), engine, 1024).direct > 1e15);
   }
 }
@@ -92,25 +94,25 @@ TEST_CASE("extreme: a receiver without area has irradiance and no gain") {
   }
 }
 
-TEST_CASE("extreme: a whole floor as receiver is its tile, not the irradiance at a point times 1 m²") {
+TEST_CASE("extreme: a whole floor as a receiver equals its tile, not the irradiance at a point times 1 m²") {
   const Room room = unit_cube(0.0, lambert({0.5, 0.5, 0.5}, {0, -1, 0}, 1.0));
   for (const Engine engine : both_engines) {
     Settings settings = settings_of(Estimator::collision, engine, 1e5, 7, 1.0);
     settings.direct = Direct::analytic;
     CHECK(power_on(simulate(room, settings), "floor") == Approx(0.554126423980).epsilon(1e-4));
-    // At the point under the lamp: I/r² = (1/π)/0.25.
+    // At the point under the emitter: I/r² = (1/π)/0.25.
     CHECK(seen(room, at({0.5, 0.0, 0.5}, {0, 1, 0}), engine, 1024).gain ==
           Approx(4.0 / std::numbers::pi).epsilon(1e-9));
   }
 }
 
-TEST_CASE("extreme: two lamps give what each gives alone") {
+TEST_CASE("extreme: two emitters give the sum of each one alone") {
   const Emitter first = lambert({0.3, 0.9, 0.4}, {0, -1, 0}, 3.0, 0.7);
   const Emitter second = isotropic({0.8, 0.5, 0.6}, 0.3);
   for (const Engine engine : both_engines) {
-    const auto lit_by = [&](const std::vector<Emitter>& lamps, std::uint64_t seed) {
-      Room room = unit_cube(0.6, lamps.front());
-      room.emitters = lamps;
+    const auto lit_by = [&](const std::vector<Emitter>& emitters, std::uint64_t seed) {
+      Room room = unit_cube(0.6, emitters.front());
+      room.emitters = emitters;
       return simulate(room, settings_of(Estimator::collision, engine, 1e6, seed, 0.2));
     };
     const Result both = lit_by({first, second}, 1);

@@ -12,7 +12,7 @@ const Emitter centre = isotropic({0.5, 0.5, 0.5});
 
 }  // namespace
 
-TEST_CASE("extreme: black surfaces end every history at its first impact, and the estimators are one") {
+TEST_CASE("extreme: black surfaces end every history at its first impact, and the estimators are equal") {
   for (const Engine engine : both_engines) {
     std::vector<Result> results;
     for (const Estimator estimator : all_estimators)

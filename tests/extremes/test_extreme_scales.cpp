@@ -1,4 +1,4 @@
-// Rooms of any size, at any place, at any angle.
+// Rooms of any size, position and rotation.
 #include <limits>
 
 #include <glm/ext/matrix_transform.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double photons = 2e5;
 
-// A room turned, made larger and moved, with its lamps.
+// A room rotated, scaled and moved, with its emitters.
 Room moved(Room room, const glm::dmat3& turn, double factor, const glm::dvec3& offset) {
   const auto to = [&](const glm::dvec3& point) { return factor * (turn * point) + offset; };
   for (Surface& surface : room.surfaces) {
@@ -83,17 +83,17 @@ TEST_CASE("extreme: a cube a thousand kilometres from the origin") {
   const Room cube = unit_cube(0.6, paper_emitter());
   const glm::dvec3 offset(1e6, -1e6, 1e6);
   const Result here = walk_in(cube, Engine::embree, 0.1);
-  // Corners and lamp are doubles there without rounding: not a digit changes.
+  // Corners and emitter are exact doubles there: no bit changes.
   const Room far = moved(cube, glm::dmat3(1.0), 1.0, offset);
   check_same_digits(walk_in(far, Engine::automatic, 0.1), here, 1.0);
-  // Floats, which files hold, would be rounded to 6 cm: that walls meet at right angles cannot be said of it.
+  // The floats of files would be rounded to 6 cm: the walls would not be perpendicular.
   CHECK_FALSE(refusal([&] { walk_in(far, Engine::cuboid, 0.1); }).empty());
-  // A millimetre, as doubles, is rounded to 10⁻⁷ of its size.
+  // A size of a millimetre, in double, is rounded to 10⁻⁷ of its value.
   const Room small = moved(cube, glm::dmat3(1.0), 1e-3, offset);
   check_shares(powers(walk_in(small, Engine::automatic, 1e-4, 2), here));
 }
 
-TEST_CASE("extreme: a cube of 1 m in the middle of one of 1000 km lets nothing out") {
+TEST_CASE("extreme: no light escapes from a cube of 1 m at the centre of one of 1000 km") {
   Room room = unit_cube(0.6, paper_emitter());
   for (Surface surface : make_cuboid({1e6, 1e6, 1e6}, uniform_reflectance(0.0)).surfaces) {
     surface.name = "far_" + surface.name;
@@ -119,7 +119,7 @@ TEST_CASE("extreme: a room of 1000 km × 1000 km that is 1 m high") {
   for (const Engine engine : both_engines) {
     const Result result = walk_in(room, engine, 1e5);
     CHECK(power_on(result, "ceiling") == 0.0);
-    // Walls are a million times farther than the floor: they see 10⁻¹² of the light.
+    // Walls are a million times farther than the floor: they receive 10⁻¹² of the light.
     CHECK(power_on(result, "floor") == 1.0);
   }
 }
@@ -132,7 +132,7 @@ TEST_CASE("extreme: a room of 1 m × 1 m between walls a micrometre apart") {
     room.emitters.push_back(isotropic({0.5 * gap, 0.5, 0.5}));
     const Result lit = walk_in(room, engine, 0.25);
     check_shares({{lit.incident, lit.incident_standard_error, 1.0 / (1.0 - rho), 0.0}});
-    // From one wall to the other: all but 2·10⁻⁶ of the light, which is what the four slits get.
+    // From one wall to the other: all light except 2·10⁻⁶, which the four slits receive.
     room = make_cuboid({gap, 1.0, 1.0}, uniform_reflectance(0.0));
     room.emitters.push_back(surface_emitter(surface_number(room, "wall_x0"), 1.0));
     const Result across = walk_in(room, engine, 0.25);
@@ -143,9 +143,9 @@ TEST_CASE("extreme: a room of 1 m × 1 m between walls a micrometre apart") {
   }
 }
 
-TEST_CASE("extreme: a room of 10⁻⁴⁰ m is simulated as any other or refused") {
+TEST_CASE("extreme: a room of 10⁻⁴⁰ m is simulated like any other or refused") {
   const Room cube = unit_cube(0.6, paper_emitter());
-  const double factor = std::ldexp(1.0, -133);  // 9.2·10⁻⁴¹ m: no float has that few digits, a double has them all
+  const double factor = std::ldexp(1.0, -133);  // 9.2·10⁻⁴¹ m: subnormal in float, with fewer digits; normal in double
   for (const Engine engine : both_engines) {
     const Result one = walk_in(cube, engine, 0.1);
     const Result tiny = walk_in(scaled(cube, factor), engine, 0.1 * factor);
@@ -157,11 +157,11 @@ TEST_CASE("extreme: a room of 10⁻⁴⁰ m is simulated as any other or refused
   CHECK_FALSE(message.empty());
 }
 
-TEST_CASE("extreme: a turned cube gets the same light; normals down to the last digit") {
+TEST_CASE("extreme: a rotated cube receives the same light; normals near (0, 0, −1)") {
   const Room cube = unit_cube(0.6, paper_emitter());
   std::vector<glm::dmat3> turns;
   turns.emplace_back(glm::rotate(glm::dmat4(1.0), 1.234, glm::normalize(glm::dvec3(1.0, -2.0, 0.7))));
-  // Normals (0, 0, −1) and such that differ from it by the smallest angles there are.
+  // Normals (0, 0, −1), and normals that differ from it by the smallest possible angles.
   turns.emplace_back(glm::rotate(glm::dmat4(1.0), std::numbers::pi, glm::dvec3(1.0, 0.0, 0.0)));
   turns.emplace_back(glm::rotate(glm::dmat4(1.0), 1e-8, glm::dvec3(1.0, 0.0, 0.0)));
   turns.emplace_back(glm::rotate(glm::dmat4(1.0), std::numeric_limits<double>::epsilon(), glm::dvec3(0.0, 1.0, 0.0)));

@@ -22,7 +22,7 @@ Surface& floor_of(Room& room) {
   return room.surfaces[surface_number(room, "floor")];
 }
 
-// A cube whose floor has these texture coordinates for its places (x, z).
+// A cube whose floor has these texture coordinates at its positions (x, z).
 Room with_floor_uvs(const std::function<glm::dvec2(double, double)>& uv) {
   Room room = unit_cube(0.6, paper_emitter());
   Surface& floor = floor_of(room);
@@ -46,8 +46,8 @@ const TileMap& map_named(const Result& result, std::string_view name) {
   throw std::logic_error("no map " + std::string(name));
 }
 
-// The floor's power is that of the same mesh without texture coordinates to the last digit, its tiles' areas add up to
-// 1 m².
+// The floor's power is that of the same mesh without texture coordinates to the last bit, and the areas of its tiles
+// add up to 1 m².
 void check_floor_kept(const Room& room, ChartSource chart) {
   Room without = room;
   floor_of(without).uvs.clear();
@@ -64,7 +64,7 @@ void check_floor_kept(const Room& room, ChartSource chart) {
 
 }  // namespace
 
-TEST_CASE("extreme: tiles larger than the walls, tiles that do not fit them: the walls' powers stay") {
+TEST_CASE("extreme: tiles larger than the walls and tiles that do not fit them keep the walls' powers") {
   for (const Engine engine : both_engines) {
     const Room room = unit_cube(0.6, paper_emitter());
     const Result fine = walk_in(room, engine, 0.1);
@@ -81,7 +81,7 @@ TEST_CASE("extreme: tiles larger than the walls, tiles that do not fit them: the
   }
 }
 
-TEST_CASE("extreme: a tile that a wall's outline cuts has the area that is left of it") {
+TEST_CASE("extreme: a tile that a wall's outline cuts has the area inside the wall") {
   // A right triangle with legs of 1 m: tiles of 0.25 m on its hypotenuse are halves.
   Room room = unit_cube(0.0, isotropic({0.5, 0.5, 0.5}));
   Surface corner;
@@ -106,7 +106,7 @@ TEST_CASE("extreme: a tile that a wall's outline cuts has the area that is left 
   CHECK(power == Approx(power_on(result, "corner")).epsilon(1e-14));
 }
 
-TEST_CASE("extreme: a million tiles on one wall hold every hit of it") {
+TEST_CASE("extreme: a million tiles on one wall count all of its hits") {
   Room room;
   room.source = "floor";
   room.surfaces.push_back(make_floor(1.0, 1.0));
@@ -124,7 +124,7 @@ TEST_CASE("extreme: texture coordinates that are all the same") {
   check_floor_kept(with_floor_uvs([](double x, double) { return glm::dvec2(x, x); }), ChartSource::engine);
 }
 
-TEST_CASE("extreme: two triangles in the same place of the texture get tiles of their own") {
+TEST_CASE("extreme: two triangles at the same position of the texture get separate tiles") {
   Room room = unit_cube(0.6, paper_emitter());
   Surface& floor = floor_of(room);
   const Surface two = make_floor(1.0, 1.0);
@@ -146,7 +146,7 @@ TEST_CASE("extreme: texture coordinates beyond 0 … 1 wrap, and are not used fo
                    ChartSource::engine);
 }
 
-TEST_CASE("extreme: mirrored texture coordinates mirror the map") {
+TEST_CASE("extreme: mirrored texture coordinates mirror the tile map") {
   const Room straight = with_floor_uvs([](double x, double z) { return glm::dvec2(x, z); });
   const Room mirrored = with_floor_uvs([](double x, double z) { return glm::dvec2(1.0 - x, z); });
   check_floor_kept(mirrored, ChartSource::file);
@@ -160,13 +160,13 @@ TEST_CASE("extreme: mirrored texture coordinates mirror the map") {
     for (std::uint32_t column = 0; column < 10; ++column) {
       const std::uint32_t one = map_a.tile_of_cell[row * 10 + column];
       const std::uint32_t other = map_b.tile_of_cell[row * 10 + (9 - column)];
-      // A photon on the border between tiles may be on either side of it in the mirror.
+      // A photon on the border between tiles may be on either side of it in the mirrored room.
       REQUIRE(std::abs(static_cast<double>(a.tiles[one].hits) - static_cast<double>(b.tiles[other].hits)) <= 2.0);
     }
   }
 }
 
-TEST_CASE("extreme: any number of threads, and so any way of sharing out the batches, gives the same bits") {
+TEST_CASE("extreme: any number of threads, and so any distribution of the batches, gives the same bits") {
   const auto same = [](double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; };
   for (const Engine engine : both_engines) {
     for (const Estimator estimator : all_estimators) {

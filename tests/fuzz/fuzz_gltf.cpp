@@ -1,4 +1,4 @@
-// Whatever bytes a file holds, reading it ends in a room or in an InputError.
+// Fuzz target: reading any bytes ends with a room or an InputError.
 //
 // Built with clang's libFuzzer (preset `fuzz`), under the address and undefined-behaviour sanitizers. Seeds: the files
 // of the room folder; tools/fuzz.sh runs it.
@@ -15,7 +15,7 @@
 
 namespace {
 
-// A file of this process's own, in memory where the system has a folder for that.
+// A file for this process, in memory if the system has a folder for that.
 const std::filesystem::path& file() {
   static const std::filesystem::path path = [] {
     const std::filesystem::path memory = "/dev/shm";
@@ -36,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const lichtmc::Room room = lichtmc::read_gltf(file());
     lichtmc::check_room(room);
-  } catch (const lichtmc::InputError&) {  // what broken files are answered with
+  } catch (const lichtmc::InputError&) {  // the result for malformed files
   }
   return 0;
 }

@@ -13,10 +13,10 @@ out=$("$work/consumer/consumer")
 echo "$out"
 [ "$(wc -l <<<"$out")" -eq 6 ] || { echo "expected one line for each of the six surfaces"; exit 1; }
 "$work/prefix/bin/lichtmc" --version
-# What the README shows is what was built here.
+# The example in the README is the one built here.
 awk '/^```cpp$/{on=1; next} /^```$/{on=0} on' "$source/README.md" >"$work/readme.cpp"
 diff "$work/readme.cpp" "$source/tests/package/consumer/main.cpp" || { echo "the example in README.md is not tests/package/consumer/main.cpp"; exit 1; }
-# The installed headers name no library but the standard one and GLM.
+# The installed headers include only the standard library and GLM.
 if grep -rhoE '#include <[a-z0-9_]+/' "$work/prefix/include" | sort -u | grep -vE '<glm/'; then
   echo "a public header includes another library"; exit 1
 fi

@@ -1,3 +1,3 @@
-// The main function of the test programs where Catch2 brings none as a library.
+// The main function of the test programs if Catch2 provides none as a library.
 #define CATCH_CONFIG_MAIN
 #include <catch2/catch.hpp>

@@ -43,7 +43,7 @@ std::vector<T> values_of(const Glb& glb, std::size_t accessor) {
   return values;
 }
 
-// Appends bytes to a buffer, aligned; returns where they are.
+// Appends bytes to a buffer, aligned; returns their offset.
 std::size_t append(std::string& buffer, const void* data, std::size_t bytes) {
   pad(buffer, '\0');
   const std::size_t offset = buffer.size();
@@ -97,7 +97,7 @@ Glb with_meshopt(const Glb& plain) {
     const bool indices = view["target"] == 34963;
     const std::size_t bytes = view["byteLength"];
     const char* data = plain.buffer.data() + view["byteOffset"].get<std::size_t>();
-    // Texture coordinates have 8 bytes, positions 12; the accessor of the view tells.
+    // Texture coordinates have 8 bytes, positions 12; the view's accessor determines the size.
     std::size_t stride = 4;
     for (const json& accessor : plain.json["accessors"]) {
       const auto& of = plain.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];

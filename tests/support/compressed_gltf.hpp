@@ -10,7 +10,7 @@
 
 namespace lichtmc::test {
 
-// A .glb file taken apart.
+// The parts of a .glb file.
 struct Glb {
   nlohmann::json json;
   std::string buffer;
@@ -19,13 +19,13 @@ struct Glb {
 Glb read_glb(const std::filesystem::path& file);
 void write_glb(const Glb& glb, const std::filesystem::path& file);
 
-// What write_gltf() makes of a room.
+// The output of write_gltf() for a room.
 Glb glb_of(const Room& room);
 
-// Every buffer view of vertices or indices compressed by EXT_meshopt_compression; the plain data is gone.
+// Every buffer view of vertices or indices compressed by EXT_meshopt_compression; the plain data is removed.
 Glb with_meshopt(const Glb& plain);
 
-// Every primitive compressed by KHR_draco_mesh_compression, positions to `bits` bits; the plain data is gone.
+// Every primitive compressed by KHR_draco_mesh_compression, positions to `bits` bits; the plain data is removed.
 Glb with_draco(const Glb& plain, int bits);
 
 }  // namespace lichtmc::test

@@ -27,8 +27,8 @@ double element_to_corner_parallel(double distance, double a, double b) {
   return (a / to_a * std::atan(b / to_a) + b / to_b * std::atan(a / to_b)) / (2.0 * pi);
 }
 
-// Element → what of a perpendicular plane lies between 0 and `width` sideways and beyond `near`: the integral of
-// d z / (π r⁴) over it; odd in width.
+// Element → the part of a perpendicular plane between 0 and `width` sideways and beyond `near`: the integral of d z /
+// (π r⁴) over it; odd in width.
 double element_to_strip_perpendicular(double distance, double width, double near) {
   const double reach = std::hypot(distance, near);
   return distance / reach * std::atan(width / reach) / (2.0 * pi);
@@ -136,7 +136,7 @@ double coaxial_disks(double r1, double r2, double distance) {
 }
 
 double point_to_coaxial_disk(double exponent, double radius, double distance) {
-  // 1 − cos^{m+1} of the half angle under which the disk is seen: the integral of (m+1) cos^m θ sin θ.
+  // 1 − cos^{m+1} of the half angle of the disk: the integral of (m+1) cos^m θ sin θ.
   const double tangent = radius / distance;
   return -std::expm1(-0.5 * (exponent + 1.0) * std::log1p(tangent * tangent));
 }

@@ -12,7 +12,7 @@
 
 namespace lichtmc::test {
 
-// A folder that is gone with it.
+// A folder; the destructor removes it.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -36,12 +36,12 @@ template <class T>
 std::size_t add_accessor(nlohmann::json& document, const std::vector<T>& values, const char* type, int component_type,
                          std::size_t components);
 
-// What read_gltf() makes of a document.
+// The room that read_gltf() makes from a document.
 Room read_document(const nlohmann::json& document);
-// The message of the InputError that reading it throws; empty where it throws none.
+// The message of the InputError that reading it throws; empty if it throws none.
 std::string refusal(const nlohmann::json& document);
 
-// Whether one of a room's `ignored` lines holds a text.
+// Whether one of a room's `ignored` lines contains a text.
 bool ignores(const Room& room, const std::string& text);
 
 // Bytes of numbers as base64.

@@ -66,7 +66,7 @@ const SurfaceResult& surface_named(const Result& result, std::string_view name) 
   throw std::logic_error("no surface " + std::string(name));
 }
 
-std::vector<Compared> against(const Result& result, const std::string& map,
+std::vector<Compared> against(const Result& result, const std::string& tile_map,
                               const std::function<double(const Tile&)>& expected) {
   constexpr double enough_hits = 50.0;
   std::vector<Compared> figures;
@@ -75,7 +75,7 @@ std::vector<Compared> against(const Result& result, const std::string& map,
   const double hits_per_power = static_cast<double>(result.histories) / result.balance.emitted;
   for (std::size_t i = 0; i < result.tiles.size(); ++i) {
     const Tile& tile = result.tiling.tiles[i];
-    if (result.tiling.maps[tile.map].name != map) continue;
+    if (result.tiling.maps[tile.map].name != tile_map) continue;
     pool.value += result.tiles[i].power;
     pool.expected += expected(tile) * tile.area_m2;
     if (result.tiles[i].hits > 0) pool.standard_error += std::pow(result.tiles[i].standard_error * tile.area_m2, 2);

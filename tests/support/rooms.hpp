@@ -27,7 +27,7 @@ Emitter paper_emitter();
 // A room without one of its surfaces; emitters on later surfaces are renumbered.
 Room without_surface(Room room, const std::string& name);
 
-// Settings for tests of the forward walk: threads and reports do not matter, the seed does.
+// Settings for tests of the forward walk: results depend on the seed, not on threads and reports.
 Settings settings_of(Estimator estimator, Engine engine, double photons, std::uint64_t seed, double tile_edge_m = 0.1);
 
 // The number of a room's surface.
@@ -35,22 +35,21 @@ std::size_t surface_number(const Room& room, std::string_view name);
 
 const SurfaceResult& surface_named(const Result& result, std::string_view name);
 
-// Irradiance of the tiles of one map against an expectation for each tile. Hits follow Poisson's law, which is not near
-// enough to a normal one where few are expected: tiles that expect fewer than 50 hits are pooled into figures that
-// expect at least that many.
-std::vector<Compared> against(const Result& result, const std::string& map,
+// Irradiance of the tiles of one tile map compared with an expectation for each tile. Hits follow Poisson's law, which
+// is not close enough to the normal law if few are expected: tiles with fewer than 50 expected hits are pooled into
+// figures with at least 50.
+std::vector<Compared> against(const Result& result, const std::string& tile_map,
                               const std::function<double(const Tile&)>& expected);
 
-// Two results with the same tiles against each other.
+// Comparison of two results with the same tiles.
 std::vector<Compared> against(const Result& a, const Result& b);
 
-// Number of a tile's cell edges from the map's grid, for tiles of a wall that is parallel to two axes: mean of a
-// function over the tile by n × n midpoints. half_u and half_v are the vectors from the tile's centre to the middle of
-// two of its sides.
+// Mean of a function over a tile of a wall that is parallel to two axes, by n × n midpoints. half_u and half_v are the
+// vectors from the tile's centre to the midpoints of two of its sides.
 double tile_mean(const glm::dvec3& centre, const glm::dvec3& half_u, const glm::dvec3& half_v, int n,
                  const std::function<double(const glm::dvec3&)>& f);
 
-// A table of numbers, one row per line, lines with # left out.
+// A table of numbers, one row per line, without lines that begin with #.
 std::vector<std::vector<double>> read_table(const std::string& file);
 
 }  // namespace lichtmc::test

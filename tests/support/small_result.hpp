@@ -1,4 +1,4 @@
-// A made-up result of a room, with everything in it that is difficult to write, and a folder to write it to.
+// An artificial result of a room, with everything that is difficult to write, and a folder to write it to.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace lichtmc::test {
 
-// A folder of its own that is gone at the end.
+// A temporary folder; the destructor removes it.
 class Folder {
  public:
   Folder() {
@@ -37,18 +37,18 @@ class Folder {
   std::filesystem::path path_;
 };
 
-// A map of 3 × 2 cells, of which the last has no surface, on a surface with a name that needs care; and one of a single
-// cell.
+// A tile map of 3 × 2 cells, the last without surface, on a surface with special characters in its name; and one of a
+// single cell.
 inline Tiling make_small_tiling() {
   Tiling tiling;
-  TileMap map;
-  map.name = "a \"b\", c/d";
-  map.columns = 3;
-  map.rows = 2;
-  map.uv_min = {0.1, 0.25};
-  map.uv_max = {0.7, 1.0};
-  map.tile_of_cell = {0, 1, 2, 3, 4, no_tile};
-  tiling.maps.push_back(map);
+  TileMap tile_map;
+  tile_map.name = "a \"b\", c/d";
+  tile_map.columns = 3;
+  tile_map.rows = 2;
+  tile_map.uv_min = {0.1, 0.25};
+  tile_map.uv_max = {0.7, 1.0};
+  tile_map.tile_of_cell = {0, 1, 2, 3, 4, no_tile};
+  tiling.maps.push_back(tile_map);
   TileMap back;
   back.name = "lamp.back";
   back.surface = 1;

@@ -1,4 +1,4 @@
-// Runs to be split into sessions, parts and members of a team, and whether the figures are the same to the last bit.
+// Runs to be split into sessions, parts and ranks, and the test whether figures are the same to the last bit.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace lichtmc::test {
 
-// Everything that comes from tallies, bit by bit.
+// Compares everything that comes from tallies, bit by bit.
 bool same_figures(const Result& a, const Result& b);
 
-// What stands in the room: nothing (a cuboid), a board in the middle, or a board with two sides of their own and a
-// texture in a room without a ceiling.
+// The objects in the room: none (a cuboid), a board in the middle, or a board with two separate sides and a texture in
+// a room without a ceiling.
 enum class Furniture { none, board, textured_board };
 
 // Two emitters, different walls, two receivers.
@@ -23,11 +23,11 @@ struct SplitRun {
   Settings settings;
 };
 
-// Both tracers, all estimators, cut off or not, few tiles and many, direct light counted and integrated, tiles walked
-// from backward, textures and openings.
+// Both tracers, all estimators, truncated or not, few tiles and many, direct light counted and integrated, backward
+// walks from tiles, textures and openings.
 std::vector<SplitRun> split_runs();
 
-// The state as another process finds it.
+// The state as another process reads it.
 State written_and_read(const State& state);
 
 // Histories first … last − 1 as a part of a run.

@@ -1,4 +1,4 @@
-// Files of states for tests: to take apart, and to seal again.
+// State files for tests: to change and to seal again.
 #pragma once
 
 #include <filesystem>
@@ -29,16 +29,16 @@ class Scratch {
 std::string bytes_of(const std::filesystem::path& file);
 void write_bytes(const std::filesystem::path& file, std::string_view bytes);
 
-// Whatever follows the seal, the seal says that it is whole.
+// Seals the file, whatever its contents are.
 void seal_again(const std::filesystem::path& file);
 
 // A unit cube with a receiver.
 Room small_room();
 
-// 24 tiles on 6 maps, 20 000 photons, both ways, by the closed form.
+// 24 tiles on 6 tile maps, 20 000 photons, forward and backward, by the closed form.
 Settings small_settings(Estimator estimator);
 
-// What a run of the small room leaves, but for the time that it took, which is the same every time.
+// The state of a run of the small room, with a fixed duration.
 StateData small_state(const Settings& settings);
 
 void write(const StateData& data, const std::filesystem::path& file);

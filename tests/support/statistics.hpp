@@ -1,9 +1,9 @@
-// The one place where simulated figures are compared with exact ones.
+// The only comparison of simulated figures with exact ones.
 //
 // A comparison of K figures fails when the largest of their z-scores is beyond what K normal variables exceed with
 // probability 10⁻⁶ (Šidák), or when Σ z² is beyond what χ² with K degrees of freedom exceeds, or falls short of, with
-// that probability. So a correct program fails one comparison in a few hundred thousand; nothing is loosened, re-run or
-// skipped.
+// that probability. So a correct program fails one comparison in a few hundred thousand; no comparison is loosened,
+// repeated or skipped.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,7 @@ namespace lichtmc::test {
 
 inline constexpr double false_alarm = 1e-6;
 
-// A simulated figure, its standard error, and what it should be (with an error of its own where that was simulated
-// too).
+// A simulated figure, its standard error, and the expected value (with its own error if that was simulated too).
 struct Compared {
   double value = 0.0;
   double standard_error = 0.0;
@@ -28,7 +27,7 @@ struct Verdict {
   std::size_t figures = 0;
   double largest_z = 0.0;
   double chi_square = 0.0;     // Σ z²
-  double smallest_bias = 0.0;  // relative bias of all figures together that would have made it fail, about
+  double smallest_bias = 0.0;  // approximate relative bias of all figures together that would have made it fail
   std::string text;            // all of this in one line
 };
 
@@ -36,10 +35,10 @@ struct Verdict {
 // and expectation are equal.
 Verdict compare(const std::vector<Compared>& figures);
 
-// z-score that the largest of K standard normal variables exceeds in size with probability false_alarm.
+// z-score that the largest absolute value of K standard normal variables exceeds with probability false_alarm.
 double largest_z_allowed(std::size_t figures);
 
-// χ² of counts against expected counts, bins of less than 10 expected pooled with their neighbours; agrees when not
+// χ² of counts against expected counts, bins of less than 10 expected pooled with their neighbours; agrees if not
 // beyond false_alarm on the upper side.
 Verdict compare_counts(const std::vector<double>& counts, const std::vector<double>& expected);
 

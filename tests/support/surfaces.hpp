@@ -14,7 +14,7 @@
 
 namespace lichtmc::test {
 
-// Adds a triangle with corners of its own, without UVs.
+// Adds a triangle with separate corners, without UVs.
 inline void add_triangle(Surface& surface, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const auto first = static_cast<std::uint32_t>(surface.positions.size());
   surface.positions.insert(surface.positions.end(), {a, b, c});
@@ -57,8 +57,7 @@ inline Surface make_box(const glm::dvec3& size) {
   return surface;
 }
 
-// A sphere of radius 1 with n slices and n bands, without UVs; the triangles at the poles that have no area are there
-// too.
+// A sphere of radius 1 with n slices and n bands, without UVs; including triangles without area at the poles.
 inline Surface make_sphere(int n) {
   Surface surface;
   surface.name = "sphere";
@@ -77,7 +76,7 @@ inline Surface make_sphere(int n) {
   return surface;
 }
 
-// A ramp that winds `turns` times around an axis, without UVs: its turns lie over each other.
+// A spiral ramp with `turns` turns around an axis, without UVs: its turns lie above each other.
 inline Surface make_ramp(int turns, int steps_per_turn) {
   Surface surface;
   surface.name = "ramp";

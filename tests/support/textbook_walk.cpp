@@ -40,7 +40,7 @@ std::vector<std::uint64_t> textbook_walk(const TextbookRoom& room, std::uint64_t
     const std::array<double, 3> local = generalized_lambert(uniform, room.exponent);
     std::array<double, 3> v{local[0], -local[2], local[1]};
     for (;;) {
-      // The nearest of the walls that the photon flies to.
+      // The nearest of the walls that the photon approaches.
       double lambda = std::numeric_limits<double>::infinity();
       std::size_t axis = 0;
       for (std::size_t k = 0; k < 3; ++k) {

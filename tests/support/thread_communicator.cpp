@@ -9,32 +9,32 @@ namespace {
 
 __extension__ using Wide = unsigned __int128;
 
-// Members put what they have here; when all have, each takes what it needs.
+// Ranks store their data here; when all have, each reads what it needs.
 class Table {
  public:
-  explicit Table(unsigned size) : spans_(size), meeting_(size) {}
+  explicit Table(unsigned size) : spans_(size), barrier_(size) {}
 
   void put(unsigned rank, std::span<std::byte> bytes) {
     spans_[rank] = bytes;
-    meeting_.arrive_and_wait();
+    barrier_.arrive_and_wait();
   }
   template <class Word>
   const Word* words_of(std::size_t rank) const {
     return reinterpret_cast<const Word*>(spans_[rank].data());
   }
   std::span<const std::byte> bytes_of(std::size_t rank) const { return spans_[rank]; }
-  // Nobody may change what others still read.
-  void all_have_read() { meeting_.arrive_and_wait(); }
+  // No rank may change data that others still read.
+  void all_have_read() { barrier_.arrive_and_wait(); }
   std::size_t size() const { return spans_.size(); }
 
  private:
   std::vector<std::span<std::byte>> spans_;
-  std::barrier<> meeting_;
+  std::barrier<> barrier_;
 };
 
-class Member final : public Communicator {
+class ThreadCommunicator final : public Communicator {
  public:
-  Member(Table& table, unsigned rank) : table_(&table), rank_(rank) {}
+  ThreadCommunicator(Table& table, unsigned rank) : table_(&table), rank_(rank) {}
 
   unsigned rank() const override { return rank_; }
   unsigned size() const override { return static_cast<unsigned>(table_->size()); }
@@ -73,7 +73,7 @@ void run_ranks(unsigned size, const std::function<void(Communicator&)>& work) {
   std::vector<std::jthread> members;
   for (unsigned rank = 0; rank < size; ++rank) {
     members.emplace_back([&table, &work, rank] {
-      Member member(table, rank);
+      ThreadCommunicator member(table, rank);
       work(member);
     });
   }

@@ -1,4 +1,4 @@
-// A team whose members are threads of one process: what lichtmc::mpi does over machines, without MPI.
+// A communicator whose ranks are threads of one process: as lichtmc::mpi, but without MPI.
 #pragma once
 
 #include <barrier>
@@ -10,7 +10,7 @@
 
 namespace lichtmc::test {
 
-// Calls work(team) on `size` threads, one for each member; returns when all have. Exceptions are not expected.
+// Calls work(communicator) on `size` threads, one per rank; returns when all have returned. `work` must not throw.
 void run_ranks(unsigned size, const std::function<void(Communicator&)>& work);
 
 }  // namespace lichtmc::test

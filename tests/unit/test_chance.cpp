@@ -17,7 +17,7 @@
 using namespace lichtmc;
 using namespace lichtmc::test;
 
-TEST_CASE("Philox gives its known answers") {
+TEST_CASE("Philox gives the published words") {
   // Random123 1.14, kat_vectors: philox4x32, 10 rounds.
   CHECK(philox4x32_10({0, 0, 0, 0}, {0, 0}) == Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
   constexpr std::uint32_t ones = 0xffffffff;
@@ -38,7 +38,7 @@ TEST_CASE("words differ with every part of their address") {
   CHECK(words != stream.draw(7, 3, Purpose::emission));
 }
 
-TEST_CASE("uniform numbers keep to their intervals") {
+TEST_CASE("uniform numbers stay in their intervals") {
   CHECK(unit_open(0) == 0x1p-33);
   CHECK(unit_open(0xffffffff) == 1.0 - 0x1p-33);
   CHECK(unit_fine(0, 0) == 0.0);
@@ -164,7 +164,7 @@ TEST_CASE("an infinite exponent is a pencil beam") {
   CHECK(v == glm::dvec3(0.0, 0.0, 1.0));
 }
 
-TEST_CASE("no direction is sampled along the surface itself") {
+TEST_CASE("no sampled direction is parallel to the surface") {
   for (const std::uint32_t word : {0U, 1U, 0xffffffffU}) {
     const glm::vec3 v = sample_lambert(word, 0x80000000U);
     CHECK(v.z > 0.0F);
@@ -173,7 +173,7 @@ TEST_CASE("no direction is sampled along the surface itself") {
   }
 }
 
-TEST_CASE("words drawn for many photons are those drawn one by one") {
+TEST_CASE("words drawn for many photons equal those drawn one by one") {
   for (const WalkDirection direction : {WalkDirection::forward, WalkDirection::backward}) {
     const Stream stream(0x123456789ABCDEFULL, direction);
     for (const std::size_t n : {1U, 3U, 4U, 7U, 64U, 1023U}) {
@@ -195,7 +195,7 @@ TEST_CASE("words drawn for many photons are those drawn one by one") {
   }
 }
 
-TEST_CASE("logarithm and exponential in lanes are those of the C library to some roundings") {
+TEST_CASE("logarithm and exponential for vectorised loops agree with the C library within some roundings") {
   double worst_log = 0.0;
   double worst_exp = 0.0;
   const auto try_log = [&](std::uint32_t word) {

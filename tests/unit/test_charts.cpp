@@ -53,7 +53,7 @@ void check_partition(const Surface& surface, const Patches& cut, double toleranc
 
 }  // namespace
 
-TEST_CASE("sound UVs have no fault") {
+TEST_CASE("valid UVs have no fault") {
   CHECK(fault_of(make_floor(4.0, 3.0)).empty());
   CHECK(fault_of(make_floor(4.0, 3.0, 20, 0.001)).empty());
   SECTION("rounded to float") {
@@ -73,7 +73,7 @@ TEST_CASE("sound UVs have no fault") {
   }
 }
 
-TEST_CASE("UVs that cannot serve are refused with their reason") {
+TEST_CASE("UVs that cannot be used are refused with the reason") {
   Surface surface = make_floor(4.0, 3.0, 4);
   SECTION("absent") {
     surface.uvs.clear();
@@ -118,7 +118,7 @@ TEST_CASE("UVs that cannot serve are refused with their reason") {
   }
 }
 
-TEST_CASE("triangles without area have no say about the UVs") {
+TEST_CASE("triangles without area do not count in the test of the UVs") {
   Surface surface = make_floor(4.0, 3.0, 2);
   add_triangle(surface, {1.0, 0.0, 1.0}, {2.0, 0.0, 2.0}, {3.0, 0.0, 3.0});
   surface.uvs.insert(surface.uvs.end(), {{7.0, -3.0}, {std::numeric_limits<double>::infinity(), 0.0}, {0.5, 0.5}});
@@ -134,7 +134,7 @@ TEST_CASE("triangles without area have no say about the UVs") {
   }
 }
 
-TEST_CASE("a file chart has as many cells as it is long") {
+TEST_CASE("the number of cells of a file chart follows from its length") {
   const Surface surface = make_floor(4.0, 3.0, 3, 0.5);
   const Chart chart = make_uv_chart(surface, triangle_shapes(surface), 0.1);
   CHECK(chart.source == ChartSource::file);
@@ -165,7 +165,7 @@ TEST_CASE("penetration depth is the shortest separating shift") {
   CHECK(penetration_depth(a, clockwise) == penetration_depth(a, a));
 }
 
-TEST_CASE("the overlap index finds what trying all pairs finds") {
+TEST_CASE("the overlap index gives the same results as a test of all pairs") {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> place(-1.0, 1.0);
   for (const double size : {0.3, 0.03, 0.005}) {
@@ -174,7 +174,7 @@ TEST_CASE("the overlap index finds what trying all pairs finds") {
     std::size_t refused = 0;
     for (std::size_t n = 0; n < 1500; ++n) {
       const glm::dvec2 at(place(random), place(random));
-      const double mine = n % 50 == 0 ? 10.0 * size : size;  // some large ones among the small
+      const double mine = n % 50 == 0 ? 10.0 * size : size;  // some large ones among the small ones
       FlatTriangle triangle;
       for (glm::dvec2& corner : triangle) corner = at + mine * glm::dvec2(place(random), place(random));
       const bool expected = std::any_of(kept.begin(), kept.end(), [&](const FlatTriangle& other) {
@@ -189,7 +189,7 @@ TEST_CASE("the overlap index finds what trying all pairs finds") {
   }
 }
 
-TEST_CASE("large meshes and stacks of copies are checked for overlap in little time") {
+TEST_CASE("large meshes and stacked copies are tested for overlap in a short time") {
   CHECK(fault_of(make_floor(4.0, 3.0, 180)).empty());  // 64 800 triangles
   Surface stack;
   for (int n = 0; n < 20000; ++n) add_quad(stack, {0.0, 0.001 * n, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
@@ -197,7 +197,7 @@ TEST_CASE("large meshes and stacks of copies are checked for overlap in little t
   CHECK_THAT(fault_of(stack), ContainsSubstring("overlap"));
 }
 
-TEST_CASE("triangles are linked by the places of their edges") {
+TEST_CASE("triangles are linked by the positions of their edges") {
   Surface surface = make_floor(2.0, 1.0);  // triangles 0 and 1 share their diagonal: edge 2 of one, edge 0 of the other
   for (glm::dvec3& p : surface.positions) p.y = p.x > 1.0 ? -0.0 : 0.0;
   const MeshLinks links(surface);
@@ -208,7 +208,7 @@ TEST_CASE("triangles are linked by the places of their edges") {
   CHECK(links.at_edge(0, 0).size() == 1);
 }
 
-TEST_CASE("a stack of copies links no triangles") {
+TEST_CASE("stacked copies are not linked") {
   Surface surface;
   for (int n = 0; n < 9; ++n) add_quad(surface, glm::dvec3(0.0), {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
   const MeshLinks links(surface);
@@ -227,13 +227,13 @@ TEST_CASE("a sphere has few patches") {
   const Surface sphere = make_sphere(24);
   const Patches cut = patches_of(sphere);
   check_partition(sphere, cut, 1e-6);
-  // Caps of 50° cover (1 − cos 50°)/2 = 0.18 of it: at least 6; they overlap, so it takes some more.
+  // Caps of 50° cover (1 − cos 50°)/2 = 0.18 of it: at least 6; they overlap, so some more are needed.
   CHECK(cut.patches.size() >= 6);
   CHECK(cut.patches.size() <= 24);
   CHECK(cut.slivers.size() == 48);  // at each pole 24 triangles without area
 }
 
-TEST_CASE("a winding ramp is cut where it lies over itself") {
+TEST_CASE("a spiral ramp is cut where it overlaps itself") {
   const Surface ramp = make_ramp(5, 24);
   const Patches cut = patches_of(ramp);
   check_partition(ramp, cut, float_noise * largest_extent_m(ramp));
@@ -241,7 +241,7 @@ TEST_CASE("a winding ramp is cut where it lies over itself") {
   CHECK(cut.patches.size() <= 10);
 }
 
-TEST_CASE("surfaces modelled twice and sheets folded flat still have patches without overlap") {
+TEST_CASE("surfaces that are modelled twice or folded have patches without overlap") {
   Surface twice = make_box({1.0, 1.0, 1.0});
   const Surface overrides = twice;
   for (const glm::uvec3& corner : overrides.triangles) {
@@ -251,19 +251,19 @@ TEST_CASE("surfaces modelled twice and sheets folded flat still have patches wit
   check_partition(twice, cut, 1e-6);
   CHECK(cut.patches.size() == 12);
 
-  Surface card;  // front and back in one place
+  Surface card;  // front and back at the same position
   add_quad(card, glm::dvec3(0.0), {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0});
   add_quad(card, glm::dvec3(0.0), {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0});
   check_partition(card, patches_of(card), 1e-6);
 }
 
-TEST_CASE("a thousand copies in one place are cut in little time") {
+TEST_CASE("a thousand copies at the same position are cut in a short time") {
   Surface stack;
   for (int n = 0; n < 5000; ++n) add_quad(stack, glm::dvec3(0.0), {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
   CHECK(patches_of(stack).patches.size() == 10000);
 }
 
-TEST_CASE("an engine chart of a floor keeps the axes of the world") {
+TEST_CASE("an engine chart of a floor has the axes of the world") {
   Surface floor = make_floor(4.0, 3.0);
   const Chart chart = engine_chart_of(floor, 0.1);
   CHECK(chart.source == ChartSource::engine);
@@ -296,8 +296,8 @@ TEST_CASE("walls along the axes have u along the first axis in them and v along 
   }
 }
 
-TEST_CASE("a frame comes apart into bars") {
-  // Bars 0.2 m wide about 2 m × 1.4 m, joined at their corners by common edges.
+TEST_CASE("a frame is divided into bars") {
+  // Bars 0.2 m wide around 2 m × 1.4 m, joined at their corners by common edges.
   Surface frame;
   frame.name = "frame";
   const std::array<double, 4> x{0.0, 0.2, 1.8, 2.0};
@@ -312,7 +312,7 @@ TEST_CASE("a frame comes apart into bars") {
   const Chart chart = engine_chart_of(frame, 0.1);
   const double waste = chart.cells.x * chart.cells.y * 0.01 / area_of(frame);
   INFO(chart.cells.x << " x " << chart.cells.y << " cells, " << waste << " of the area");
-  CHECK(waste < 1.2);  // one rectangle about it all would take 2.3
+  CHECK(waste < 1.2);  // one rectangle around the whole frame would have 2.3
   // Every tile's area is its share of the surface.
   Room room;
   room.surfaces.push_back(frame);
@@ -321,7 +321,7 @@ TEST_CASE("a frame comes apart into bars") {
   CHECK(std::abs(area - area_of(frame)) < 1e-12);
 }
 
-TEST_CASE("no cell of an engine chart holds two patches") {
+TEST_CASE("no cell of an engine chart contains two patches") {
   const Surface sphere = make_sphere(16);
   const std::vector<TriangleShape> shapes = triangle_shapes(sphere);
   const double noise_m = float_noise * largest_extent_m(sphere);
@@ -354,8 +354,8 @@ TEST_CASE("no cell of an engine chart holds two patches") {
   CHECK(cells <= chart.cells.x * chart.cells.y);
 }
 
-TEST_CASE("coordinates that are on a grid line but for rounding are put on it") {
-  const GridMap grid(glm::dvec2(0.0), glm::dvec2(1.0), glm::dvec2(10.0, 10.0), float_noise);
+TEST_CASE("coordinates within rounding of a grid line are moved to it") {
+  const GridTransform grid(glm::dvec2(0.0), glm::dvec2(1.0), glm::dvec2(10.0, 10.0), float_noise);
   const double tenth = static_cast<double>(0.3F);
   REQUIRE(tenth * 10.0 != 3.0);
   CHECK(grid({tenth, 0.35}).x == 3.0);

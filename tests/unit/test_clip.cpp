@@ -60,7 +60,8 @@ TEST_CASE("half a square is cut into whole and half cells") {
   for (const std::uint32_t n : {1U, 4U, 10U, 300U}) {
     const double side = n;
     const auto pieces = clip({{{0.0, 0.0}, {side, 0.0}, {0.0, side}}}, n, n);
-    // n(n − 1)/2 cells below the diagonal and n halves on it; no crumbs where the diagonal meets the lines' crossings.
+    // n(n − 1)/2 cells below the diagonal and n halves on it; no tiny pieces where the diagonal goes through the
+    // crossings of the lines.
     REQUIRE(pieces.size() == n * (n + 1) / 2);
     for (const CellPiece& piece : pieces) {
       REQUIRE(piece.column + piece.row < n);
@@ -71,7 +72,7 @@ TEST_CASE("half a square is cut into whole and half cells") {
   }
 }
 
-TEST_CASE("a cut at a known place has the known shares") {
+TEST_CASE("a cut at a known position has the known shares") {
   // The triangle (0, 0), (3, 0), (0, 2): cell by cell from its line y = 2 − 2x/3, in units of its area 3.
   const auto pieces = clip({{{0.0, 0.0}, {3.0, 0.0}, {0.0, 2.0}}}, 3, 2);
   CHECK(std::abs(share_in(pieces, 0, 0) - 1.0 / 3.0) <= rounding);
@@ -88,7 +89,7 @@ TEST_CASE("shares add up to one and centroids lie in their cells") {
   for (int trial = 0; trial < 2000; ++trial) {
     Triangle triangle;
     for (glm::dvec2& corner : triangle) corner = {place(random), place(random)};
-    if (trial % 4 == 1) triangle[2] = 0.5 * (triangle[0] + triangle[1]);  // squeezed to a line
+    if (trial % 4 == 1) triangle[2] = 0.5 * (triangle[0] + triangle[1]);  // collapsed to a line
     if (trial % 4 == 2) triangle[2].y = triangle[1].y = triangle[0].y;    // along a row
     if (trial % 4 == 3) triangle[2] = triangle[1] = triangle[0];          // to a point
     const auto pieces = clip(triangle, 40, 40);
@@ -107,7 +108,8 @@ TEST_CASE("shares add up to one and centroids lie in their cells") {
 
 TEST_CASE("shares agree with counted points") {
   // An independent answer: points spread evenly over a triangle fall into the cells by their shares. With 1e6 points of
-  // a lattice a share is off by no more than the points along the piece's rim: 4 sides of up to 1000 points.
+  // a lattice the error of a share is no more than the points along the boundary of the piece: 4 sides of up to 1000
+  // points.
   const Triangle triangle{{{0.3, 0.2}, {6.9, 1.7}, {2.1, 4.8}}};
   const auto pieces = clip(triangle, 7, 5);
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> counted;
@@ -127,30 +129,30 @@ TEST_CASE("shares agree with counted points") {
   }
 }
 
-TEST_CASE("a triangle squeezed to a line keeps the areas of its slices") {
+TEST_CASE("a triangle collapsed to a line keeps the areas of its slices") {
   // Apex at x = 0, base at x = 4: the slice between k and k + 1 has ((k + 1)² − k²)/16 of the area.
   const auto pieces = clip({{{0.0, 0.5}, {4.0, 0.5}, {4.0, 0.5}}}, 4, 1);
   REQUIRE(pieces.size() == 4);
   for (std::uint32_t k = 0; k < 4; ++k) CHECK(std::abs(share_in(pieces, k, 0) - (2.0 * k + 1.0) / 16.0) <= rounding);
 }
 
-TEST_CASE("a tip that is no more than rounding makes no piece and its share is kept") {
-  // The tip has (5e-7)² = 2.5e-13 of the area: below the limit of 1e-12, and far above what the sum is rounded by.
+TEST_CASE("a tip that is only rounding makes no piece and its share is kept") {
+  // The tip has (5e-7)² = 2.5e-13 of the area: below the limit of 1e-12, and far above the rounding of the sum.
   const auto pieces = clip({{{0.0, 0.0}, {1.0 + 5e-7, 0.0}, {0.0, 1.0}}}, 2, 1);
   REQUIRE(pieces.size() == 1);
   CHECK(std::abs(pieces[0].share - 1.0) <= rounding);
-  // The same at the beginning, where no piece has been found before it.
+  // The same at the beginning, before any piece exists.
   const auto first = clip({{{1.0 - 5e-7, 0.0}, {2.0, 0.0}, {2.0, 1.0}}}, 2, 1);
   REQUIRE(first.size() == 1);
   CHECK(first[0].column == 1);
   CHECK(std::abs(first[0].share - 1.0) <= rounding);
-  // A tip that is no rounding is a piece: (1e-3)² of the area.
+  // A tip above rounding is a piece: (1e-3)² of the area.
   const auto real_tip = clip({{{0.0, 0.0}, {1.0 + 1e-3, 0.0}, {0.0, 1.0}}}, 2, 1);
   REQUIRE(real_tip.size() == 2);
   CHECK(std::abs(real_tip[1].share - 1e-6 / (1.001 * 1.001)) <= rounding);
 }
 
-TEST_CASE("what lies outside the grid counts at its rim") {
+TEST_CASE("parts outside the grid count in its outermost cells") {
   const auto pieces = clip({{{-1.0, -1.0}, {3.0, -1.0}, {-1.0, 3.0}}}, 1, 1);
   REQUIRE(pieces.size() == 1);
   CHECK(pieces[0].share == 1.0);

@@ -1,4 +1,4 @@
-// Results held against each other.
+// Comparison of results.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder of results that is gone at the end.
+// A folder of results, removed at the end.
 class Folder {
  public:
   Folder(const std::string& name, const Room& room, const Settings& settings)
@@ -40,7 +40,7 @@ Settings seeded(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("compare: two seeds agree, one percent more light does not") {
+TEST_CASE("compare: two seeds agree, one percent more power does not") {
   Room room = unit_cube(0.6, paper_emitter());
   const Folder a("a", room, seeded(1));
   const Folder b("b", room, seeded(2));
@@ -62,7 +62,7 @@ TEST_CASE("compare: two seeds agree, one percent more light does not") {
   CHECK(brighter.chi_square_chance < comparison_false_alarm);
 }
 
-TEST_CASE("compare: receivers with receivers, and with the tiles that they stand at") {
+TEST_CASE("compare: receivers with receivers, and with the tiles at their positions") {
   Room room = unit_cube(0.6, isotropic({0.5, 0.5, 0.5}));
   const Folder tiles("tiles", room, [] {
     Settings settings = seeded(4);
@@ -91,7 +91,7 @@ TEST_CASE("compare: receivers with receivers, and with the tiles that they stand
   CHECK(back.largest_z == Approx(-across.largest_z).epsilon(1e-12));
 }
 
-TEST_CASE("compare: what cannot be compared is refused with the reason") {
+TEST_CASE("compare: results that cannot be compared are refused with the reason") {
   Room room = unit_cube(0.6, paper_emitter());
   const Folder a("a", room, seeded(1));
   CHECK_THROWS_WITH(compare_results(a.path(), fs::temp_directory_path() / "lichtmc_nothing"),
@@ -101,7 +101,7 @@ TEST_CASE("compare: what cannot be compared is refused with the reason") {
   const Folder other("other", room, finer);
   CHECK_THROWS_WITH(compare_results(a.path(), other.path()), ContainsSubstring("96 and 150"));
   Settings few = seeded(3);
-  few.photons = 1000;  // one batch: its errors are not known
+  few.photons = 1000;  // one batch: its errors are unknown
   const Folder unsure("unsure", room, few);
   CHECK_THROWS_WITH(compare_results(unsure.path(), unsure.path()), ContainsSubstring("Nothing in"));
   std::ofstream(a.path() / "tiles.csv") << "tile,surface\n0,floor\n";

@@ -31,14 +31,14 @@ void add(Room& room, const Surface& surface) {
 
 }  // namespace
 
-TEST_CASE("cuboids and spheres are convex, wherever they are and however turned") {
+TEST_CASE("cuboids and spheres are convex at any position and rotation") {
   CHECK(convex(box({5, 3, 4})));
   CHECK(convex(box({1e-4, 1, 1})));
   CHECK(convex(box({5, 3, 4}, {1e6, -1e6, 1e6})));
   Room turned = box({5, 3, 4});
   const glm::dquat turn = glm::normalize(glm::dquat(0.3, 0.5, -0.2, 0.7));
   for (Surface& wall : turned.surfaces) {
-    for (glm::dvec3& p : wall.positions) p = glm::dvec3(glm::vec3(turn * p));  // rounded as files round them
+    for (glm::dvec3& p : wall.positions) p = glm::dvec3(glm::vec3(turn * p));  // rounded to float as in files
   }
   CHECK(convex(turned));
   Room sphere;
@@ -46,10 +46,10 @@ TEST_CASE("cuboids and spheres are convex, wherever they are and however turned"
   CHECK(convex(sphere));
 }
 
-TEST_CASE("what casts a shadow or has a hole is not convex") {
+TEST_CASE("rooms with an object or a hole are not convex") {
   CHECK_FALSE(convex(read_gltf(std::string(LICHTMC_SCENES) + "/l_room.gltf")));
   CHECK_FALSE(convex(read_gltf(std::string(LICHTMC_SCENES) + "/living_room.glb")));
-  // A box in a room, a box beside a room, a sheet in a room, a room without its ceiling.
+  // A box in a room, a box beside a room, a plate in a room, a room without its ceiling.
   Room room = box({5, 3, 4});
   for (const Surface& side : box({1, 1, 1}, {2, 1, 2}).surfaces) add(room, side);
   CHECK_FALSE(convex(room));
@@ -57,9 +57,9 @@ TEST_CASE("what casts a shadow or has a hole is not convex") {
   for (const Surface& side : box({1, 1, 1}, {7, 1, 2}).surfaces) add(room, side);
   CHECK_FALSE(convex(room));
   room = box({5, 3, 4});
-  Surface sheet;
-  add_quad(sheet, {1, 1, 1}, {0, 0, 1}, {1, 0, 0});
-  add(room, sheet);
+  Surface plate;
+  add_quad(plate, {1, 1, 1}, {0, 0, 1}, {1, 0, 0});
+  add(room, plate);
   CHECK_FALSE(convex(room));
   room = box({5, 3, 4});
   room.surfaces.erase(room.surfaces.begin() + 1);
@@ -67,7 +67,7 @@ TEST_CASE("what casts a shadow or has a hole is not convex") {
   CHECK_FALSE(convex(Room{}));
 }
 
-TEST_CASE("a dent is found, one of rounding is not") {
+TEST_CASE("a dent makes a room not convex, one within rounding does not") {
   Room sphere;
   add(sphere, make_sphere(32));
   Room dented = sphere;

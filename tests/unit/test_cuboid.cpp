@@ -42,7 +42,7 @@ Pose some_pose(std::mt19937& words, double distance) {
   return pose;
 }
 
-// The room turned and moved, its coordinates rounded to float as in a file.
+// The room rotated and moved, its coordinates rounded to float as in a file.
 Room placed(Room room, const Pose& pose) {
   for (Surface& surface : room.surfaces) {
     for (glm::dvec3& p : surface.positions)
@@ -71,7 +71,7 @@ Room with_fine_floor(std::uint32_t n) {
   return room;
 }
 
-// Largest distance of a triangle's corners from the face that it is said to lie in, and of the faces from the room.
+// Largest distance of a triangle's corners from the face assigned to it, and of the faces from the room.
 double misfit_m(const Room& room, const CuboidShape& shape) {
   double worst = 0.0;
   for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
@@ -136,7 +136,7 @@ TEST_CASE("a cuboid has six walls in order with their reflectances") {
   }
 }
 
-TEST_CASE("a cuboid wants edges above 0 and reflectances from 0 to 1") {
+TEST_CASE("a cuboid requires edges above 0 and reflectances from 0 to 1") {
   const double wrong_edges[] = {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                                 std::numeric_limits<double>::infinity()};
   for (const double edge : wrong_edges) {
@@ -170,7 +170,7 @@ TEST_CASE("a cuboid along the axes is recognised exactly from a micrometre to a 
   }
 }
 
-TEST_CASE("a cuboid is recognised turned and moved with coordinates in float") {
+TEST_CASE("a rotated and moved cuboid with coordinates in float is recognised") {
   std::mt19937 words(1);
   for (const double distance_m : {0.0, 10.0, 1000.0}) {
     for (int repeat = 0; repeat < 50; ++repeat) {
@@ -178,11 +178,11 @@ TEST_CASE("a cuboid is recognised turned and moved with coordinates in float") {
       const Room room = placed(repeat % 2 == 0 ? cuboid() : with_fine_floor(12), some_pose(words, distance_m));
       const auto shape = recognise_cuboid(room);
       REQUIRE(shape.has_value());
-      // Coordinates up to distance + √50 m round by 2⁻²⁴ of it each; a wall is 3 to 7 m wide, so that its plane is off
-      // by a few of these at its far corners. 2⁻²⁰ is sixteen.
+      // Coordinates up to distance + √50 m round by 2⁻²⁴ of it each; a wall is 3 to 7 m wide, so that the error of its
+      // plane is a few of these at its far corners. 2⁻²⁰ is sixteen.
       const double noise_m = 0x1p-20 * (distance_m + std::sqrt(50.0));
       CHECK(misfit_m(room, *shape) < noise_m);
-      // Each edge is off by the noise at either end: dV = V Σ da/a, Σ 1/a = 47/60.
+      // Each edge has the error of both ends: dV = V Σ da/a, Σ 1/a = 47/60.
       CHECK(std::abs(volume(*shape) - 60.0) < 60.0 * 2.0 * noise_m * (47.0 / 60.0));
       for (std::size_t k = 0; k < 3; ++k) {
         // Unit vectors that are perpendicular to rounding, 8 ulp of 1.
@@ -194,7 +194,7 @@ TEST_CASE("a cuboid is recognised turned and moved with coordinates in float") {
   }
 }
 
-TEST_CASE("a cuboid is recognised however its walls are made of triangles and surfaces") {
+TEST_CASE("a cuboid is recognised with any division of its walls into triangles and surfaces") {
   SECTION("any winding") {
     Room room = cuboid();
     std::swap(room.surfaces[0].triangles[0].x, room.surfaces[0].triangles[0].y);
@@ -223,7 +223,7 @@ TEST_CASE("a cuboid is recognised however its walls are made of triangles and su
     }
     CHECK(recognise_cuboid(room).has_value());
   }
-  SECTION("a wall in many triangles whose corners meet the neighbours' edges in the middle") {
+  SECTION("a wall of many triangles with T-junctions at its neighbours") {
     const Room room = with_fine_floor(40);
     const auto shape = recognise_cuboid(room);
     REQUIRE(shape.has_value());
@@ -235,14 +235,14 @@ TEST_CASE("a cuboid is recognised however its walls are made of triangles and su
     room.surfaces.emplace_back();
     CHECK(recognise_cuboid(room).has_value());
   }
-  SECTION("a wall off by less than its coordinates are rounded") {
+  SECTION("a wall displaced by less than the rounding of its coordinates") {
     Room room = cuboid();
     room.surfaces[1].positions[0].y += 1e-7;
     CHECK(recognise_cuboid(room).has_value());
   }
 }
 
-TEST_CASE("what is not one empty closed cuboid is not recognised") {
+TEST_CASE("rooms that are not one empty closed cuboid are not recognised") {
   Room room = cuboid();
   REQUIRE(recognise_cuboid(room).has_value());
   SECTION("nothing") {

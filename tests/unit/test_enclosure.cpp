@@ -37,7 +37,7 @@ Room sphere(std::uint32_t n) {
     for (std::uint32_t j = 0; j < 2 * n; ++j) {
       const double theta = std::numbers::pi * i / n;
       const double phi = std::numbers::pi * j / n;
-      // The poles are one place each, and so welded, though every meridian has its own.
+      // Every meridian has its own copy of the poles, at the same position: they are welded.
       const double r = i == 0 || i == n ? 0.0 : std::sin(theta);
       surface.positions.emplace_back(r * std::cos(phi), std::cos(theta), r * std::sin(phi));
     }
@@ -98,7 +98,8 @@ TEST_CASE("a cube encloses the points inside it and no others") {
         const bool inside = p.x > 0 && p.x < 1 && p.y > 0 && p.y < 1 && p.z > 0 && p.z < 1;
         REQUIRE(enclosure.encloses(corner + edge * p) == inside);
       }
-      // The middle, where rays in simple directions meet edges and corners, and just inside a wall, an edge, a corner.
+      // The centre, from which rays in simple directions meet edges and corners, and points just inside a wall, an
+      // edge, a corner.
       for (const glm::dvec3 p : {glm::dvec3(0.5), glm::dvec3(0.5, 1e-6, 0.5), glm::dvec3(1e-6, 1e-6, 0.5),
                                  glm::dvec3(1.0 - 1e-6), glm::dvec3(1e-6)}) {
         CHECK(enclosure.encloses(corner + edge * p));
@@ -108,9 +109,9 @@ TEST_CASE("a cube encloses the points inside it and no others") {
   }
 }
 
-TEST_CASE("a point whose ray meets an edge or a corner is asked again in another direction") {
+TEST_CASE("if a ray meets an edge or a corner, the point is tested again in another direction") {
   const Enclosure enclosure(cube());
-  // The first direction that encloses() takes, backwards from the diagonals and edges of the walls that it leads to.
+  // The first direction of encloses(), traced back from the diagonals and edges of the walls that it leads to.
   const glm::dvec3 direction(0.57735, 0.21132, 0.78868);
   int asked = 0;
   for (int k = 0; k <= 32; ++k) {
@@ -127,7 +128,7 @@ TEST_CASE("a point whose ray meets an edge or a corner is asked again in another
   CHECK(asked > 100);
 }
 
-TEST_CASE("a shell is closed whatever the winding and the surfaces that it is made of") {
+TEST_CASE("a shell is closed with any winding and any division into surfaces") {
   Room room = cube();
   for (Surface& wall : room.surfaces) std::swap(wall.triangles[0].x, wall.triangles[0].y);
   const Enclosure enclosure(room);
@@ -135,7 +136,7 @@ TEST_CASE("a shell is closed whatever the winding and the surfaces that it is ma
   CHECK(enclosure.encloses({0.3, 0.6, 0.4}));
 }
 
-TEST_CASE("a shell with a hole is none") {
+TEST_CASE("a shell with a hole is not closed") {
   Room room = cube();
   SECTION("no ceiling") {
     room.surfaces.erase(room.surfaces.begin() + 1);
@@ -151,7 +152,7 @@ TEST_CASE("a shell with a hole is none") {
   CHECK_FALSE(enclosure.encloses({0.5, 0.5, 0.5}));
 }
 
-TEST_CASE("corners that differ by rounding are one") {
+TEST_CASE("corners that differ by rounding count as one") {
   Room room = cube();
   SECTION("minus zero") {
     for (Surface& wall : room.surfaces) {
@@ -174,7 +175,7 @@ TEST_CASE("corners that differ by rounding are one") {
   CHECK_FALSE(enclosure.encloses({0.5, 1.5, 0.5}));
 }
 
-TEST_CASE("a room with open and closed things in it is enclosed by its own shell") {
+TEST_CASE("a room with open and closed objects in it is enclosed by its own shell") {
   Room room = together(cube(), cube(0.25, {0.5, 0.0, 0.5}));
   room.surfaces.push_back(cube(0.5, {0.25, 0.25, 0.25}).surfaces[0]);  // a plate
   const Enclosure enclosure(room);
@@ -184,7 +185,7 @@ TEST_CASE("a room with open and closed things in it is enclosed by its own shell
   CHECK_FALSE(enclosure.encloses({1.1, 0.9, 0.2}));
 }
 
-TEST_CASE("a box outside does not enclose what is beside it") {
+TEST_CASE("a box outside does not enclose points beside it") {
   Room room = cube();
   room.surfaces.pop_back();
   const Enclosure enclosure(together(room, cube(1.0, {3.0, 0.0, 0.0})));
@@ -193,7 +194,7 @@ TEST_CASE("a box outside does not enclose what is beside it") {
   CHECK(enclosure.encloses({3.5, 0.5, 0.5}));
 }
 
-TEST_CASE("walls that are there twice enclose as walls that are there once") {
+TEST_CASE("duplicate walls enclose like single walls") {
   Room room = cube();
   const auto turned = [](Surface wall) {
     for (glm::uvec3& t : wall.triangles) std::swap(t.x, t.z);
@@ -209,12 +210,12 @@ TEST_CASE("walls that are there twice enclose as walls that are there once") {
   CHECK(enclosure.has_closed_shell());
   CHECK(enclosure.encloses({0.5, 0.5, 0.5}));
 
-  Room sheet;
-  sheet.surfaces = {cube().surfaces[0], turned(cube().surfaces[0])};
-  CHECK_FALSE(Enclosure(sheet).has_closed_shell());
+  Room plate;
+  plate.surfaces = {cube().surfaces[0], turned(cube().surfaces[0])};
+  CHECK_FALSE(Enclosure(plate).has_closed_shell());
 }
 
-TEST_CASE("a room that is not convex encloses both its arms and not its notch") {
+TEST_CASE("an L-shaped room encloses points in both its arms and none in its notch") {
   const Enclosure enclosure(l_room());
   REQUIRE(enclosure.has_closed_shell());
   CHECK(enclosure.encloses({0.5, 0.5, 0.5}));
@@ -231,8 +232,8 @@ TEST_CASE("a fine sphere encloses its inside") {
   REQUIRE(enclosure.has_closed_shell());
   std::mt19937 words(3);
   std::normal_distribution<double> normal;
-  // The middles of its facets lie between cos²(π/2n) of the radius, less for the diagonals, and the radius: 1 − (π/n)²
-  // is inside.
+  // The centres of its facets lie between cos²(π/2n) times the radius, minus a part for the diagonals, and the radius:
+  // 1 − (π/n)² is inside.
   const double inside = 1.0 - std::pow(std::numbers::pi / n, 2.0);
   for (int k = 0; k < 300; ++k) {
     const glm::dvec3 direction = glm::normalize(glm::dvec3(normal(words), normal(words), normal(words)));

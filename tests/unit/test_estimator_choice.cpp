@@ -1,4 +1,4 @@
-// Which estimator a pilot speaks for, and what errors on the way say about the way left.
+// The choice of the estimator by pilots, and the forecast of the remaining histories from error checks.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -26,7 +26,7 @@ Pilot pilot(Estimator estimator, double flights, const std::vector<double>& erro
 
 }  // namespace
 
-TEST_CASE("candidates are the estimator asked for, or those that the room allows") {
+TEST_CASE("candidates are the requested estimator, or those that the room allows") {
   Settings settings;
   settings.estimator = Estimator::weight;
   CHECK(candidates_for(unit_cube(0.5, paper_emitter()), settings) == std::vector<Estimator>{Estimator::weight});
@@ -37,14 +37,14 @@ TEST_CASE("candidates are the estimator asked for, or those that the room allows
   CHECK(candidates_for(white_wall, settings) == std::vector<Estimator>{Estimator::collision, Estimator::weight});
 }
 
-TEST_CASE("a pilot takes a small share of a long run, and never more than tells") {
+TEST_CASE("a pilot takes a small share of a long run, and never more than it needs") {
   CHECK(pilot_histories(1000, Estimator::weight) == 16 * 1024);
   CHECK(pilot_histories(20 * 1024 * 100, Estimator::weight) == 100 * 1024);
   CHECK(pilot_histories(20 * 1024 * 100, Estimator::absorption) == 25 * 1024);
   CHECK(pilot_histories(std::uint64_t{1} << 60U, Estimator::collision) == 1024 * 1024);
 }
 
-TEST_CASE("the pilot with the least variance for the same flights is chosen") {
+TEST_CASE("the pilot with the smallest variance for the same number of flights is chosen") {
   // Variances 4 and 1, flights 1 and 5: the first needs 4, the second 5 for the same error.
   const std::vector<Pilot> pilots{pilot(Estimator::collision, 1000.0, {0.2, 0.2}),
                                   pilot(Estimator::weight, 5000.0, {0.1, 0.1})};
@@ -60,8 +60,8 @@ TEST_CASE("the pilot with the least variance for the same flights is chosen") {
   CHECK(choose_best(uneven, {1.0, 100.0}, {1.0, 9.0}, "the tiles").best == 0);
 }
 
-TEST_CASE("tiles that pilots have hardly hit are as bright as their map, less what has missed them") {
-  // One map of three tiles of equal areas, 100 hits each expected at the mean of 1; one was not hit at all.
+TEST_CASE("tiles with few hits of the pilots take the mean irradiance of their tile map, reduced by the missing hits") {
+  // One tile map of three tiles of equal areas, 100 hits each expected at the mean of 1; one was not hit at all.
   Pilot one = pilot(Estimator::collision, 1000.0, {0.1, 0.1, 0.0});
   one.values = {1.5, 1.5, 0.0};
   one.hits = {150.0, 150.0, 0.0};
@@ -69,14 +69,14 @@ TEST_CASE("tiles that pilots have hardly hit are as bright as their map, less wh
   const std::vector<double> likely = likely_values({one}, tiles);
   CHECK(likely[0] == Approx(151.0 / 101.0));
   CHECK(likely[2] == Approx(1.0 / 101.0));
-  // A map of its own that nothing hit is dark.
+  // A tile map without hits is dark.
   const CountedTiles apart{{1.0, 1.0, 1.0}, {0, 0, 1}, 2};
   CHECK(likely_values({one}, apart)[2] == 0.0);
 }
 
-TEST_CASE("dark tiles share the variance of a hit, so that none is certain for having been missed") {
-  // 100 dark tiles; one pilot has hit half of them, 80 times each, the other all of them; a bright one, and one that is
-  // quite dark. Variance of a power by the first: 0.25 times its mean where it is dark, once where it is bright.
+TEST_CASE("dark tiles share the variance of a hit, so that a tile without hits does not count as exact") {
+  // 100 dark tiles; one pilot hit half of them, 80 times each, the other all of them; a bright tile, and a very dark
+  // one. Variance of a power by the first: 0.25 times its mean where it is dark, once where it is bright.
   Pilot first = pilot(Estimator::weight, 1000.0, std::vector<double>(102, 0.0));
   Pilot second = pilot(Estimator::collision, 1000.0, std::vector<double>(102, std::sqrt(0.01)));
   first.hits.assign(102, 0.0);
@@ -98,12 +98,12 @@ TEST_CASE("dark tiles share the variance of a hit, so that none is certain for h
     CHECK(pilots[1].errors[t] == Approx(std::sqrt(0.01)));
   }
   CHECK(pilots[0].errors[100] == Approx(1.0));
-  // No light is known to come there at all.
+  // No hits are known there at all.
   CHECK(pilots[0].errors[101] == 0.0);
   CHECK(pilots[1].errors[101] == 0.0);
 }
 
-TEST_CASE("where pilots found no light nothing is chosen, and that is said") {
+TEST_CASE("if pilots had no hits, no estimator is chosen and the report says so") {
   const std::vector<Pilot> dark{pilot(Estimator::collision, 1000.0, {0.0}), pilot(Estimator::weight, 1000.0, {0.0})};
   const Choice choice = choose_best(dark, {0.0}, {1.0}, "the tiles");
   CHECK(choice.best == 0);
@@ -113,7 +113,7 @@ TEST_CASE("where pilots found no light nothing is chosen, and that is said") {
   CHECK(choose_best(unknown, {1.0}, {1.0}, "the tiles").reason.find("too little light") != std::string::npos);
 }
 
-TEST_CASE("a forecast goes on at the slope of the errors") {
+TEST_CASE("a forecast extrapolates the slope of the errors") {
   Forecast none;
   CHECK(std::isnan(none.histories_to(0.01)));
   // R = 10/√N.
@@ -121,13 +121,13 @@ TEST_CASE("a forecast goes on at the slope of the errors") {
   for (const std::uint64_t n : {1000U, 2000U, 4000U}) steady.look(n, 10.0 / std::sqrt(n));
   CHECK(steady.histories_to(0.01) == Approx(1e6));
   CHECK(steady.histories_to(1.0) == 4000.0);  // met
-  // R = N^(−1/4) as long as tiles are still being found: half the error takes 16 times as many. After a hundred times
-  // as many they have been found: R(4·10⁵) = 0.0398, and from there on the square root.
+  // R = N^(−1/4) while tiles still get their first hits: half the error requires 16 times the histories. After 100
+  // times the histories all have hits: R(4·10⁵) = 0.0398, and from there the square-root law holds.
   Forecast slow;
   for (const std::uint64_t n : {1000U, 2000U, 4000U}) slow.look(n, std::pow(n, -0.25));
   CHECK(slow.histories_to(std::pow(4000.0, -0.25) / 2.0) == Approx(64'000.0));
   CHECK(slow.histories_to(0.01) == Approx(4e5 * std::pow(std::pow(4e5, -0.25) / 0.01, 2.0)));
-  // Errors that fall faster than any law, and one that does not fall: a number all the same.
+  // Errors that decrease faster than any law, and one that does not decrease: the result is a number in both cases.
   Forecast lucky;
   lucky.look(1000, 1.0);
   lucky.look(2000, 0.1);
@@ -137,7 +137,7 @@ TEST_CASE("a forecast goes on at the slope of the errors") {
   stuck.look(2000, 0.5);
   CHECK(std::isfinite(stuck.histories_to(0.25)));
   CHECK(stuck.histories_to(0.25) > 1e5);
-  // What is no error is no look.
+  // A value that is no error is no error check.
   Forecast unknown;
   unknown.look(1000, std::numeric_limits<double>::quiet_NaN());
   CHECK(std::isnan(unknown.histories_to(0.01)));

@@ -1,4 +1,4 @@
-// What identifies a room: everything that figures depend on, and nothing else.
+// The fingerprint of a room: it depends on everything that results depend on, and on nothing else.
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ using namespace lichtmc::test;
 
 namespace {
 
-// With something of every kind.
+// A room with every kind of element.
 Room room_of_everything() {
   Room room = unit_cube(0.5, isotropic({0.5, 0.5, 0.5}));
   room.quantity = Quantity::radiometric;
@@ -87,7 +87,7 @@ const std::vector<Change>& changes() {
 
 }  // namespace
 
-TEST_CASE("whatever figures depend on changes a room's fingerprint") {
+TEST_CASE("everything that results depend on changes a room's fingerprint") {
   const Room room = room_of_everything();
   const Fingerprint whole = fingerprint(room);
   CHECK(fingerprint(room_of_everything()) == whole);
@@ -99,7 +99,7 @@ TEST_CASE("whatever figures depend on changes a room's fingerprint") {
   }
 }
 
-TEST_CASE("where a room came from does not change its fingerprint") {
+TEST_CASE("the source of a room does not change its fingerprint") {
   Room room = room_of_everything();
   const Fingerprint whole = fingerprint(room);
   room.source = "elsewhere/room.glb";

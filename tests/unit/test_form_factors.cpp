@@ -1,5 +1,5 @@
-// The form factors that the verification tests stand on: against printed values, against each other, and against laws
-// they must keep (reciprocity, closed rooms, additivity).
+// The form factors that the verification tests use: compared with printed values, with each other, and with laws
+// (reciprocity, closed rooms, additivity).
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -46,7 +46,7 @@ double mean(const Rectangle& r, int n, Function f) {
 
 struct Extrapolated {
   double value;
-  double error;  // what the last halving of the step changed; the error left is a small part of it
+  double error;  // change by the last halving of the step; the remaining error is a small part of it
 };
 
 // Midpoint sums err by c/n² + d/n⁴ + …: of three of them the first two orders cancel (Richardson).
@@ -62,7 +62,7 @@ Extrapolated extrapolated_mean(const Rectangle& r, Function f) {
 
 }  // namespace
 
-TEST_CASE("light off a diffuse floor reaches wall and ceiling as CIE 171 case 5.6 says") {
+TEST_CASE("a diffuse floor illuminates wall and ceiling as in CIE 171 case 5.6") {
   // Floor 4 × 4 m; 100 E/M on a wall along its edge and on a ceiling 3 m above it, in the middle of the width. Printed
   // to 6 decimals: half of the last is the tolerance.
   const double printed = 0.5e-6;
@@ -106,7 +106,7 @@ TEST_CASE("close plates exchange nearly all their light") {
   CHECK(within(1.0 - opposite_rectangles(1.0, 1.0, 1e-6), 1.99998997e-6, 0.5e-14 + rounding));
 }
 
-TEST_CASE("form factors of rectangles in general hold the special cases") {
+TEST_CASE("form factors of general rectangles include the special cases") {
   const Rectangle unequal{0.0, 5.0, 0.0, 4.0};
   CHECK(within(parallel_rectangles(unequal, unequal, 3.0), opposite_rectangles(5.0, 4.0, 3.0), corner_rounding));
   const Rectangle wall{0.0, 5.0, 0.0, 3.0};
@@ -183,7 +183,7 @@ TEST_CASE("shares of point emitters onto a disk have their printed values") {
   CHECK(within(coaxial_disks(1.0, 1.0, 1.0), (3.0 - std::sqrt(5.0)) / 2.0, rounding));
 }
 
-TEST_CASE("the light of an isotropic point divides among the sides of a box") {
+TEST_CASE("the flux of an isotropic point emitter divides among the sides of a box") {
   CHECK(within(isotropic_point_to_rectangle(0.5, 0.5, 0.5, 0.5, 0.5), 1.0 / 6.0, rounding));
   // Box 5 × 4 × 3 m, the point 1, 1.5 and 0.5 m from three of its sides.
   const double sum =

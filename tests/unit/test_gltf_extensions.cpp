@@ -1,5 +1,5 @@
-// glTF's extensions for geometry: quantization, texture transforms, instances, compression; and what is asked for on
-// reading: another unit of length, another axis up.
+// glTF extensions for geometry: quantization, texture transforms, instances, compression; and reading options: another
+// unit of length, another up axis.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -73,7 +73,7 @@ Room read_with(const json& document, const ReadOptions& options) {
   return read_gltf(folder.path() / "room.gltf", options);
 }
 
-// A quarter of a square metre with texture coordinates and a base colour texture that is not needed.
+// A quarter of a square metre with texture coordinates and a base colour texture that is not used.
 json textured_triangle(const json& transform) {
   json document = triangle_document();
   json& primitive = document["meshes"][0]["primitives"][0];
@@ -92,7 +92,7 @@ TEST_CASE("quantized positions are read as shares of their range or as they are"
   json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
   document["extensionsUsed"].push_back("KHR_mesh_quantization");
   document["extensionsRequired"] = {"KHR_mesh_quantization"};
-  // Padded to 4 bytes per vertex and 8, as the specification asks for.
+  // Padded to 4 and 8 bytes per vertex, as the specification requires.
   const auto strided = [&document](std::size_t accessor, int stride) {
     document["bufferViews"][document["accessors"][accessor]["bufferView"].get<std::size_t>()]["byteStride"] = stride;
     return accessor;
@@ -118,7 +118,7 @@ TEST_CASE("quantized positions are read as shares of their range or as they are"
   CHECK_THAT(refusal(document), ContainsSubstring("neither floats, bytes nor shorts"));
 }
 
-TEST_CASE("texture coordinates for the tiles are scaled, then turned, then moved") {
+TEST_CASE("texture coordinates for the tiles are scaled, then rotated, then moved") {
   const double turn = pi / 6.0;
   const Room room =
       read_document(textured_triangle({{"offset", {0.25, 0.5}}, {"rotation", turn}, {"scale", {0.5, 0.25}}}));
@@ -130,7 +130,7 @@ TEST_CASE("texture coordinates for the tiles are scaled, then turned, then moved
   CHECK(floor.uvs[0] == offset);
   CHECK(glm::length(floor.uvs[1] - (offset + of_v)) < 1e-15);
   CHECK(glm::length(floor.uvs[2] - (offset + of_u)) < 1e-15);
-  // A transform of another set leaves this one alone.
+  // A transform of another set does not change this one.
   const Room other = read_document(textured_triangle({{"scale", {0.5, 0.5}}, {"texCoord", 3}}));
   CHECK(other.surfaces[0].uvs[1] == glm::dvec2(0, 1));
   CHECK_THAT(refusal(textured_triangle({{"scale", {0.5}}})), ContainsSubstring("'scale'"));
@@ -163,7 +163,7 @@ TEST_CASE("every instance of a mesh is a surface") {
   CHECK(room.ignored.empty());
   CHECK(room.surfaces[0].positions[2] == glm::dvec3(1, 0, 0));
   CHECK(distance(room.surfaces[1].positions[2], {0, 2, -3}) < 1e-6);
-  // Mirrored first, then upside down: x is where it was, the front looks down.
+  // Mirrored first, then upside down: x is where it was, the front faces down.
   CHECK(distance(room.surfaces[2].positions[2], {6, 0, 0}) < 1e-6);
   CHECK(distance(first_normal(room.surfaces[2]), {0, -1, 0}) < 1e-6);
 
@@ -181,7 +181,7 @@ TEST_CASE("a room compressed by meshopt is the same room") {
   CHECK(overrides.emitters.size() == room.emitters.size());
 }
 
-TEST_CASE("a room compressed by Draco is the same room but for its rounding") {
+TEST_CASE("a room compressed by Draco is the same room except for rounding") {
   const Room room = read_gltf(std::string(LICHTMC_SCENES) + "/living_room.glb");
   const Glb plain = glb_of(room);
   const Room overrides = read_again(with_draco(plain, 16));
@@ -193,7 +193,7 @@ TEST_CASE("a room compressed by Draco is the same room but for its rounding") {
   }
 }
 
-TEST_CASE("damaged compressed data is refused with the place of it") {
+TEST_CASE("damaged compressed data is refused with its location") {
   const Glb plain = glb_of(read_document(triangle_document()));
   Glb meshopt = with_meshopt(plain);
   meshopt.buffer[0] = 'x';
@@ -218,7 +218,7 @@ TEST_CASE("damaged compressed data is refused with the place of it") {
   CHECK_THAT(refusal_of(draco), ContainsSubstring("does not hold its attribute POSITION"));
 }
 
-TEST_CASE("a file in centimetres is read in metres, its shining surfaces with the power of their true area") {
+TEST_CASE("a file in centimetres is read in metres, its emissive surfaces with the power of their true area") {
   json document = triangle_document();
   document["materials"][0]["emissiveFactor"] = {1, 1, 1};
   ReadOptions options;
@@ -226,7 +226,7 @@ TEST_CASE("a file in centimetres is read in metres, its shining surfaces with th
   const Room room = read_with(document, options);
   CHECK(distance(room.surfaces[0].positions[1], {0, 0, 0.01}) < 1e-17);
   CHECK(distance(std::get<IsotropicEmitter>(room.emitters[1].shape).position, {0.002, 0.01, 0.002}) < 1e-9);
-  CHECK(room.emitters[1].power == 4.0 * pi * 10.0);                     // a point light's intensity is what it is
+  CHECK(room.emitters[1].power == 4.0 * pi * 10.0);                     // a point light's intensity does not change
   CHECK(room.emitters[0].power == Approx(pi * 0.5e-4).epsilon(1e-12));  // 1 cd/m² times π times half a cm²
   REQUIRE(room.mended.size() == 1);
   CHECK(room.mended[0] == "Lengths multiplied by 0.01.");
@@ -236,7 +236,7 @@ TEST_CASE("a file in centimetres is read in metres, its shining surfaces with th
   }
 }
 
-TEST_CASE("a file with Z up stands on its floor") {
+TEST_CASE("a file with Z up is rotated to Y up") {
   json document = triangle_document();
   // The triangle in the plane z = 2 of the file, its front towards +Z.
   document["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
@@ -251,7 +251,7 @@ TEST_CASE("a file with Z up stands on its floor") {
   CHECK(room.mended == std::vector<std::string>{"Turned: the file's Z axis points up."});
 }
 
-TEST_CASE("JSON nested without end is refused before anything reads it") {
+TEST_CASE("deeply nested JSON is refused before it is parsed") {
   json document = triangle_document();
   document["extras"] = 1;
   std::string text = document.dump();

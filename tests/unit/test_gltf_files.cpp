@@ -1,5 +1,4 @@
-// Files that the project did not write: those that are sound load with all their triangles, those that are broken are
-// refused.
+// Files from other authors: valid files load with all their triangles, malformed files are refused.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -19,8 +18,7 @@ struct Entry {
   std::string file, errors, codes, triangles;
 };
 
-// The list of files with the verdict of the Khronos validator and their triangle counts; empty where the folder is
-// absent.
+// The list of files with the verdict of the Khronos validator and their triangle counts; empty if the folder is absent.
 std::vector<Entry> entries(const std::string& folder) {
   std::vector<Entry> list;
   std::ifstream in(std::string(LICHTMC_ROOMS) + "/expected.tsv");
@@ -39,14 +37,14 @@ std::vector<Entry> entries(const std::string& folder) {
   return list;
 }
 
-// Triangles of a room, with those left out for want of an area.
+// Triangles of a room, including those that were left out because they have no area.
 std::size_t triangles_of(const Room& room) {
   std::size_t count = 0;
   for (const Surface& surface : room.surfaces) count += surface.triangles.size() + surface.without_area;
   return count;
 }
 
-// The validator counts a mesh once where it has many instances, and does not look into compressed buffers.
+// The validator counts a mesh with several instances once, and does not read compressed buffers.
 std::string triangles_placed(const Entry& entry) {
   const std::map<std::string, std::string> corrected{{"conformance/others/simple-instancing.glb", "1500"},
                                                      {"conformance/others/BoxMeshopt.glb", "12"},
@@ -57,7 +55,7 @@ std::string triangles_placed(const Entry& entry) {
 
 }  // namespace
 
-TEST_CASE("sound files load with all their triangles") {
+TEST_CASE("valid files load with all their triangles") {
   for (const Entry& entry : entries("conformance/")) {
     if (entry.errors != "0") continue;
     INFO(entry.file);
@@ -74,7 +72,7 @@ TEST_CASE("real rooms load") {
   }
 }
 
-TEST_CASE("broken files are refused with a message or read without harm") {
+TEST_CASE("malformed files are refused with a message or read without error") {
   for (const Entry& entry : entries("malformed/")) {
     INFO(entry.file);
     try {

@@ -22,7 +22,7 @@ constexpr double pi = std::numbers::pi;
 
 }  // namespace
 
-TEST_CASE("a triangle and a light are read as they stand") {
+TEST_CASE("a triangle and a light are read unchanged") {
   const Room room = read_document(triangle_document());
   REQUIRE(room.surfaces.size() == 1);
   const Surface& floor = room.surfaces[0];
@@ -41,7 +41,7 @@ TEST_CASE("a triangle and a light are read as they stand") {
   CHECK(room.ignored.empty());
 }
 
-TEST_CASE("transforms add up along the hierarchy and scale does not change a light") {
+TEST_CASE("transforms accumulate along the hierarchy and scale does not change a light") {
   json document = triangle_document();
   document["nodes"].push_back(
       {{"name", "group"}, {"translation", {1, 2, 3}}, {"scale", {2, 2, 2}}, {"children", {0, 1}}});
@@ -53,13 +53,13 @@ TEST_CASE("transforms add up along the hierarchy and scale does not change a lig
   CHECK(room.emitters[0].power == 4.0 * pi * 10.0);
 }
 
-TEST_CASE("a mirrored node keeps its front in front") {
+TEST_CASE("a mirrored node keeps its front side") {
   json document = triangle_document();
   document["nodes"][0]["scale"] = {-1, 1, 1};
   const Room room = read_document(document);
   CHECK(room.surfaces[0].positions[2] == glm::dvec3(-1, 0, 0));
   CHECK(first_normal(room.surfaces[0]) == glm::dvec3(0, 1, 0));
-  // Turned upside down by a matrix of determinant 1, the front looks down.
+  // Turned upside down by a matrix of determinant 1, the front faces down.
   document = triangle_document();
   document["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
   CHECK(first_normal(read_document(document).surfaces[0]) == glm::dvec3(0, -1, 0));
@@ -89,7 +89,7 @@ TEST_CASE("lists and strips and fans with and without indices give the same fron
   }
 }
 
-TEST_CASE("texture coordinates come from the second set where there is one") {
+TEST_CASE("texture coordinates come from the second set if there is one") {
   json document = triangle_document();
   json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
   attributes["TEXCOORD_0"] = add_accessor(document, std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", 5126, 2);
@@ -142,16 +142,16 @@ TEST_CASE("extras turn a light into a generalized Lambert emitter and set its po
   Room room = read_document(document);
   CHECK(std::get<LambertEmitter>(room.emitters[0].shape).exponent == 5.0);
   CHECK(std::get<LambertEmitter>(room.emitters[0].shape).axis == glm::dvec3(0, 0, -1));
-  CHECK(room.emitters[0].power == 4.0 * pi * 10.0);  // the shape changes, the power stays
+  CHECK(room.emitters[0].power == 4.0 * pi * 10.0);  // the shape changes, the power does not
   document["extensions"]["KHR_lights_punctual"]["lights"][0]["extras"] = {
       {"power", 7}, {"unit", "W"}, {"lambert_exponent", 2}};
   room = read_document(document);
-  CHECK(std::get<LambertEmitter>(room.emitters[0].shape).exponent == 5.0);  // the node before the light
+  CHECK(std::get<LambertEmitter>(room.emitters[0].shape).exponent == 5.0);  // the node overrides the light
   CHECK(room.emitters[0].power == 7.0);
   CHECK(room.quantity == Quantity::radiometric);
 }
 
-TEST_CASE("a node without a light is an emitter where it has an exponent and a power") {
+TEST_CASE("a node without a light is an emitter if it has an exponent and a power") {
   json document = triangle_document();
   document["nodes"][1].erase("extensions");
   document["nodes"][1]["extras"] = {{"lambert_exponent", 1}, {"power", 3}};
@@ -160,7 +160,7 @@ TEST_CASE("a node without a light is an emitter where it has an exponent and a p
   CHECK_THAT(refusal(document), ContainsSubstring("lamp") && ContainsSubstring("power"));
 }
 
-TEST_CASE("an emissive material shines with pi times its luminance") {
+TEST_CASE("the exitance of an emissive material is pi times its luminance") {
   json document = triangle_document();
   document["materials"][0]["emissiveFactor"] = {1, 1, 1};
   document["materials"][0]["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 40}}}};
@@ -173,7 +173,7 @@ TEST_CASE("an emissive material shines with pi times its luminance") {
   CHECK(read_document(document).emitters[0].power == 12.0);
 }
 
-TEST_CASE("receivers look along their node's minus Z") {
+TEST_CASE("receivers face along their node's minus Z") {
   json document = triangle_document();
   document["nodes"].push_back(
       {{"name", "eye"}, {"translation", {0, 1, 0}}, {"extras", {{"receiver", {{"area", 0.01}, {"fov", 60}}}}}});
@@ -187,7 +187,7 @@ TEST_CASE("receivers look along their node's minus Z") {
   CHECK_THAT(refusal(document), ContainsSubstring("eye") && ContainsSubstring("91"));
 }
 
-TEST_CASE("what is not modelled is named") {
+TEST_CASE("properties that are not modelled are named") {
   json document = triangle_document();
   document["extensionsUsed"].push_back("KHR_materials_transmission");
   json& material = document["materials"][0];
@@ -275,7 +275,7 @@ TEST_CASE("accessors that reach beyond their buffer are refused before they are 
   CHECK_FALSE(refusal(document).empty());
 }
 
-TEST_CASE("positions that are no numbers are refused with their vertex") {
+TEST_CASE("positions that are not finite are refused with their vertex") {
   json document = triangle_document();
   document["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = add_accessor(
       document, std::vector<float>{0, 0, 0, 0, std::numeric_limits<float>::quiet_NaN(), 1, 1, 0, 0}, "VEC3", 5126, 3);

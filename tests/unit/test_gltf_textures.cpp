@@ -23,7 +23,7 @@ void append(void* text, void* bytes, int count) {
   static_cast<std::string*>(text)->append(static_cast<const char*>(bytes), static_cast<std::size_t>(count));
 }
 
-// Red, green / blue, mid grey, as sRGB.
+// Red, green / blue, medium grey, as sRGB.
 std::string picture() {
   const std::vector<unsigned char> pixels{255, 0, 0, 0, 255, 0, 0, 0, 255, 128, 128, 128};
   std::string png;
@@ -31,7 +31,7 @@ std::string picture() {
   return png;
 }
 
-// The triangle with a picture for its base colour, the picture in a data URI.
+// The triangle with an image as base colour, the image in a data URI.
 json textured_triangle() {
   json document = triangle_document();
   document["materials"][0].erase("extras");
@@ -74,7 +74,7 @@ TEST_CASE("the base colour factor colours the texture") {
   for (std::size_t k = 0; k < 4; ++k) CHECK(double{map.values[k]} == Approx(expected[k]).epsilon(1e-6).margin(1e-9));
 }
 
-TEST_CASE("a picture is read from a file with spaces in its name, or from a buffer") {
+TEST_CASE("an image is read from a file with spaces in its name, or from a buffer") {
   json document = textured_triangle();
   document["images"][0]["uri"] = "a%20picture.png";
   const TemporaryFolder folder;
@@ -92,7 +92,7 @@ TEST_CASE("a picture is read from a file with spaces in its name, or from a buff
   CHECK_THAT(refusal(document), ContainsSubstring("image 0 reaches beyond its buffer"));
 }
 
-TEST_CASE("a reflectance of its own goes before a material's texture") {
+TEST_CASE("the reflectance of a material overrides its texture") {
   json document = textured_triangle();
   document["materials"][0]["extras"]["reflectance"] = 0.3;
   document["images"][0]["uri"] = "missing.png";
@@ -101,7 +101,7 @@ TEST_CASE("a reflectance of its own goes before a material's texture") {
   CHECK(room.surfaces[0].reflectance == 0.3);
 }
 
-TEST_CASE("a picture that is missing or cannot be decoded is refused with material and remedy") {
+TEST_CASE("an image that is missing or cannot be decoded is refused with the material and what to do") {
   json document = textured_triangle();
   document["images"][0]["uri"] = "missing.png";
   CHECK_THAT(refusal(document), ContainsSubstring("missing.png") && ContainsSubstring("material 'paint'") &&
@@ -111,7 +111,7 @@ TEST_CASE("a picture that is missing or cannot be decoded is refused with materi
   document["textures"][0].erase("source");
   CHECK_THAT(refusal(document), ContainsSubstring("no image"));
 
-  // With a number for its reflectance it is not needed.
+  // With a reflectance in the extras the image is not needed.
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "room.gltf") << document.dump();
   ReadOptions options;
@@ -122,7 +122,7 @@ TEST_CASE("a picture that is missing or cannot be decoded is refused with materi
   CHECK(!room.surfaces[0].reflectance_map);
 }
 
-TEST_CASE("a texture without texture coordinates is said to be left out") {
+TEST_CASE("a texture without texture coordinates is reported as left out") {
   json document = textured_triangle();
   document["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
   const Room room = read_document(document);

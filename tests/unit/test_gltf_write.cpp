@@ -15,7 +15,7 @@ using namespace lichtmc::test;
 
 namespace {
 
-// A room with everything that can be written; coordinates that floats hold exactly.
+// A room with everything that can be written; its coordinates are exact in float.
 Room full_room() {
   Room room = make_cuboid({2.0, 1.5, 4.0}, {0.3, 0.85, 0.5, 0.5, 0.61, 0.7});
   room.quantity = Quantity::radiometric;
@@ -51,7 +51,7 @@ TEST_CASE("a room written and read again is the same room") {
       CHECK(overrides.surfaces[k].uvs == room.surfaces[k].uvs);
       CHECK(overrides.surfaces[k].triangles == room.surfaces[k].triangles);
     }
-    // Surfaces come first in the file, so its shining surface is the first emitter.
+    // Surfaces come first in the file, so its emissive surface is the first emitter.
     REQUIRE(overrides.emitters.size() == room.emitters.size());
     CHECK(overrides.emitters[0].power == 6.0);
     CHECK(std::get<SurfaceEmitter>(overrides.emitters[0].shape).surface == 1);
@@ -74,14 +74,14 @@ TEST_CASE("a room written and read again is the same room") {
   }
 }
 
-TEST_CASE("another ending is refused and nothing is left behind") {
+TEST_CASE("another file extension is refused and no file is written") {
   const TemporaryFolder folder;
   CHECK_THROWS_AS(write_gltf(full_room(), folder.path() / "room.obj"), InputError);
   CHECK_THROWS_AS(write_gltf(full_room(), folder.path() / "none" / "room.glb"), RuntimeError);
   CHECK(std::filesystem::is_empty(folder.path()));
 }
 
-TEST_CASE("a file is replaced whole") {
+TEST_CASE("a file is replaced completely") {
   const TemporaryFolder folder;
   const auto file = folder.path() / "room.glb";
   std::ofstream(file) << "old";

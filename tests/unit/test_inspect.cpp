@@ -1,4 +1,4 @@
-// What is found in rooms whose faults are known.
+// Findings in rooms with known faults.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -38,10 +38,10 @@ TEST_CASE("the unit of length is guessed from a room's size") {
   CHECK(guess_unit({5000.0, 2600.0, 4000.0})->metres == 0.001);
   // 30 m × 2.5 m × 20 m in inches.
   CHECK(guess_unit({1181.0, 98.4, 787.0})->metres == 0.0254);
-  CHECK(!guess_unit({0.5, 0.2, 0.5}));  // no unit in use is longer than a metre
+  CHECK(!guess_unit({0.5, 0.2, 0.5}));  // no common unit is longer than a metre
 }
 
-TEST_CASE("an office is as it should be") {
+TEST_CASE("an office has no findings") {
   const Inspection facts = inspect(office());
   CHECK(facts.count(Severity::fault) == 0);
   CHECK(facts.count(Severity::warning) == 0);
@@ -55,7 +55,7 @@ TEST_CASE("an office is as it should be") {
   for (const Finding& finding : facts.findings) CHECK(!finding.advice.empty());
 }
 
-TEST_CASE("an opening is found on its side, with the share of light that it lets out") {
+TEST_CASE("an opening is found on its side, with the share of light that escapes") {
   Room room = without_surface(office(), "wall_x1");
   const Inspection facts = inspect(room);
   CHECK_FALSE(facts.closed);
@@ -70,7 +70,7 @@ TEST_CASE("an opening is found on its side, with the share of light that it lets
   CHECK(share < 0.2);
 }
 
-TEST_CASE("faces that look away are noted, and a shining one is warned of") {
+TEST_CASE("faces that face outwards are noted, and an emissive one is a warning") {
   Room room = office();
   for (Surface& wall : room.surfaces) {
     for (glm::uvec3& t : wall.triangles) std::swap(t.y, t.z);
@@ -85,13 +85,13 @@ TEST_CASE("faces that look away are noted, and a shining one is warned of") {
   CHECK_THAT(find(facts, "behind", Severity::warning)->text, ContainsSubstring("'ceiling'"));
 }
 
-TEST_CASE("what would stop a simulation is a fault") {
+TEST_CASE("conditions that would prevent a simulation are faults") {
   Room room = office();
   room.emitters.clear();
   Inspection facts = inspect(room);
   REQUIRE(find(facts, "emitters", Severity::fault) != nullptr);
   CHECK_THAT(find(facts, "emitters", Severity::fault)->advice, ContainsSubstring("--light point:2.5,1.3,2:1000lm"));
-  CHECK(facts.flights > 0);  // looked at with a lamp of its own
+  CHECK(facts.flights > 0);  // tested with an emitter of its own
 
   room = office();
   for (Surface& wall : room.surfaces) wall.reflectance = 1.0;
@@ -119,10 +119,10 @@ TEST_CASE("copies and triangles without area are counted") {
   CHECK(facts.triangles_without_area == 7);
   CHECK(find(facts, "duplicates", Severity::warning) != nullptr);
   CHECK(find(facts, "zero-area", Severity::note) != nullptr);
-  CHECK(facts.closed);  // the copy stops light once
+  CHECK(facts.closed);  // the copy blocks light once
 }
 
-TEST_CASE("what the file holds and the room does not model is a warning where figures depend on it") {
+TEST_CASE("properties that are not modelled are a warning if results depend on them") {
   Room room = office();
   room.ignored = {{"The camera of node 'view' is not used.", Effect::none},
                   {"Material 'glass': the extension KHR_materials_transmission is not modelled.", Effect::figures}};

@@ -17,7 +17,7 @@ TEST_CASE("equal batches have mean and error of their differences") {
   CHECK(std::abs(result.standard_error / expected - 1.0) < 1e-14);
 }
 
-TEST_CASE("a last batch that is not full counts by its size") {
+TEST_CASE("an incomplete last batch counts by its size") {
   // Scores in proportion to the histories: no variance at all.
   Moments moments;
   moments.add(2 * batch_histories, batch_histories);
@@ -26,7 +26,7 @@ TEST_CASE("a last batch that is not full counts by its size") {
   const Estimate result = estimate(moments, 2 * batch_histories + 100);
   CHECK(result.mean == 2.0);
   CHECK(result.standard_error < 1e-5);
-  // A single hit in every batch, the last smaller by a few: not no variance, which rounding would make of it.
+  // A single hit in every batch, the last smaller by a few: its variance is not 0, which rounding would make of it.
   Moments hits;
   hits.add(1, batch_histories);
   hits.add(1, batch_histories);
@@ -36,7 +36,7 @@ TEST_CASE("a last batch that is not full counts by its size") {
   CHECK(estimate(hits, 3000).standard_error == Approx(expected).epsilon(0.07));
 }
 
-TEST_CASE("one batch tells no error") {
+TEST_CASE("one batch gives no error") {
   Moments moments;
   moments.add(5, 10);
   CHECK(estimate(moments, 10).mean == 0.5);
@@ -50,10 +50,10 @@ TEST_CASE("the binomial error is exact") {
   CHECK(std::abs(result.standard_error - std::sqrt(0.25 * 0.75 / 99.0)) < 1e-16);
 }
 
-TEST_CASE("sums do not stop growing where 32 and 64 bit counters do") {
+TEST_CASE("sums do not overflow at the limits of 32 and 64 bit counters") {
   Moments moments;
   const std::uint64_t large = std::uint64_t{1}
-                              << 52;  // a batch of weighted scores in units of 2^-24, far more than there are
+                              << 52;  // a batch of weighted scores in units of 2^-24, far more than exist
   for (int i = 0; i < 8192; ++i) moments.add(large, batch_histories);
   CHECK(moments.sum == static_cast<uint128>(large) * 8192);
   CHECK(moments.squares == static_cast<uint128>(large) * large * 8192 * 1024);

@@ -76,7 +76,7 @@ std::vector<std::string> fields(const std::string& row) {
 
 }  // namespace
 
-TEST_CASE("tiles.csv has the columns it promises and numbers that read back as the same") {
+TEST_CASE("tiles.csv has the documented columns and numbers that read back as the same") {
   const Result result = make_result();
   const auto rows = lines(tiles_csv_of(result));
   REQUIRE(rows.size() == 7);
@@ -102,7 +102,7 @@ TEST_CASE("tiles.csv has the columns it promises and numbers that read back as t
   }
 }
 
-TEST_CASE("surfaces.csv has the columns it promises and quotes what needs it") {
+TEST_CASE("surfaces.csv has the documented columns and quotes where necessary") {
   Result result = make_result();
   result.quantity = Quantity::photometric;
   const auto rows = lines(surfaces_csv(result));
@@ -114,7 +114,7 @@ TEST_CASE("surfaces.csv has the columns it promises and quotes what needs it") {
   CHECK(rows[2] == "lamp.back,,0.1,0.5,1,0.2,0.2,0.2,nan,0.1,1,105,lx");
 }
 
-TEST_CASE("a CSV field is quoted where a reader needs it and only there") {
+TEST_CASE("a CSV field is quoted only if necessary") {
   CHECK(csv_field("plain name") == "plain name");
   CHECK(csv_field("") == "");
   CHECK(csv_field("a,b") == "\"a,b\"");
@@ -123,7 +123,7 @@ TEST_CASE("a CSV field is quoted where a reader needs it and only there") {
   CHECK(csv_field("a\rb") == "\"a\rb\"");
 }
 
-TEST_CASE("summary.json holds its keys in order with exact numbers and null for what is unknown") {
+TEST_CASE("summary.json has its keys in order with exact numbers and null for unknown values") {
   const Result result = make_result();
   const std::string text = summary_json(make_room(), result);
   const Json summary = Json::parse(text);
@@ -219,7 +219,7 @@ TEST_CASE("summary.json has a unit for every column that has one") {
   }
 }
 
-TEST_CASE("summary.json is JSON whatever bytes the names hold and however short the run was") {
+TEST_CASE("summary.json is valid JSON for names of any bytes and for the shortest run") {
   Result result = make_result();
   result.room = "r\xFFm\n\"\\";
   result.seconds = 0.0;
@@ -231,7 +231,7 @@ TEST_CASE("summary.json is JSON whatever bytes the names hold and however short 
   CHECK(summary["max_bounces"].is_null());
 }
 
-TEST_CASE("the output folder holds exactly the files of this run") {
+TEST_CASE("the output folder contains exactly the files of this run") {
   const Folder folder;
   const std::set<std::string> expected{"summary.json", "surfaces.csv", "tiles.csv", "tiles/a__b___c_d.exr",
                                        "tiles/lamp.back.exr"};
@@ -245,7 +245,7 @@ TEST_CASE("the output folder holds exactly the files of this run") {
   CHECK(content(out / "summary.json") == summary_json(make_room(), make_result()));
 }
 
-TEST_CASE("an earlier run's maps go and what is not lichtmc's stays") {
+TEST_CASE("tile maps of an earlier run are removed and other files stay") {
   const Folder folder;
   fs::create_directories(folder.path() / "tiles" / "folder.exr");
   for (const char* name : {"tiles/old.exr", "tiles/notes.txt", "tiles/folder.exr/inside.exr", "other.exr"})
@@ -258,18 +258,19 @@ TEST_CASE("an earlier run's maps go and what is not lichtmc's stays") {
                                                             "tiles/lamp.back.exr", "tiles/notes.txt"});
 }
 
-TEST_CASE("what killed runs have left is cleared away, and nothing else") {
+TEST_CASE("temporary files of killed runs are removed, and nothing else") {
   const Folder folder;
-  // A process of our number in another container has left a stage; one that is dead another, and half a state.
+  // A process with our number in another container left a staging folder; a dead process left another, and an
+  // incomplete state.
   const fs::path ours = folder.path() / (".lichtmc-" + std::to_string(::getpid()));
-  constexpr const char* nobody = "2147483646";  // beyond what Linux numbers
-  for (const fs::path& stage : {ours, folder.path() / (std::string(".lichtmc-") + nobody)}) {
+  constexpr const char* no_process = "2147483646";  // beyond Linux's process numbers
+  for (const fs::path& stage : {ours, folder.path() / (std::string(".lichtmc-") + no_process)}) {
     fs::create_directories(stage);
     std::ofstream(stage / "receivers.csv") << "of another run";
   }
-  fs::create_directories(folder.path() / (std::string("backup.tmp") + nobody));
+  fs::create_directories(folder.path() / (std::string("backup.tmp") + no_process));
   for (const char* name : {"state.h5.tmp", "notes.tmp", "backup.tmp2147483646/kept"})
-    std::ofstream(folder.path() / (std::string(name) + nobody)) << "x";
+    std::ofstream(folder.path() / (std::string(name) + no_process)) << "x";
   std::ofstream(folder.path() / ("state.h5.tmp" + std::to_string(::getppid()))) << "of a run that goes on";
   prepare_output(folder.path());
   write_results(make_room(), make_result(), folder.path());
@@ -282,7 +283,7 @@ TEST_CASE("what killed runs have left is cleared away, and nothing else") {
 TEST_CASE("a run that cannot be written leaves no summary and no temporary file") {
   const Folder folder;
   write_results(make_room(), make_result(), folder.path());
-  // A folder stands where surfaces.csv is to be.
+  // A folder has the name of surfaces.csv.
   fs::remove(folder.path() / "surfaces.csv");
   fs::create_directories(folder.path() / "surfaces.csv" / "x");
   CHECK_THROWS_AS(write_results(make_room(), make_result(), folder.path()), RuntimeError);
@@ -320,7 +321,7 @@ TEST_CASE("an output folder without permission to write is refused with that rea
   fs::permissions(folder.path(), fs::perms::owner_all);
 }
 
-TEST_CASE("a file is replaced whole or stays as it was") {
+TEST_CASE("a file is replaced completely or does not change") {
   const Folder folder;
   const fs::path file = folder.path() / "a.txt";
   write_file_atomically(file, "first");

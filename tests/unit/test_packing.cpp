@@ -33,7 +33,7 @@ void check_packing(const std::vector<glm::dvec2>& sizes, const Packing& packing)
 
 }  // namespace
 
-TEST_CASE("the smallest rectangle about a turned rectangle has its direction") {
+TEST_CASE("the smallest rectangle around a rotated rectangle has its direction") {
   for (const double degrees : {-40.0, -10.0, 0.0, 5.0, 44.0}) {
     const double angle = degrees * std::numbers::pi / 180.0;
     const glm::dvec2 u(std::cos(angle), std::sin(angle));
@@ -69,7 +69,7 @@ TEST_CASE("the smallest rectangle is no larger than any along a side") {
   }
 }
 
-TEST_CASE("the axes are kept where no rectangle is smaller") {
+TEST_CASE("the axes are kept if no rectangle is smaller") {
   CHECK(smallest_rectangle({{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}) == glm::dvec2(1.0, 0.0));
   // Half a square: the rectangle along its diagonal is just as large.
   CHECK(smallest_rectangle({{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}) == glm::dvec2(1.0, 0.0));
@@ -77,7 +77,7 @@ TEST_CASE("the axes are kept where no rectangle is smaller") {
   CHECK(smallest_rectangle({{0.0, 0.0}, {1.0, 1.0}}) == glm::dvec2(1.0, 0.0));
 }
 
-TEST_CASE("packed rectangles do not overlap and waste little") {
+TEST_CASE("packed rectangles do not overlap and waste little area") {
   std::mt19937 random(4);
   std::geometric_distribution<int> side(0.1);
   for (const std::size_t count : {1U, 2U, 7U, 300U}) {
@@ -92,7 +92,7 @@ TEST_CASE("packed rectangles do not overlap and waste little") {
     if (count == 1) CHECK(packing.size == sizes[0]);
     if (count == 300) CHECK(packing.size.x * packing.size.y < 1.25 * total);
   }
-  // A wide low one after a narrow one that it would fit on by its height.
+  // A wide low rectangle after a narrow one, on which it would fit by its height.
   std::vector<glm::dvec2> sizes{{1.0, 4.0}, {2.0, 2.0}, {10.0, 1.0}};
   sizes.insert(sizes.end(), 6, glm::dvec2(1.0));
   check_packing(sizes, pack(sizes));

@@ -28,8 +28,8 @@ std::map<std::string, std::uint64_t> impacts_of(const Room& room, const std::vec
 
 }  // namespace
 
-TEST_CASE("paths: they are those of the run with the same settings, impact by impact") {
-  // 3000: the third batch is not full.
+TEST_CASE("paths: they equal those of the run with the same settings, impact by impact") {
+  // 3000: the third batch is incomplete.
   for (const Engine engine : {Engine::cuboid, Engine::embree}) {
     const Room room = unit_cube(0.6, paper_emitter());
     const Settings settings = settings_of(Estimator::collision, engine, 3000, 5);
@@ -46,7 +46,7 @@ TEST_CASE("paths: they are those of the run with the same settings, impact by im
   }
 }
 
-TEST_CASE("paths: with openings, shining surfaces and textures too") {
+TEST_CASE("paths: with openings, emissive surfaces and textures too") {
   for (const char* scene : {"living_room.glb", "l_room.gltf"}) {
     const Room room = read_gltf(std::string(LICHTMC_SCENES) + "/" + scene);
     const Settings settings = settings_of(Estimator::collision, Engine::automatic, 4096, 2);
@@ -64,7 +64,7 @@ TEST_CASE("paths: with openings, shining surfaces and textures too") {
   }
 }
 
-TEST_CASE("paths: points lie on the surfaces they name, and flights are straight between them") {
+TEST_CASE("paths: points lie on the surfaces that they name, and flights between them are straight") {
   const Room room = unit_cube(0.6, paper_emitter());
   for (const PhotonPath& path : trace_paths(room, settings_of(Estimator::collision, Engine::embree, 100, 1), 100)) {
     CHECK(glm::length(path.points.front().place - glm::dvec3(0.5)) < 1e-6);
@@ -82,7 +82,7 @@ TEST_CASE("paths: points lie on the surfaces they name, and flights are straight
   }
 }
 
-TEST_CASE("paths: weights fall by the reflectance, and cut-off walks say so") {
+TEST_CASE("paths: weights are multiplied by the reflectance, and truncated histories are marked") {
   const Room room = unit_cube(0.5, paper_emitter());
   Settings settings = settings_of(Estimator::weight, Engine::automatic, 10, 1);
   settings.max_bounces = 4;
@@ -93,7 +93,7 @@ TEST_CASE("paths: weights fall by the reflectance, and cut-off walks say so") {
   }
 }
 
-TEST_CASE("paths: light that nothing absorbs ends after 10 000 flights") {
+TEST_CASE("paths: a history without absorption ends after 10 000 flights") {
   const Room room = unit_cube(1.0, paper_emitter());
   const std::vector<PhotonPath> paths =
       trace_paths(room, settings_of(Estimator::collision, Engine::automatic, 2, 1), 2);

@@ -37,7 +37,7 @@ Result result_of(const std::vector<double>& irradiances) {
   return result;
 }
 
-// What a pixel at a place of the room shows, in W/m² or lx.
+// The value of a pixel at a point of the room, in W/m² or lx.
 float shown_at(const Picture& picture, const glm::dvec3& place) {
   const glm::dvec4 at = picture.to_pixel * glm::dvec4(place, 1.0);
   const auto x = static_cast<std::size_t>(at.x / at.w);
@@ -49,7 +49,7 @@ float shown_at(const Picture& picture, const glm::dvec3& place) {
 
 }  // namespace
 
-TEST_CASE("picture: the colour maps begin, end and pass their middle as their authors say") {
+TEST_CASE("picture: the colour maps have the published colours at 0, 128/255 and 1") {
   // Matplotlib 3.10, viridis and inferno at 0, 128/255 and 1.
   CHECK(colour_at(ColourMap::viridis, 0.0) == Colour{0x44, 0x01, 0x54});
   CHECK(colour_at(ColourMap::viridis, 128.0 / 255.0) == Colour{0x21, 0x91, 0x8c});
@@ -62,7 +62,7 @@ TEST_CASE("picture: the colour maps begin, end and pass their middle as their au
   CHECK(colour_at(ColourMap::viridis, 7.0) == colour_at(ColourMap::viridis, 1.0));
 }
 
-TEST_CASE("picture: a scale is even or logarithmic between its ends, and holds on beyond them") {
+TEST_CASE("picture: a scale is linear or logarithmic between its ends, and constant beyond them") {
   const ColourScale even{ColourMap::viridis, false, 0.0, 200.0};
   CHECK(even.share(50.0) == 0.25);
   CHECK(even.share(-1.0) == 0.0);
@@ -72,14 +72,14 @@ TEST_CASE("picture: a scale is even or logarithmic between its ends, and holds o
   CHECK(decades.share(0.0) == 0.0);
 }
 
-TEST_CASE("picture: the scale ends at a round number that all but a fiftieth of the lit area stays below") {
+TEST_CASE("picture: the scale ends at a round number, and 98 percent of the lit area is below it") {
   std::vector<double> irradiances(99, 100.0);
-  irradiances.push_back(1e6);  // a sliver at a rim
+  irradiances.push_back(1e6);  // a sliver at a boundary
   const ColourScale scale = choose_scale(result_of(irradiances));
   CHECK(scale.high == 100.0);
   CHECK(scale.low == 0.0);
   CHECK_FALSE(scale.logarithmic);
-  // Half of the room in a hundredth of the light of the other: even steps would show one colour.
+  // The irradiance of one half of the room is a hundredth of the other's: a linear scale would show one colour.
   irradiances.assign(60, 1.0);
   irradiances.insert(irradiances.end(), 40, 430.0);
   const ColourScale contrast = choose_scale(result_of(irradiances));
@@ -93,7 +93,7 @@ TEST_CASE("picture: the scale ends at a round number that all but a fiftieth of 
     CHECK_THROWS_AS(choose_scale(result_of({1.0}), {ColourMap::viridis, ScaleType::automatic, wrong}), InputError);
 }
 
-TEST_CASE("picture: light gets to the inner sides of a cube and to no other") {
+TEST_CASE("picture: light reaches only the inner sides of a cube") {
   const Room room = unit_cube(0.5, paper_emitter());
   const Result result = simulate_cube(room);
   const RoomPainter painter(room, result, 1);
@@ -122,11 +122,11 @@ TEST_CASE("picture: from a corner the far walls and the floor are seen, the near
   const Room room = unit_cube(0.5, paper_emitter());
   Result result = simulate_cube(room);
   for (std::size_t t = 0; t < result.tiles.size(); ++t)
-    result.tiles[t].irradiance = std::sqrt(2.0 + static_cast<double>(t));  // no mean of some is another
+    result.tiles[t].irradiance = std::sqrt(2.0 + static_cast<double>(t));  // no mean of several is equal to another
   const Picture picture = RoomPainter(room, result, 2).draw(View::corner, choose_scale(result), 200, 160);
   std::set<float> shown;
   for (const float irradiance : picture.irradiance) {
-    if (!std::isnan(irradiance)) shown.insert(irradiance);  // a set cannot order what is not a number
+    if (!std::isnan(irradiance)) shown.insert(irradiance);  // a set cannot order NaN
   }
   std::size_t surfaces = 0;
   for (std::size_t m = 0; m < result.tiling.maps.size(); ++m) {
@@ -140,7 +140,7 @@ TEST_CASE("picture: from a corner the far walls and the floor are seen, the near
   CHECK(surfaces == 3);
 }
 
-TEST_CASE("picture: the same room is drawn the same by any number of threads") {
+TEST_CASE("picture: any number of threads draws the same picture") {
   const Room room = read_gltf(std::string(LICHTMC_SCENES) + "/l_room.gltf");
   const Result result = simulate(room, settings_of(Estimator::collision, Engine::automatic, 5e4, 3, 0.5));
   const ColourScale scale = choose_scale(result);
@@ -160,7 +160,7 @@ TEST_CASE("picture: sizes out of range and results without tiles are refused") {
   CHECK_THROWS_AS(RoomPainter(room, Result{}, 1), InputError);
 }
 
-TEST_CASE("plans: every wall of a cube has one, to scale, with each tile where it is") {
+TEST_CASE("plans: every wall of a cube has one, to scale, with each tile in its position") {
   const Room room = unit_cube(0.5, paper_emitter());
   const Result result = simulate_cube(room);
   const RoomPainter painter(room, result, 1);
@@ -180,7 +180,7 @@ TEST_CASE("plans: every wall of a cube has one, to scale, with each tile where i
       const auto y = static_cast<std::size_t>(glm::dot(segment, plan.down) / glm::dot(plan.down, plan.down));
       CHECK(plan.picture.irradiance[y * 120 + x] == static_cast<float>(result.tiles[t].irradiance));
     }
-    // Walls stand upright, and who looks at them has the room behind: across × down points from the eye to the wall.
+    // Walls are upright and seen from inside the room: across × down points from the eye to the wall.
     const glm::dvec3 middle = plan.corner + 60.0 * (plan.across + plan.down);
     const glm::dvec3 outwards = middle - glm::dvec3(0.5);
     if (std::abs(outwards.y) < 0.1) {
@@ -193,7 +193,7 @@ TEST_CASE("plans: every wall of a cube has one, to scale, with each tile where i
   }
 }
 
-TEST_CASE("plans: flat pieces are found across gaps, and a curved surface has none") {
+TEST_CASE("plans: plane pieces are found across gaps, and a curved surface has none") {
   Surface surface;
   surface.positions = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {3, 0, 0}, {4, 0, 0},
                        {4, 0, 1}, {0, 1, 0}, {1, 1, 0}, {1, 1, 1}};
@@ -229,7 +229,7 @@ TEST_CASE("isolines: those of a plane are straight, those of a cone are circles"
   CHECK(circles[0].points.front() == circles[0].points.back());
   double length = 0.0;
   for (std::size_t k = 1; k < circles[0].points.size(); ++k) {
-    // Between points of the grid the distance is taken for linear: off by less than 1/(8 r).
+    // Between points of the grid the distance is interpolated linearly: its error is below 1/(8 r).
     CHECK(std::abs(glm::length(circles[0].points[k] - glm::dvec2(20.0, 15.0)) - 10.0) < 1.0 / 80.0);
     length += glm::length(circles[0].points[k] - circles[0].points[k - 1]);
   }
@@ -243,11 +243,11 @@ TEST_CASE("isolines: a saddle is cut into two lines, and lines end where the sur
   CHECK(lines_of(field, 0.5).empty());
 }
 
-TEST_CASE("isolines: smoothing keeps an even field even up to its rim and averages noise away") {
+TEST_CASE("isolines: smoothing keeps a constant field constant up to its boundary and reduces noise") {
   Field field{30, 20, std::vector<double>(600, 7.0), std::vector<double>(600, 1.0)};
   for (std::size_t k = 0; k < 600; k += 7) {
     field.weight[k] = 0.0;
-    field.values[k] = 1e9;  // beside the surface: of no meaning
+    field.values[k] = 1e9;  // beside the surface: no meaning
   }
   for (const double value : smoothed(field, 2.5).values) CHECK(value == Approx(7.0).epsilon(1e-12));
 }

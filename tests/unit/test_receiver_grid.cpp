@@ -1,4 +1,4 @@
-// A grid of points above the floor: in the room, not beside it and not inside furniture.
+// A grid of points above the floor: inside the room, not outside it and not inside furniture.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -11,7 +11,7 @@
 using namespace lichtmc;
 using namespace lichtmc::test;
 
-TEST_CASE("grid: an empty room has a point in the middle of every square") {
+TEST_CASE("grid: an empty room has a point at the centre of every square") {
   const Room room = make_cuboid({3.0, 2.5, 2.0}, uniform_reflectance(0.5));
   const std::vector<Receiver> points = receiver_grid(room, 0.85, 0.5);
   REQUIRE(points.size() == 24);
@@ -26,7 +26,7 @@ TEST_CASE("grid: an empty room has a point in the middle of every square") {
   CHECK(points[0].name == "grid_0_0");
 }
 
-TEST_CASE("grid: an L-shaped room has none where it is not") {
+TEST_CASE("grid: an L-shaped room has no points in its notch") {
   const Room room = read_gltf(std::string(LICHTMC_SCENES) + "/l_room.gltf");
   const std::vector<Receiver> points = receiver_grid(room, 0.5, 0.25);
   CHECK(points.size() == 48);  // three of four squares of 1 m, 16 points each
@@ -48,7 +48,7 @@ TEST_CASE("grid: no points inside a closed piece of furniture, but on top of it"
   CHECK(receiver_grid(room, 1.0, 0.25).size() == 64);
 }
 
-TEST_CASE("grid: what makes no grid is refused") {
+TEST_CASE("grid: invalid heights and spacings are refused") {
   const Room room = make_cuboid({2.0, 2.0, 2.0}, uniform_reflectance(0.5));
   CHECK_THROWS_WITH(receiver_grid(room, 0.5, 0.0), ContainsSubstring("--grid-spacing"));
   CHECK_THROWS_WITH(receiver_grid(room, std::numeric_limits<double>::quiet_NaN(), 0.5), ContainsSubstring("--grid"));

@@ -1,4 +1,4 @@
-// Reflectance maps: values between pixels, beyond the rim, and over a surface.
+// Reflectance maps: values between pixels, beyond the edges, and over a surface.
 #include <cmath>
 #include <vector>
 
@@ -18,7 +18,7 @@ ReflectanceMap four_pixels(Wrap wrap) {
   return {"four", 2, 2, {0.0F, 0.25F, 0.5F, 1.0F}, wrap, wrap};
 }
 
-// A floor of 2 m × 1 m with a map that spans it `times` times.
+// A floor of 2 m × 1 m with a reflectance map that repeats `times` times.
 Room floor_with_map(ReflectanceMap map, double times) {
   Room room;
   Surface floor = make_floor(2.0, 1.0, 3, times);
@@ -34,7 +34,7 @@ Room floor_with_map(ReflectanceMap map, double times) {
 
 }  // namespace
 
-TEST_CASE("a reflectance map has its values at the middle of its pixels and runs evenly between them") {
+TEST_CASE("a reflectance map has its values at the centres of its pixels and is linear between them") {
   for (const Wrap wrap : {Wrap::repeat, Wrap::clamp, Wrap::mirror}) {
     const ReflectanceMap map = four_pixels(wrap);
     CHECK(reflectance_at(map, 0.25, 0.25) == 0.0);
@@ -47,20 +47,20 @@ TEST_CASE("a reflectance map has its values at the middle of its pixels and runs
   }
 }
 
-TEST_CASE("beyond its rim a reflectance map goes on as its wrap says") {
-  // Half a pixel beyond the rim: between the two rims of a repeated picture; the rim itself of the others.
+TEST_CASE("beyond its edges a reflectance map continues by its wrap mode") {
+  // Half a pixel beyond the edge: between the two opposite edges of a repeated image; the edge itself for the others.
   CHECK(reflectance_at(four_pixels(Wrap::repeat), 0.0, 0.25) == 0.125);
   CHECK(reflectance_at(four_pixels(Wrap::clamp), 0.0, 0.25) == 0.0);
   CHECK(reflectance_at(four_pixels(Wrap::mirror), 0.0, 0.25) == 0.0);
   CHECK(reflectance_at(four_pixels(Wrap::repeat), 1.0, 0.25) == 0.125);
   CHECK(reflectance_at(four_pixels(Wrap::clamp), 1.0, 0.25) == 0.25);
-  // The next picture.
+  // The next repetition.
   CHECK(reflectance_at(four_pixels(Wrap::repeat), 1.25, -0.75) == 0.0);
   CHECK(reflectance_at(four_pixels(Wrap::clamp), 1.25, -0.75) == 0.25);
   CHECK(reflectance_at(four_pixels(Wrap::mirror), 1.25, 0.25) == 0.25);
   CHECK(reflectance_at(four_pixels(Wrap::mirror), 1.75, 0.25) == 0.0);
   CHECK(reflectance_at(four_pixels(Wrap::mirror), -0.25, 0.25) == 0.0);
-  // As far out as numbers go.
+  // At the largest numbers.
   for (const double far : {1e300, -1e300, 1e17, -1e-300}) {
     for (const Wrap wrap : {Wrap::repeat, Wrap::clamp, Wrap::mirror}) {
       const double rho = reflectance_at(four_pixels(wrap), far, far);
@@ -71,18 +71,18 @@ TEST_CASE("beyond its rim a reflectance map goes on as its wrap says") {
   CHECK(reflectance_at(one, 0.9, 17.0) == double{0.3F});
 }
 
-TEST_CASE("the mean reflectance of a surface is that of its map over its area") {
-  // A map repeated over whole periods has the mean of its values, whatever lies between.
+TEST_CASE("the mean reflectance of a surface is that of its reflectance map over its area") {
+  // A reflectance map repeated over whole periods has the mean of its values, whatever the interpolation.
   CHECK(floor_with_map(four_pixels(Wrap::repeat), 3.0).surfaces[0].reflectance == Approx(0.4375).margin(0.002));
   // Clamped, a linear ramp from 0.25 to 0.75 of the way: 0 on a quarter, 1 on a quarter, ½ on average between.
   const ReflectanceMap ramp{"ramp", 2, 1, {0.0F, 1.0F}, Wrap::clamp, Wrap::clamp};
   CHECK(floor_with_map(ramp, 1.0).surfaces[0].reflectance == Approx(0.5).margin(1e-9));
-  // The same value everywhere is found exactly.
+  // A constant value is exact.
   const ReflectanceMap even{"even", 3, 5, std::vector<float>(15, 0.75F), Wrap::repeat, Wrap::mirror};
   CHECK(floor_with_map(even, 7.0).surfaces[0].reflectance == Approx(0.75).epsilon(1e-12));
 }
 
-TEST_CASE("a map whose numbers do not fit the room is refused") {
+TEST_CASE("a reflectance map whose numbers do not fit the room is refused") {
   const auto refusal = [](const Room& room) -> std::string {
     try {
       check_room(room);
@@ -110,7 +110,7 @@ TEST_CASE("a map whose numbers do not fit the room is refused") {
   CHECK_THAT(refusal(room), ContainsSubstring("finite"));
 }
 
-TEST_CASE("mending reaches into maps") {
+TEST_CASE("input overrides change reflectance maps") {
   Room room = floor_with_map(four_pixels(Wrap::repeat), 1.0);
   limit_reflectance(room, 0.9);
   CHECK(reflectance_at(room.reflectance_maps[0], 0.75, 0.75) <= 0.9);
@@ -118,7 +118,7 @@ TEST_CASE("mending reaches into maps") {
   CHECK(room.surfaces[0].reflectance == Approx((0.25 + 0.5 + 0.9) / 4.0).margin(0.002));
   CHECK(room.mended.size() == 1);
   limit_reflectance(room, 0.9);
-  CHECK(room.mended.size() == 1);  // nothing is above it any more
+  CHECK(room.mended.size() == 1);  // nothing is above the limit any more
   set_reflectance(room, "tiles", 0.4);
   CHECK(!room.surfaces[0].reflectance_map);
   CHECK(room.surfaces[0].reflectance == 0.4);

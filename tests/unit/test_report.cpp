@@ -31,7 +31,7 @@ std::set<std::string> files_in(const fs::path& folder) {
   return names;
 }
 
-// A cube with names that would break a page, and receivers.
+// A cube with names that contain markup, and receivers.
 Room difficult_room() {
   Room room = unit_cube(0.5, paper_emitter());
   room.source = "a <b> & \"c\".glb";
@@ -49,7 +49,7 @@ Result simulate_it(const Room& room) {
 
 }  // namespace
 
-TEST_CASE("report: it is one page with pictures, tables and the command, and every name is text") {
+TEST_CASE("report: one page with pictures, tables and the command; names are escaped") {
   const Room room = difficult_room();
   const Folder folder;
   ReportOptions options;
@@ -77,7 +77,7 @@ TEST_CASE("report: it is one page with pictures, tables and the command, and eve
   for (const char* id :
        {"id=\"surfaces\"", "id=\"receivers\"", "id=\"view3d\"", "id=\"room-lit\"", "id=\"picture-paths\""})
     CHECK(page.find(id) != std::string::npos);
-  // Nothing is fetched: no address but those that name XML's vocabulary.
+  // Nothing is loaded: no address except those of XML namespaces.
   for (std::size_t at = page.find("http"); at != std::string::npos; at = page.find("http", at + 1))
     CHECK(page.substr(at, 26) == "http://www.w3.org/2000/svg");
 }
@@ -92,7 +92,7 @@ TEST_CASE("report: results of receivers alone have a page without pictures") {
   CHECK(text_of(folder.path() / "report.html").find("id=\"receivers\"") != std::string::npos);
 }
 
-TEST_CASE("report: an older one is removed, what else lies in its folder is not") {
+TEST_CASE("report: an older report is removed, other files in its folder are not") {
   const Room room = unit_cube(0.5, paper_emitter());
   const Result result = simulate_it(room);
   const Folder folder;
@@ -105,7 +105,7 @@ TEST_CASE("report: an older one is removed, what else lies in its folder is not"
   CHECK_FALSE(fs::exists(folder.path() / "room_lit.glb"));
 }
 
-TEST_CASE("report: a thousand times as many paths as can be seen are refused") {
+TEST_CASE("report: a thousand times more paths than visible are refused") {
   const Room room = unit_cube(0.5, paper_emitter());
   const Folder folder;
   ReportOptions options;
@@ -113,7 +113,7 @@ TEST_CASE("report: a thousand times as many paths as can be seen are refused") {
   CHECK_THROWS_AS(write_report(room, simulate_it(room), folder.path(), options), InputError);
 }
 
-TEST_CASE("lit room: it has every triangle of the room where it is, and the irradiance as numbers") {
+TEST_CASE("lit room: it contains every triangle of the room in its position, and the irradiance as numbers") {
   const Room room = read_gltf(std::string(LICHTMC_SCENES) + "/living_room.glb");
   const Result result = simulate(room, settings_of(Estimator::collision, Engine::automatic, 5e4, 1, 0.25));
   const RoomPainter painter(room, result);
@@ -126,12 +126,12 @@ TEST_CASE("lit room: it has every triangle of the room where it is, and the irra
   double lit_area = 0.0;
   for (const Surface& surface : room.surfaces) area += surface_area(surface);
   for (const Surface& surface : lit.surfaces) lit_area += surface_area(surface);
-  // Triangles of two-sided surfaces that get light on both sides are there once for each.
+  // Triangles of two-sided surfaces with light on both sides appear once per side.
   CHECK(lit_area >= area * (1.0 - 1e-6));
   CHECK(lit_area <= 1.3 * area);
   CHECK(bytes.find("KHR_materials_unlit") != std::string::npos);
   CHECK(bytes.find("\"standard_error\":") != std::string::npos);
-  // The floor's irradiance, row by row, as it lies in the file.
+  // The floor's irradiance, row by row, as stored in the file.
   const SurfaceResult& floor = surface_named(result, "floor");
   std::vector<float> values;
   for (std::size_t m = 0; m < result.surfaces.size(); ++m) {

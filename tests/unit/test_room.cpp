@@ -31,7 +31,7 @@ Room with_emitter(Emitter emitter) {
   return room;
 }
 
-// A sound room with one fault must be refused, and the message must name all of these.
+// A valid room with one fault must be refused, and the message must contain all of these.
 void refuses(const Room& room, const std::vector<std::string>& parts) {
   for (const std::string& part : parts) {
     CAPTURE(part);
@@ -48,7 +48,7 @@ void refuses(const std::function<void(Room&)>& spoil, const std::vector<std::str
 
 }  // namespace
 
-TEST_CASE("check_room accepts a sound room and everything at the ends of its ranges") {
+TEST_CASE("check_room accepts a valid room and values at the limits of their ranges") {
   CHECK_NOTHROW(check_room(sound_room()));
   Room room = sound_room();
   room.surfaces[0].reflectance = 0.0;
@@ -62,7 +62,7 @@ TEST_CASE("check_room accepts a sound room and everything at the ends of its ran
   CHECK_NOTHROW(check_room(room));
 }
 
-TEST_CASE("check_room refuses what is no room to simulate") {
+TEST_CASE("check_room refuses rooms that cannot be simulated") {
   refuses([](Room& r) { r.surfaces.clear(); }, {"hall.glb", "triangle", "area"});
   refuses([](Room& r) { r.emitters.clear(); }, {"hall.glb", "emitter", "--light"});
   refuses(
@@ -111,7 +111,7 @@ TEST_CASE("check_room names the receiver and the value that is wrong") {
   refuses([](Room& r) { r.receivers[0].position.x = infinity; }, {"'desk'", "inf"});
 }
 
-TEST_CASE("the area of a surface is the sum of its triangles whatever their winding") {
+TEST_CASE("the area of a surface is the sum of its triangles for any winding") {
   Surface surface;
   CHECK(surface_area(surface) == 0.0);
   // 3-4-5 right triangles: products and roots of small integers are exact.

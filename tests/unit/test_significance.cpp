@@ -1,4 +1,4 @@
-// How unlikely a deviation is by chance.
+// Probabilities of deviations by chance.
 #include "chance/significance.hpp"
 
 #include <cmath>

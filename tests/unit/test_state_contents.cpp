@@ -1,4 +1,5 @@
-// A state whose seal is right but whose contents no run could have left: refused, and by what is wrong with it.
+// A state with a valid seal, but with contents that no run can write: it is refused, and the message says what is
+// wrong.
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -22,7 +23,7 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The shared sums, to change.
+// The shared sums, to be changed.
 Totals& totals_of(StateData& data) {
   const auto own = std::make_shared<Totals>(*data.photons->totals);
   data.photons->totals = own;
@@ -33,7 +34,7 @@ struct Change {
   std::function<void(StateData&)> make;
 };
 
-// Each change alone makes the state one that is refused, saying so.
+// Each change alone makes the state invalid, with this message.
 void check_refused(const StateData& good, const std::vector<Change>& changes) {
   const Scratch scratch;
   write(good, scratch.file());
@@ -48,7 +49,7 @@ void check_refused(const StateData& good, const std::vector<Change>& changes) {
   }
 }
 
-// A room with a window, a board that is lit on both sides, and, where asked for, a floor with a texture.
+// A room with a window, a board with light on both sides, and, if requested, a floor with a texture.
 Room uneven_room(bool open, bool textured) {
   Room room = small_room();
   Surface board;
@@ -71,13 +72,13 @@ Room uneven_room(bool open, bool textured) {
 
 bool comes_back(const State& state, const Scratch& scratch) {
   write_state(state, scratch.file());
-  read_state(scratch.file());  // throws where it is refused
+  read_state(scratch.file());  // throws if it is refused
   return true;
 }
 
 }  // namespace
 
-// What is refused below must be what no run leaves: the identities hold for every walk that there is.
+// The identities that are checked below hold for the state of every run.
 TEST_CASE("states of all estimators, rooms and ways of measuring are read again") {
   const Scratch scratch;
   for (const Estimator estimator : {Estimator::weight, Estimator::collision, Estimator::absorption}) {
@@ -91,7 +92,7 @@ TEST_CASE("states of all estimators, rooms and ways of measuring are read again"
       settings.tile_walk = WalkDirection::backward;
       CHECK(comes_back(simulate(room, settings).state, scratch));
       settings.tile_walk = WalkDirection::forward;
-      settings.tile_edge_m = 0.03;  // thousands of tiles: other tallies
+      settings.tile_edge_m = 0.03;  // thousands of tiles: another kind of tally
       settings.measured = Measured::tiles;
       CHECK(comes_back(simulate(room, settings).state, scratch));
       settings.direct = Direct::sampled;
@@ -106,7 +107,7 @@ TEST_CASE("states of all estimators, rooms and ways of measuring are read again"
   Settings settings = small_settings(Estimator::weight);
   settings.max_bounces = 3;
   CHECK(comes_back(simulate(small_room(), settings).state, scratch));
-  settings.photons = 5;  // no whole batch
+  settings.photons = 5;  // no complete batch
   CHECK(comes_back(simulate(small_room(), settings).state, scratch));
   CHECK(comes_back(simulate(small_room(), small_settings(Estimator::automatic)).state, scratch));
 }
@@ -131,7 +132,7 @@ TEST_CASE("a checkpoint before the first batch, and a sum with it, are read agai
   CHECK(comes_back(sum, scratch));
 }
 
-TEST_CASE("a state whose settings no run has is refused") {
+TEST_CASE("a state with impossible settings is refused") {
   check_refused(
       small_state(small_settings(Estimator::weight)),
       {{"The number of photons is 0", [](StateData& d) { d.settings.photons = 0; }},
@@ -159,7 +160,7 @@ TEST_CASE("a state whose settings no run has is refused") {
        {"the engine that was used is given as 'auto'", [](StateData& d) { d.engine = Engine::automatic; }}});
 }
 
-TEST_CASE("a state with other walks than its settings ask for is refused") {
+TEST_CASE("a state with other walks than its settings require is refused") {
   check_refused(small_state(small_settings(Estimator::weight)),
                 {{"it has /photons, which", [](StateData& d) { d.settings.measured = Measured::receivers; }},
                  {"it has /photons, which", [](StateData& d) { d.settings.tile_walk = WalkDirection::backward; }},
@@ -195,7 +196,7 @@ TEST_CASE("a state with other walks than its settings ask for is refused") {
                   }}});
 }
 
-TEST_CASE("a state whose ranges are not those of its sums is refused") {
+TEST_CASE("a state whose ranges do not match its sums is refused") {
   const auto ranges = [](std::vector<HistoryRange> those) {
     return [those = std::move(those)](StateData& d) { d.photons->ranges = those; };
   };
@@ -215,7 +216,7 @@ TEST_CASE("a state whose ranges are not those of its sums is refused") {
        {"the ranges 10240:20480 and 0:9216 of /photons overlap or touch", ranges({{10'240, 20'480}, {0, 9216}})}});
 }
 
-TEST_CASE("a state whose arrays do not fit each other is refused") {
+TEST_CASE("a state whose arrays have different lengths is refused") {
   check_refused(small_state(small_settings(Estimator::weight)),
                 {{"hits of 23 rows and tiles of 24", [](StateData& d) { totals_of(d).hits.pop_back(); }},
                  {"hits of 0 rows and tiles of 24", [](StateData& d) { totals_of(d).hits.clear(); }},
@@ -251,7 +252,7 @@ TEST_CASE("a state whose balance does not hold is refused") {
                   }}});
 }
 
-TEST_CASE("a state whose walks back no run has is refused") {
+TEST_CASE("a state with impossible backward walks is refused") {
   Settings settings = small_settings(Estimator::collision);
   settings.tile_walk = WalkDirection::backward;
   const std::vector<Change> of_receivers{

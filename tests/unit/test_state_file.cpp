@@ -1,4 +1,4 @@
-// state.h5: what is written is what is read, and nothing that was damaged is read at all.
+// state.h5: reading gives what was written, and damaged files are refused.
 #include <filesystem>
 #include <random>
 #include <string>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A state with every part: photons with weights, receivers, a choice.
+// A state with every part: photons with weights, receivers, a choice of the estimator.
 State small_state() {
   Room room = unit_cube(0.5, paper_emitter());
   room.receivers.push_back({"desk", {0.5, 0.3, 0.5}, {0, 1, 0}, 90.0, 1.0});
@@ -37,7 +37,7 @@ bool is_refused(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("a state comes back as it was written") {
+TEST_CASE("a state reads back as it was written") {
   const Scratch scratch;
   const State state = small_state();
   write_state(state, scratch.file(), "a note of the caller, in Zürich");
@@ -62,13 +62,13 @@ TEST_CASE("a state comes back as it was written") {
   CHECK(bytes_of(scratch.file()) == first);
 }
 
-TEST_CASE("a bit that has changed anywhere in a state is found") {
+TEST_CASE("a changed bit anywhere in a state is detected") {
   const Scratch scratch;
   write_state(small_state(), scratch.file(), "note");
   const std::string whole = bytes_of(scratch.file());
   REQUIRE_FALSE(is_refused(scratch.file()));
   std::mt19937 random(1);
-  // Every byte once, so every field of the structure; then anywhere.
+  // Every byte once, so every field of the structure; then random positions.
   std::vector<std::size_t> places(whole.size());
   for (std::size_t k = 0; k < places.size(); ++k) places[k] = k;
   for (int k = 0; k < 500; ++k) places.push_back(random() % whole.size());
@@ -82,7 +82,7 @@ TEST_CASE("a bit that has changed anywhere in a state is found") {
   CHECK(accepted == 0);
 }
 
-TEST_CASE("a state that was cut short, or has grown, is refused") {
+TEST_CASE("a state that was truncated or extended is refused") {
   const Scratch scratch;
   write_state(small_state(), scratch.file());
   const std::string whole = bytes_of(scratch.file());
@@ -96,7 +96,7 @@ TEST_CASE("a state that was cut short, or has grown, is refused") {
   CHECK(accepted == 0);
 }
 
-TEST_CASE("what is no state is refused by what it is") {
+TEST_CASE("files that are no state are refused with what they are") {
   const Scratch scratch;
   CHECK_THROWS_WITH(read_state(scratch.file()), ContainsSubstring("No such file"));
   CHECK_THROWS_WITH(read_state(scratch.file().parent_path()), ContainsSubstring("no state of lichtmc"));

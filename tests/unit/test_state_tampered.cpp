@@ -1,4 +1,4 @@
-// A state whose seal is right but whose file another program has changed: types, rows, links, numbers.
+// A state with a valid seal whose file another program has changed: types, rows, links, numbers.
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -33,7 +33,7 @@ class Opened {
   herr_t (*closer_)(hid_t);
 };
 
-// What another program does to the file.
+// A change by another program.
 void change_file(const std::filesystem::path& file, const std::function<void(hid_t)>& change) {
   {
     const Opened hdf5(H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
@@ -76,7 +76,7 @@ void check_refused(const std::vector<FileChange>& changes) {
 
 }  // namespace
 
-TEST_CASE("numbers and text of other types, missing or strange, are refused") {
+TEST_CASE("numbers and text that are missing or of other types are refused") {
   const std::uint64_t seven = 7;
   const double huge = 1e300;
   check_refused({
@@ -129,7 +129,7 @@ TEST_CASE("rows of convergence that no number of histories has are refused") {
   }
 }
 
-TEST_CASE("rows that are not in the file cost no memory") {
+TEST_CASE("rows that are not in the file take no memory") {
   const hsize_t many = 10'000'000'000;
   const auto chunked = [] {
     const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
@@ -219,7 +219,7 @@ TEST_CASE("arrays and groups that are elsewhere are refused") {
 
 namespace {
 
-// A place in the file that holds a number of 64 bits, or a letter.
+// A position in the file of a 64-bit number or of a letter.
 struct Place {
   std::string group;
   std::string name;
@@ -270,7 +270,7 @@ class Tampering {
 
  private:
   void change_byte(std::vector<char>& bytes) { bytes[random_() % bytes.size()] = static_cast<char>(random_()); }
-  // A byte of it, or to a number that arithmetic may not like.
+  // A byte of it, or a number that is critical for arithmetic.
   void change_word(std::vector<char>& bytes) {
     static const std::vector<std::uint64_t> numbers{0,
                                                     1,
@@ -281,7 +281,7 @@ class Tampering {
                                                     std::uint64_t{1} << 63,
                                                     ~std::uint64_t{0},
                                                     0x7FF0'0000'0000'0000,   // infinity
-                                                    0x7FF8'0000'0000'0000,   // no number
+                                                    0x7FF8'0000'0000'0000,   // NaN
                                                     0xC3E0'0000'0000'0000};  // −2⁶³
     if (random_() % 2 == 0) return change_byte(bytes);
     const std::uint64_t number = numbers[random_() % numbers.size()];
@@ -294,8 +294,8 @@ class Tampering {
 
 }  // namespace
 
-// Whatever is read can be worked with: results are made of it, or refused.
-TEST_CASE("any number of a state may be changed: it is refused, or results are made of it") {
+// If a file is read, results are computed from it or refused.
+TEST_CASE("if any number of a state is changed, it is refused or results are computed from it") {
   const Scratch scratch;
   const Room room = small_room();
   const StateData good = small_state(small_settings(Estimator::weight));
@@ -314,7 +314,7 @@ TEST_CASE("any number of a state may be changed: it is refused, or results are m
     INFO(place.group << "/" << place.name);
     try {
       const State state = read_state(scratch.file());
-      // Other tiles take what time and memory they take.
+      // Another number of tiles may take any time and memory.
       if (state.settings().tile_edge_m == good.settings.tile_edge_m) result_of(room, state);
     } catch (const Error&) {
       ++refused;

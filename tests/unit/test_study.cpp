@@ -1,4 +1,4 @@
-// Advice from a study's rows, and its pictures.
+// Advice from a study's rows, and its charts.
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -54,8 +54,8 @@ TEST_CASE("advice is the cheapest setting for each accuracy") {
   CHECK(advice_from(rows, 0.2, "room.glb").empty());
 }
 
-TEST_CASE("advice counts what must be done once, and leaves out walks whose bias is too large") {
-  // Integrating takes 5 s, then half of the time of the other way.
+TEST_CASE("advice includes the time of steps that are done once, and leaves out walks whose bias is too large") {
+  // Integration takes 5 s, then half of the time of the other method.
   std::vector<StudyRow> rows{row(Estimator::collision, 1000, 0.1, 0.2), row(Estimator::collision, 100'000, 10.0, 0.02)};
   StudyRow integrated = row(Estimator::collision, 100'000, 10.0, 0.02);
   integrated.direct = Direct::analytic;
@@ -67,7 +67,7 @@ TEST_CASE("advice counts what must be done once, and leaves out walks whose bias
   CHECK(advice[2].setting.direct == Direct::analytic);
   CHECK(advice[2].sentence.find("--direct analytic") != std::string::npos);
 
-  // Ten times as fast, and 4 % off for ever: √(4.5² − 2²).
+  // Ten times as fast, with a bias of 4 %: √(4.5² − 2²).
   StudyRow cut = row(Estimator::weight, 100'000, 1.0, 0.02);
   cut.max_bounces = 3;
   cut.rms_error = 0.045;
@@ -82,7 +82,7 @@ TEST_CASE("advice counts what must be done once, and leaves out walks whose bias
   CHECK(advice_from({row(Estimator::weight, 1024, 1.0, nan)}, 0.1, "room.glb").empty());
 }
 
-TEST_CASE("line charts draw what can be drawn") {
+TEST_CASE("line charts leave out values that cannot be drawn") {
   LineChart chart;
   chart.title = "a < b & c";
   chart.x_label = "time, s";
@@ -101,14 +101,14 @@ TEST_CASE("line charts draw what can be drawn") {
   CHECK(to_svg(chart).find("nan") == std::string::npos);
 }
 
-TEST_CASE("bars stand longest first") {
+TEST_CASE("bars are sorted, the longest first") {
   const std::string svg = bars_to_svg("merit", "1/s", {{"short", 1.0}, {"long", 1000.0}, {"middle", 30.0}});
   CHECK(svg.find(">long") < svg.find(">middle"));
   CHECK(svg.find(">middle") < svg.find(">short"));
   CHECK(svg.find("nan") == std::string::npos);
 }
 
-TEST_CASE("a study measures every way against one reference") {
+TEST_CASE("a study compares every method with one reference") {
   StudyOptions options;
   options.seconds = 5.0;
   options.tile_edge_m = 0.25;
@@ -122,7 +122,7 @@ TEST_CASE("a study measures every way against one reference") {
     CHECK_FALSE(progress.what.empty());
   };
   const Study found = study(unit_cube(0.6, paper_emitter()), options);
-  // On a slow machine there is no time for all: what is left out is said.
+  // On a slow machine there is no time for all runs: those left out are reported.
   for (const std::string& sentence : found.left_out) CHECK(sentence.find("Give --max-time more.") != std::string::npos);
   REQUIRE_FALSE(found.references.empty());
   CHECK(found.references.size() <= 3);
@@ -140,11 +140,11 @@ TEST_CASE("a study measures every way against one reference") {
     if (one.max_bounces) ++cut;
     if (one.direction == WalkDirection::forward && one.direct == Direct::analytic) ++integrated;
     if (one.engine != Engine::cuboid) ++by_embree;
-    // What is cut off after two flights has lost most of ρ² = 0.36 … of the light; whole walks lose nothing.
+    // Truncation after two flights loses most of ρ² = 0.36 … of the power; complete walks lose nothing.
     if (one.max_bounces == 2U) CHECK(one.bias < -0.2);
     if (one.max_bounces == 50U) CHECK(std::abs(one.bias) < 0.01);
   }
-  // Of a plan that is not left out there is a row at least.
+  // A plan that is not left out has at least one row.
   const auto left_out = [&](const std::string& part) {
     return static_cast<std::size_t>(
         std::count_if(found.left_out.begin(), found.left_out.end(),

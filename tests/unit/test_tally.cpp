@@ -18,7 +18,7 @@ struct Batch {
   std::vector<Impact> impacts;
 };
 
-// Tiles of three maps, the second twice as large as the first, and so on.
+// Tiles of three tile maps, the second twice as large as the first, and so on.
 std::vector<std::uint32_t> three_maps(std::uint32_t tiles) {
   return {0, tiles / 6, tiles / 2, tiles};
 }
@@ -29,7 +29,7 @@ std::uint32_t map_of(std::uint32_t tile, const std::vector<std::uint32_t>& first
   return map;
 }
 
-// Hits crowd on the first tiles: some get none, one or two in a batch, others hundreds.
+// Most hits are on the first tiles: some tiles get none, one or two in a batch, others hundreds.
 std::vector<Batch> some_batches(std::uint32_t tiles, Hits hits) {
   std::mt19937 bits(17);
   std::vector<Batch> batches;
@@ -68,7 +68,7 @@ Totals tallied(const std::vector<Batch>& batches, const std::vector<std::uint32_
   return totals;
 }
 
-// The same by the definition.
+// The same sums by definition.
 Totals defined(const std::vector<Batch>& batches, const std::vector<std::uint32_t>& first_tile, Hits hits) {
   Totals totals(first_tile.back(), first_tile.size() - 1, hits);
   for (const Batch& batch : batches) {
@@ -102,7 +102,7 @@ void check_same(const Totals& a, const Totals& b) {
 
 }  // namespace
 
-TEST_CASE("a tally adds up what its batches scored, for few tiles and many, hits and weights") {
+TEST_CASE("a tally sums the scores of its batches, for few tiles and many, hits and weights") {
   for (const Hits hits : {Hits::are_the_score, Hits::apart}) {
     for (const std::uint32_t tiles : {6U, 600U, 60'000U}) {
       const auto first_tile = three_maps(tiles);
@@ -112,7 +112,7 @@ TEST_CASE("a tally adds up what its batches scored, for few tiles and many, hits
   }
 }
 
-TEST_CASE("a tile is hit more often in a batch than two bytes can count") {
+TEST_CASE("a tile gets more hits in a batch than two bytes can count") {
   const auto first_tile = three_maps(60'000);
   std::vector<Batch> batches(3);
   for (Batch& batch : batches) {
@@ -133,12 +133,12 @@ TEST_CASE("a tile is hit in more batches than a byte can count") {
   check_same(tallied(batches, first_tile, Hits::are_the_score), defined(batches, first_tile, Hits::are_the_score));
 }
 
-TEST_CASE("scores that 64 bits cannot add the squares of are added all the same") {
+TEST_CASE("scores are added even if the sum of their squares exceeds 64 bits") {
   const auto first_tile = three_maps(6);
   std::vector<Batch> batches(40);
   for (Batch& batch : batches) batch.impacts.assign(1000, {3, 16'777'216});
   check_same(tallied(batches, first_tile, Hits::apart), defined(batches, first_tile, Hits::apart));
-  // More small batches than are added up in 64 bits at a time.
+  // More small batches than are summed in 64 bits at a time.
   std::vector<Batch> small(40'000);
   for (Batch& batch : small) batch.impacts = {{1, 1}, {1, 1}, {4, 1}};
   check_same(tallied(small, first_tile, Hits::are_the_score), defined(small, first_tile, Hits::are_the_score));

@@ -47,7 +47,7 @@ std::vector<std::string> names_for(const std::vector<std::string>& maps) {
 
 }  // namespace
 
-TEST_CASE("a tile map's image holds irradiance and error and area cell by cell") {
+TEST_CASE("a tile map's image contains irradiance, error and area of each cell") {
   const Folder folder;
   const Result result = make_result();
   write_results(make_room(), result, folder.path());
@@ -67,7 +67,7 @@ TEST_CASE("a tile map's image holds irradiance and error and area cell by cell")
   CHECK(area[5] == 0.0F);
 }
 
-TEST_CASE("a tile map's image says in its header what it shows") {
+TEST_CASE("the header of a tile map's image describes it") {
   const Folder folder;
   write_results(make_room(), make_result(), folder.path());
   const Imf::InputFile image((folder.path() / "tiles" / "a__b___c_d.exr").c_str());
@@ -94,13 +94,13 @@ TEST_CASE("a tile map's image says in its header what it shows") {
   CHECK(back.header().typedAttribute<Imf::StringAttribute>("side").value() == "back");
 }
 
-TEST_CASE("file names of tile maps are safe and unique and as near to the name as can be") {
+TEST_CASE("file names of tile maps are safe, unique and as close to the name as possible") {
   using Names = std::vector<std::string>;
   CHECK(names_for({"floor", "Wand.2_a-b", "lamp.back"}) == Names{"floor.exr", "Wand.2_a-b.exr", "lamp.back.exr"});
   CHECK(names_for({"a/b", "a\\b", "a b"}) == Names{"a_b.exr", "a_b_2.exr", "a_b_3.exr"});
   CHECK(names_for({"Floor", "floor", "FLOOR"}) == Names{"Floor.exr", "floor_2.exr", "FLOOR_3.exr"});
   CHECK(names_for({"W\xC3\xA4nde", "\xE5\xBA\x8A"}) == Names{"W\xC3\xA4nde.exr", "\xE5\xBA\x8A.exr"});
-  // Bytes that are no UTF-8: alone, cut short, and in the middle.
+  // Bytes that are not UTF-8: alone, truncated, and in the middle.
   CHECK(names_for({"a\xFF", "b\xC3", "c\xE5\xBA-"}) == Names{"a_.exr", "b_.exr", "c__-.exr"});
   for (const std::string& name : names_for({"", ".", "..", ".hidden", "../../etc/passwd", std::string("a\0b", 3)})) {
     CAPTURE(name);
@@ -110,15 +110,15 @@ TEST_CASE("file names of tile maps are safe and unique and as near to the name a
   }
 }
 
-TEST_CASE("long file names of tile maps are cut between characters and stay apart") {
+TEST_CASE("long file names of tile maps are cut between characters and stay different") {
   std::string umlauts = "x";
   for (int k = 0; k < 200; ++k) umlauts += "\xC3\xA4";
   const auto names = names_for({umlauts, umlauts + "1", std::string(500, 'a'), std::string(501, 'a')});
   CHECK(std::set<std::string>(names.begin(), names.end()).size() == 4);
   for (const std::string& name : names) {
-    // 255 bytes are allowed; the temporary file's name has some behind it.
+    // 255 bytes are allowed; the temporary file's name has some more.
     CHECK(name.size() <= 200);
     CHECK(name.size() >= 100);
-    CHECK_NOTHROW(nlohmann::json(name).dump());  // throws where the text is no UTF-8
+    CHECK_NOTHROW(nlohmann::json(name).dump());  // throws if the text is not UTF-8
   }
 }

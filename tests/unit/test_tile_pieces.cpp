@@ -23,7 +23,7 @@ double area_of(const Surface& surface, const TilePiece& piece) {
 
 }  // namespace
 
-TEST_CASE("tile pieces: their areas add up to the tile's, whatever the mesh") {
+TEST_CASE("tile pieces: their areas add up to the tile's, for any mesh") {
   Room room;
   room.source = "test";
   room.surfaces = {make_floor(1.7, 0.9, 7), make_box(glm::dvec3(0.3, 0.4, 0.5))};
@@ -43,7 +43,7 @@ TEST_CASE("tile pieces: their areas add up to the tile's, whatever the mesh") {
   }
 }
 
-TEST_CASE("tile pieces: places are uniform over a tile's area in space, also where the chart is stretched") {
+TEST_CASE("tile pieces: positions are uniform over a tile's area in 3-D, also if the chart is stretched") {
   // Two quads of one chart, the second three times as wide in space as in its half of the chart.
   Surface surface;
   surface.name = "stretched";
@@ -57,7 +57,7 @@ TEST_CASE("tile pieces: places are uniform over a tile's area in space, also whe
   const Tiling tiling = make_tiling(room, 100.0);
   REQUIRE(tiling.tiles.size() == 1);
   const TilePieces pieces(room, tiling);
-  constexpr int n = 512;  // a grid of n × n numbers stands for uniform ones
+  constexpr int n = 512;  // a grid of n × n numbers replaces uniform random ones
   std::vector<double> counts(16, 0.0);
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
@@ -69,6 +69,6 @@ TEST_CASE("tile pieces: places are uniform over a tile's area in space, also whe
           1.0;
     }
   }
-  // Grid points miss their share by less than the border of a bin, some n points of n²/16.
+  // The error of a count of grid points is less than the boundary of a bin, some n points of n²/16.
   for (const double count : counts) CHECK(std::abs(count - n * n / 16.0) < 3.0 * n);
 }

@@ -26,8 +26,8 @@ std::vector<double> area_of_maps(const Tiling& tiling) {
   return areas;
 }
 
-// What Tiling promises of its numbers, and that areas add up. A sum of n tiles is rounded n times by up to 2⁻⁵³, its
-// parts by some 20 such steps of the triangles' areas: far below 1e-12 for these rooms.
+// Checks the documented numbering of Tiling, and that areas add up. A sum of n tiles is rounded n times by up to 2⁻⁵³,
+// its parts by some 20 such steps of the triangles' areas: far below 1e-12 for these rooms.
 void check_tiling(const Room& room, const Tiling& tiling) {
   REQUIRE(tiling.cells.size() == room.surfaces.size());
   std::uint32_t next = 0;
@@ -94,7 +94,7 @@ TEST_CASE("tiles do not depend on whether the chart is the file's or the engine'
   }
 }
 
-TEST_CASE("a chart has the whole number of tiles nearest to its length") {
+TEST_CASE("a chart has the integer number of tiles nearest to its length") {
   const auto columns = [](double length, double edge) {
     return make_tiling(room_of({make_floor(length, 1.0)}), edge).maps[0].columns;
   };
@@ -127,7 +127,7 @@ TEST_CASE("areas add up for all kinds of surfaces") {
 }
 
 TEST_CASE("areas add up where UVs stretch and shear the surface") {
-  // A floor whose UVs are squeezed unevenly: tiles of different areas, the same sum.
+  // A floor with a non-uniform stretch of its UVs: tiles of different areas, the same sum.
   Surface floor = make_floor(3.0, 2.0, 12);
   for (glm::dvec2& uv : floor.uvs) uv = {0.5 * uv.x * (1.0 + uv.x), 0.7 * uv.y + 0.3 * uv.x};
   const Room room = room_of({floor});
@@ -136,7 +136,7 @@ TEST_CASE("areas add up where UVs stretch and shear the surface") {
   CHECK(tiling.maps[0].chart == ChartSource::file);
 }
 
-TEST_CASE("mirrored UVs mirror the map and leave areas positive") {
+TEST_CASE("mirrored UVs mirror the tile map and areas stay positive") {
   Surface floor = make_floor(1.0, 1.0);
   for (glm::dvec2& uv : floor.uvs) uv.x = 1.0 - uv.x;
   const Room room = room_of({floor});
@@ -146,7 +146,7 @@ TEST_CASE("mirrored UVs mirror the map and leave areas positive") {
   CHECK(tiling.tiles[0].point == glm::dvec3(0.875, 0.0, 0.125));
 }
 
-TEST_CASE("a surface that is measured on both sides has a back map like its front") {
+TEST_CASE("a surface with Sides::both has a back tile map like its front") {
   Surface wall = make_floor(1.0, 0.5);
   wall.name = "wall";
   wall.sides = Sides::both;
@@ -169,7 +169,7 @@ TEST_CASE("a surface that is measured on both sides has a back map like its fron
   }
 }
 
-TEST_CASE("a cell that the surface does not reach is no tile") {
+TEST_CASE("a cell without a part of the surface is no tile") {
   Surface triangle;
   add_triangle(triangle, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
   triangle.uvs = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
@@ -181,7 +181,7 @@ TEST_CASE("a cell that the surface does not reach is no tile") {
   for (const Tile& tile : tiling.tiles) {
     const bool half = tile.column + tile.row == 9;
     CHECK(std::abs(tile.area_m2 - (half ? 0.005 : 0.01)) <= 20.0 * 0x1p-53);
-    // The centre of a half lies on its rim.
+    // The centre of a half lies on its boundary.
     CHECK(std::abs(tile.point.x - (tile.column + 0.5) / 10.0) <= 1e-9);
     CHECK(std::abs(tile.point.z - (tile.row + 0.5) / 10.0) <= 1e-9);
   }
@@ -200,7 +200,8 @@ TEST_CASE("a tile whose centre is off the surface has its point in its largest p
 }
 
 TEST_CASE("float rounding at a grid line makes no tiles") {
-  // A floor with its right third cut off the chart by a hole: its rim is at a float next to the grid line at 0.3 of 1.
+  // A floor with its right third cut off the chart by a hole: its boundary is at a float next to the grid line at 0.3
+  // of 1.
   Surface surface;
   const double third = static_cast<double>(0.3F);
   REQUIRE(third > 0.3);
@@ -213,7 +214,7 @@ TEST_CASE("float rounding at a grid line makes no tiles") {
   CHECK(tiling.tiles.size() == 70);
 }
 
-TEST_CASE("triangles without area count for nothing and break nothing") {
+TEST_CASE("triangles without area do not change the tiles") {
   Surface surface = make_floor(1.0, 1.0);
   surface.uvs.clear();
   add_triangle(surface, {0.2, 0.0, 0.2}, {0.2, 0.0, 0.2}, {0.2, 0.0, 0.2});
@@ -253,7 +254,7 @@ TEST_CASE("a floor of very thin strips is a floor") {
   CHECK(tiling.tiles.size() == 100);
 }
 
-TEST_CASE("a surface without area has a map and no tiles") {
+TEST_CASE("a surface without area has a tile map without tiles") {
   Surface empty;
   empty.name = "empty";
   Surface flat;
@@ -282,7 +283,7 @@ TEST_CASE("the same room gives the same tiles") {
   }
 }
 
-TEST_CASE("a tile edge that is no length is refused") {
+TEST_CASE("a tile edge that is not a finite number above 0 is refused") {
   const Room room = room_of({make_floor(1.0, 1.0)});
   for (const double edge : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
     CHECK_THROWS_AS(make_tiling(room, edge), InputError);
@@ -291,14 +292,14 @@ TEST_CASE("a tile edge that is no length is refused") {
                     "The tile edge is -1 m (allowed: a finite number above 0). Give --tile a length in metres.");
 }
 
-TEST_CASE("too many cells are refused before memory is asked for") {
+TEST_CASE("too many cells are refused before memory is allocated") {
   Surface small = make_floor(1.0, 1.0);
   small.name = "small";
   Surface large = make_box({1000.0, 500.0, 800.0});
   const Room room = room_of({small, large});
   CHECK_THROWS_WITH(make_tiling(room, 1e-3), ContainsSubstring("on the surface 'box'"));
   CHECK_THROWS_WITH(make_tiling(room, 1e-3), ContainsSubstring("memory holds"));
-  // Numbers of cells that no integer and no double holds.
+  // Numbers of cells beyond the range of integers and doubles.
   for (const double edge : {1e-9, 1e-300, std::numeric_limits<double>::denorm_min()}) {
     CHECK_THROWS_AS(make_tiling(room, edge), InputError);
   }
@@ -317,7 +318,7 @@ TEST_CASE("an empty cell belongs to the nearest tile") {
                       n, n, n, n, n,  //
                       n, n, n, n, 8};
   const std::vector<std::uint32_t> filled = nearest_tiles(map);
-  // The cells that are as far from one as from the other go to the first.
+  // Cells at the same distance from both belong to the first.
   const std::vector<std::uint32_t> expected{7, 7, 7, 7, 8,  //
                                             7, 7, 7, 8, 8,  //
                                             7, 7, 8, 8, 8};

@@ -1,4 +1,4 @@
-// What the kernel does to several photons at once against the same one by one.
+// The vectorised steps of the kernel compared with the same steps for one photon at a time.
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -49,7 +49,7 @@ struct OnSurfaces {
   }
 };
 
-// A policy's choice for the wave against its choice for one photon after the other.
+// A policy's choice for the wave compared with its choice for one photon at a time.
 template <class Policy>
 void check_policy(std::size_t n) {
   OnSurfaces together(n);
@@ -91,7 +91,7 @@ void check_policy(std::size_t n) {
 
 }  // namespace
 
-TEST_CASE("a wave's photons survive as they would one by one") {
+TEST_CASE("photons of a wave survive as they do one by one") {
   for (const std::size_t n : sizes) {
     check_policy<CollisionPolicy>(n);
     check_policy<RouletteWeightPolicy>(n);
@@ -99,7 +99,7 @@ TEST_CASE("a wave's photons survive as they would one by one") {
   }
 }
 
-TEST_CASE("a wave's photons start as they would one by one") {
+TEST_CASE("photons of a wave start as they do one by one") {
   Room room = make_cuboid({2, 3, 4}, uniform_reflectance(0.5));
   room.emitters = {lambert({1, 2, 3}, {1, 1, 1}, 1e6, 0.5),
                    isotropic({0.5, 0.5, 0.5}, 2.0),
@@ -143,8 +143,8 @@ TEST_CASE("a wave's photons start as they would one by one") {
   }
 }
 
-TEST_CASE("cells found in registers and in memory are the same, beside the grid too") {
-  // Six facets fit into registers, twenty never do; the first six are the same.
+TEST_CASE("look-up in registers and in memory gives the same cells, outside the grid too") {
+  // Six facets fit into a register, twenty never do; the first six are the same.
   std::mt19937 bits(3);
   std::vector<Facet> facets(20);
   std::vector<SurfaceGrid> grids;

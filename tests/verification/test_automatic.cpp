@@ -1,5 +1,5 @@
-// The estimator that is chosen by itself: the same digits as with it from the start, the same choice for any number of
-// threads, and one that is near the best.
+// The automatic choice of the estimator: the same figures as with this estimator from the start, the same choice for
+// any number of threads, and a choice near the best.
 #include <cmath>
 #include <map>
 #include <string>
@@ -27,7 +27,7 @@ double cost_of_tiles(const Result& result) {
 
 }  // namespace
 
-TEST_CASE("automatic: the digits are those of the estimator chosen, for any number of threads") {
+TEST_CASE("automatic: the figures are those of the estimator chosen, for any number of threads") {
   for (const double rho : {0.2, 0.9}) {
     const Room room = unit_cube(rho, paper_emitter());
     Settings settings = settings_of(Estimator::automatic, Engine::automatic, 200'000, 3);
@@ -51,8 +51,8 @@ TEST_CASE("automatic: the digits are those of the estimator chosen, for any numb
 }
 
 TEST_CASE("automatic: within a tenth of the best, by variance for the same number of flights") {
-  // The living room's figure hangs on few dark tiles and needs more photons to tell weight from collision: see
-  // docs/trade-off.md.
+  // The living room's figure depends on few dark tiles and requires more photons to distinguish weight from collision:
+  // see docs/trade-off.md.
   const std::map<std::string, double> scenes{
       {"cube_paper.gltf", 0.1}, {"integrating_sphere.glb", 0.5}, {"l_room.gltf", 0.5}};
   for (const auto& [scene, tile] : scenes) {
@@ -71,7 +71,7 @@ TEST_CASE("automatic: within a tenth of the best, by variance for the same numbe
   }
 }
 
-TEST_CASE("automatic: for receivers and for tiles walked from, each has a choice of its own") {
+TEST_CASE("automatic: receivers and tiles with backward walks have separate choices") {
   Room room = unit_cube(0.7, paper_emitter());
   room.receivers.push_back({"desk", {0.3, 0.2, 0.6}, {0, 1, 0}, 90.0, 1.0});
   Settings settings = settings_of(Estimator::automatic, Engine::automatic, 100'000, 3);
@@ -91,7 +91,7 @@ TEST_CASE("automatic: for receivers and for tiles walked from, each has a choice
   CHECK(same_tiles(walked, simulate(room, settings)));
 }
 
-TEST_CASE("automatic: where a surface absorbs nothing absorption is no candidate, and the run goes on") {
+TEST_CASE("automatic: if a surface absorbs nothing, absorption is no candidate, and the run continues") {
   Room room = unit_cube(0.5, paper_emitter());
   room.surfaces[4].reflectance = 1.0;
   const Result result = simulate(room, settings_of(Estimator::automatic, Engine::automatic, 100'000, 3));

@@ -1,4 +1,4 @@
-// Light that comes straight from emitters, in black rooms: closed forms.
+// Direct light of emitters in black rooms, compared with closed forms.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -71,7 +71,7 @@ TEST_CASE("CIE 171 case 5.2: a point source over a plane") {
   CHECK(verdict.agrees);
   CHECK(result.impacts + static_cast<std::uint64_t>(std::llround(result.balance.escaped / (1000.0 * pi) * 4e6)) ==
         4'000'000);
-  // A source 1 % higher must be told.
+  // A source 1 % higher must be rejected.
   const auto higher = against(result, "floor", [&](const Tile& tile) {
     return floor_tile_mean(tile, 0.25, [](const glm::dvec3& p) {
       const double h = 1.01 * height;
@@ -108,7 +108,7 @@ TEST_CASE("generalized Lambert and isotropic emitters over a plane") {
   CHECK(verdict.agrees);
 }
 
-TEST_CASE("a spot lights its cone by the falloff that is written down") {
+TEST_CASE("a spot light has its specified falloff inside its cone") {
   // I0 = Φ/(2π[(1 − cos i) + (cos i − cos o)/3]); E = I(θ) cos θ/d² with I = I0 a² between the cones.
   constexpr double height = 2.0;
   constexpr double inner = 0.35;
@@ -152,7 +152,7 @@ TEST_CASE("an emitter in a black cube: shares of the faces") {
   }
 }
 
-TEST_CASE("in a black room the three estimators are one") {
+TEST_CASE("in a black room the three estimators are equal") {
   const Room room = unit_cube(0.0, isotropic({0.3, 0.4, 0.5}));
   for (const Engine engine : {Engine::cuboid, Engine::embree}) {
     const Result collision = simulate(room, settings_of(Estimator::collision, engine, 50000, 57));
@@ -167,7 +167,7 @@ TEST_CASE("in a black room the three estimators are one") {
   }
 }
 
-TEST_CASE("a single triangle takes its solid angle") {
+TEST_CASE("a single triangle receives its solid angle") {
   // Right triangle with legs 1 m, isotropic source 1 m over the right angle: solid angle / 4π.
   Room room;
   room.source = "triangle";
@@ -185,7 +185,7 @@ TEST_CASE("a single triangle takes its solid angle") {
   CHECK(std::abs(result.balance.escaped + result.surfaces.front().power - 1.0) < 4.0 * 0x1p-53);
 }
 
-TEST_CASE("two emitters give the sum of each alone") {
+TEST_CASE("two emitters give the sum of each one alone") {
   const Emitter a = isotropic({0.3, 0.7, 0.2}, 2.0);
   const Emitter b = lambert({0.8, 0.9, 0.5}, {0.2, -1, 0}, 3.0, 0.5);
   Room both = unit_cube(0.5, a);

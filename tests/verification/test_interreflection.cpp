@@ -1,4 +1,4 @@
-// Light that is reflected on and on: rooms with exact answers.
+// Interreflection in rooms with exact results.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -26,9 +26,9 @@ Compared mean_irradiance(const Result& result, const std::string& name, double e
 
 }  // namespace
 
-TEST_CASE("CIE 171 case 5.6: light off a diffuse surface") {
+TEST_CASE("CIE 171 case 5.6: light from a diffuse surface") {
   // A floor of 4 m × 4 m with exitance M = 1 lm/m²; a black wall 4 m × 2.5 m from 0.5 m up at its edge and a black
-  // ceiling 3 m above. Points at the middle of the width: 100 E/M, and the same closed form averaged over the tiles.
+  // ceiling 3 m above. Points at half of the width: 100 E/M, and the same closed form averaged over the tiles.
   Room room = make_cuboid({4.0, 3.0, 4.0}, uniform_reflectance(0.0));
   room.emitters.push_back(surface_emitter(0, 16.0));
   const auto on_wall = [](const glm::dvec3& p) { return element_to_perpendicular_rectangle(p.y, p.z, 4.0 - p.z, 4.0); };
@@ -103,7 +103,7 @@ TEST_CASE("furnace: irradiance is uniform when every surface emits what it absor
       CHECK(verdict.agrees);
     }
   }
-  // Two reflectances swapped: the test must tell.
+  // Two reflectances exchanged: the test must reject.
   std::swap(room.surfaces[0].reflectance, room.surfaces[1].reflectance);
   const Result swapped = simulate(room, settings_of(Estimator::collision, Engine::cuboid, 2e6, 34, 0.5));
   std::vector<Compared> figures;
@@ -112,9 +112,9 @@ TEST_CASE("furnace: irradiance is uniform when every surface emits what it absor
 }
 
 TEST_CASE("integrating sphere: indirect light is the same everywhere") {
-  // Isotropic lamp at the centre: every tile gets Φ/(S(1 − ρ)) as a whole, direct light on the facets nearly uniform.
-  // The mean over the surface is exact with the mesh's own area; single tiles of the icosphere differ in direct light
-  // by their distance, so they are compared with a lamp-free value: the sphere itself as the emitter.
+  // Isotropic emitter at the centre: every tile has E = Φ/(S(1 − ρ)) in total, direct light on the facets is nearly
+  // uniform. The mean over the surface is exact with the mesh's own area; single tiles of the icosphere differ in
+  // direct light by their distance, so they are compared with a case without a point emitter: the sphere itself emits.
   Room room = read_gltf(std::string(LICHTMC_SCENES) + "/integrating_sphere.glb");
   REQUIRE(room.surfaces.size() == 1);
   const double rho = room.surfaces[0].reflectance;
@@ -139,7 +139,7 @@ TEST_CASE("integrating sphere: indirect light is the same everywhere") {
   CHECK(verdict.agrees);
 }
 
-TEST_CASE("open-top cube: the share that escapes") {
+TEST_CASE("open-top cube: the share of light that escapes") {
   // Deterministic radiosity of the cube without its ceiling.
   struct Case {
     Emitter emitter;
@@ -163,7 +163,7 @@ TEST_CASE("open-top cube: the share that escapes") {
       figures.push_back({b.escaped, std::sqrt(each.escaped * (1.0 - each.escaped) / 1e6), each.escaped, 0.0});
     }
     // The weight estimator's variance is smaller than the bound, which may make χ² too small: the largest z alone
-    // decides there.
+    // determines the result there.
     const Verdict verdict = compare(figures);
     INFO(to_string(estimator) << ": " << verdict.text);
     CHECK(verdict.largest_z <= largest_z_allowed(figures.size()));
@@ -192,8 +192,8 @@ TEST_CASE("an opening is a black wall") {
   CHECK(open.balance.escaped > 0.0);
 }
 
-TEST_CASE("L-room: end walls round the corner do not see each other") {
-  // Black walls, the end wall z = 2 shines: what reaches the end wall x = 2 directly is nothing, also along the line of
+TEST_CASE("L-room: the end walls exchange no direct light") {
+  // Black walls, the end wall z = 2 emits: no light reaches the end wall x = 2 directly, not even along the line of
   // sight that grazes the re-entrant edge.
   Room room = read_gltf(std::string(LICHTMC_SCENES) + "/l_room.gltf");
   for (Surface& surface : room.surfaces) surface.reflectance = 0.0;
@@ -207,8 +207,8 @@ TEST_CASE("L-room: end walls round the corner do not see each other") {
   CHECK(result.impacts == result.histories);
 }
 
-TEST_CASE("parallel plates exchange the light of their form factor") {
-  // Unit squares a distance of 1 m apart, one shining, both black: what the other gets.
+TEST_CASE("parallel plates exchange light by their form factor") {
+  // Unit squares a distance of 1 m apart, one emits, both are black: the flux on the other.
   Room room = make_cuboid({1.0, 1.0, 1.0}, uniform_reflectance(0.0));
   for (const char* name : {"wall_x0", "wall_x1", "wall_z0", "wall_z1"}) room = without_surface(room, name);
   room.emitters.push_back(surface_emitter(0, 1.0));

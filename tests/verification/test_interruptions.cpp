@@ -1,5 +1,5 @@
-// Runs that are stopped, at whatever moment and by whomever: what was found is kept, and going on from it ends as if
-// nothing had happened.
+// Runs that are stopped, at any moment and for any reason: results are kept, and a resumed run ends with the same
+// figures as an uninterrupted one.
 #include <atomic>
 #include <filesystem>
 #include <mutex>
@@ -17,7 +17,7 @@ using namespace lichtmc::test;
 
 namespace {
 
-// Asks for a stop at the first report of a stage.
+// Requests a stop at the first report of a stage.
 class StopAt {
  public:
   explicit StopAt(Progress::Stage stage) : stage_(stage) {}
@@ -37,7 +37,7 @@ class StopAt {
   std::stop_source source_;
 };
 
-// A room of which every walk takes a million flights, so that it is stopped within one.
+// A room in which every history takes a million flights, so that a stop occurs within one.
 Room bright_room() {
   Room room = room_to_split(Furniture::board);
   for (Surface& surface : room.surfaces) surface.reflectance = 1.0 - 1e-6;
@@ -46,7 +46,7 @@ Room bright_room() {
 
 }  // namespace
 
-TEST_CASE("a run that was stopped goes on as if it had not been") {
+TEST_CASE("a stopped run that is resumed has the figures of an uninterrupted run") {
   const Room room = room_to_split(Furniture::board);
   Settings settings = settings_of(Estimator::weight, Engine::embree, 300'001, 3);
   settings.measured = Measured::all;
@@ -67,7 +67,7 @@ TEST_CASE("a run that was stopped goes on as if it had not been") {
   CHECK(same_figures(simulate(room, longer), resume(room, interrupted.state, longer)));
 }
 
-TEST_CASE("a stop within the first walks back from the receivers keeps the tiles and their state") {
+TEST_CASE("a stop within the first backward walks from the receivers keeps the tiles and their state") {
   const Room room = bright_room();
   Settings settings = settings_of(Estimator::collision, Engine::embree, 1, 3);
   settings.measured = Measured::all;
@@ -83,7 +83,7 @@ TEST_CASE("a stop within the first walks back from the receivers keeps the tiles
   CHECK(state.receiver_histories() == 0);
 }
 
-TEST_CASE("where the time is over already, going on brings back all that the state has") {
+TEST_CASE("if the time limit is already reached, resume returns all results of the state") {
   for (const SplitRun& split : split_runs()) {
     const Room room = room_to_split(split.kind);
     const Result whole = simulate(room, split.settings);
@@ -101,7 +101,7 @@ TEST_CASE("sessions share one time limit") {
   Settings rules = settings;
   rules.photons = 300'000;
   rules.max_seconds = 1000.0;
-  // A state has the limit of all sessions together, from which a later one subtracts what they took.
+  // A state has the limit of all sessions together, from which a later one subtracts the time that they took.
   const State second = resume(room, first, rules).state;
   CHECK(*second.settings().max_seconds == first.seconds() + 1000.0);
   rules.photons = 400'000;
@@ -110,7 +110,7 @@ TEST_CASE("sessions share one time limit") {
   CHECK(*third.settings().max_seconds == Approx(*second.settings().max_seconds).epsilon(1e-12));
 }
 
-TEST_CASE("a stop before an estimator was chosen leaves nothing that decides for the run to come") {
+TEST_CASE("a stop before the choice of the estimator does not affect the choice of the resumed run") {
   const Room room = room_to_split(Furniture::board);
   Settings settings = settings_of(Estimator::automatic, Engine::embree, 20'000'000, 4, 0.3);
   settings.measured = Measured::tiles;
@@ -127,8 +127,8 @@ TEST_CASE("a stop before an estimator was chosen leaves nothing that decides for
   CHECK(same_figures(simulate(room, settings), resume(room, state, settings)));
 }
 
-TEST_CASE("a single state that is merged has the figures of its run, however sure they were to be") {
-  // A small target error has direct light integrated more finely.
+TEST_CASE("a merge of a single state has the figures of its run, for any target error") {
+  // With a small target error direct light is integrated more finely.
   const Room room = room_to_split(Furniture::board);
   Settings settings = settings_of(Estimator::collision, Engine::embree, 30'000, 4);
   settings.direct = Direct::analytic;
@@ -139,7 +139,7 @@ TEST_CASE("a single state that is merged has the figures of its run, however sur
   CHECK_FALSE(same_figures(run, simulate(room, settings)));
 }
 
-TEST_CASE("a team stops together when the time is over") {
+TEST_CASE("all ranks stop together when the time limit is reached") {
   const Room room = room_to_split(Furniture::board);
   Settings settings = settings_of(Estimator::collision, Engine::embree, 1e12, 3);
   settings.max_seconds = 0.5;
@@ -160,7 +160,7 @@ TEST_CASE("a team stops together when the time is over") {
   CHECK(same_figures(simulate(room, settings), result_of(room, state)));
 }
 
-TEST_CASE("whichever member is asked to stop, a team stops together, wherever it is") {
+TEST_CASE("a stop request to any rank stops all ranks together, in any stage") {
   const Room room = room_to_split(Furniture::board);
   Settings settings = settings_of(Estimator::collision, Engine::embree, 1e12, 3, 0.05);
   settings.direct = Direct::analytic;
@@ -192,7 +192,7 @@ TEST_CASE("whichever member is asked to stop, a team stops together, wherever it
   }
 }
 
-TEST_CASE("a team whose members differ is refused, by all of them") {
+TEST_CASE("ranks with different inputs are refused, by all ranks") {
   const Room room = room_to_split(Furniture::none);
   Room darker = room;
   darker.surfaces[0].reflectance = 0.31;

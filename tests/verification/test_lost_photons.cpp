@@ -1,4 +1,4 @@
-// Photons do not get lost: not at edges and corners, not in a billion impacts, wherever and however large the room is.
+// No photons are lost: not at edges and corners, not in a billion impacts, for any position and size of the room.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -25,8 +25,8 @@ Room cube_at(double scale, const glm::dvec3& offset) {
 }  // namespace
 
 TEST_CASE("lost is 0 in a billion impacts in the closed cuboid by Embree") {
-  // Reflectance 0.9: ten impacts per history. A photon that left the room would be counted lost, and one that got
-  // behind a wall would be counted behind.
+  // Reflectance 0.9: ten impacts per history. A photon that left the room would be counted lost, and a photon behind a
+  // wall would count as a hit from behind.
   const Room room = unit_cube(0.9, isotropic({0.5, 0.5, 0.5}));
   const Result result = simulate(room, settings_of(Estimator::collision, Engine::embree, 1.001e8, 1));
   REQUIRE(result.impacts >= 1'000'000'000);
@@ -58,7 +58,7 @@ TEST_CASE("a room scaled by a power of two gives the same bits") {
 }
 
 TEST_CASE("a room a million metres away gives the same irradiance") {
-  // (So far away that float coordinates could not make out the walls, the room is not taken for a cuboid.)
+  // (At this distance float coordinates do not resolve the walls, so the room is not recognised as a cuboid.)
   for (const Engine engine : {Engine::automatic, Engine::embree}) {
     const Result here = simulate(cube_at(1.0, glm::dvec3(0.0)), settings_of(Estimator::collision, engine, 1e6, 3));
     const Result there = simulate(cube_at(1.0, {1e6, -1e6, 1e6}), settings_of(Estimator::collision, engine, 1e6, 4));
@@ -70,7 +70,7 @@ TEST_CASE("a room a million metres away gives the same irradiance") {
   }
 }
 
-TEST_CASE("an isotropic emitter on a wall sends half its light out and on an edge three quarters") {
+TEST_CASE("an isotropic emitter on a wall emits half of its flux outwards and on an edge three quarters") {
   struct Case {
     glm::dvec3 position;
     double escaped;
@@ -91,7 +91,7 @@ TEST_CASE("an isotropic emitter on a wall sends half its light out and on an edg
   }
 }
 
-TEST_CASE("an emitter on a wall that shines into the room loses nothing") {
+TEST_CASE("an emitter on a wall that emits into the room loses no flux") {
   for (const Engine engine : {Engine::cuboid, Engine::embree}) {
     const Result result = simulate(unit_cube(0.0, lambert({0.5, 1.0, 0.5}, {0, -1, 0}, 1.0)),
                                    settings_of(Estimator::collision, engine, 1e6, 6));

@@ -15,7 +15,7 @@ using namespace lichtmc::test;
 
 namespace {
 
-// The tables have z up: x, y, z there are z, x, y here, so that rows of a floor table run along z or, by symmetry,
+// The tables have z up: x, y, z there are z, x, y here, so that rows of a floor table are along z or, by symmetry,
 // along x.
 std::vector<Compared> figures(const Result& result, const std::string& rho) {
   const std::string folder = std::string(LICHTMC_TEST_DATA) + "/cube_cos5_rho" + rho;
@@ -64,7 +64,7 @@ void check_cube(double reflectance, const std::string& rho, std::uint64_t seed) 
     CHECK(result.balance.lost == 0.0);
     CHECK(result.balance.escaped == 0.0);
     if (each.estimator == Estimator::absorption) {
-      // Every photon is absorbed once and stands for 1/(1 − ρ): no variance; sums of 600 products round.
+      // Every photon is absorbed once and scores 1/(1 − ρ): no variance, only the rounding of sums of 600 products.
       CHECK(std::abs(result.incident * (1.0 - reflectance) - 1.0) < 600 * 0x1p-53);
     } else {
       CHECK(total.agrees);
@@ -108,10 +108,9 @@ TEST_CASE("paper cube: totals per wall") {
   CHECK(verdict.agrees);
 }
 
-TEST_CASE("paper cube: a cut-off walk misses what it says it misses") {
-  // After N flights Σ P = (1 − ρ^N)/(1 − ρ) exactly, without variance, and ρ^N is left over. Each score is rounded by
-  // up to 2⁻²⁵.
-  // (From 34 flights on the weight 0.6^34 is below half a unit of 2⁻²⁴, and the photon ends.)
+TEST_CASE("paper cube: the residual of a truncated walk is exactly the missing power") {
+  // After N flights Σ P = (1 − ρ^N)/(1 − ρ) exactly, without variance, and ρ^N is the residual. Each score is rounded
+  // by up to 2⁻²⁵. (From 34 flights on the weight 0.6^34 is below half a unit of 2⁻²⁴, and the photon ends.)
   for (const std::uint32_t flights : {1U, 10U, 30U}) {
     Settings settings = settings_of(Estimator::weight, Engine::embree, 20000, 1);
     settings.max_bounces = flights;

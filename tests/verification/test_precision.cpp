@@ -1,8 +1,7 @@
-// What float does to hit points, tallies, areas and paths, and what double does: the figures of docs/numerics.md, which
-// this test prints (build/release/bin/verify_precision), and bounds that they must keep.
+// Errors of hit points, tallies, areas and paths in float and in double: this test prints the figures of
+// docs/numerics.md (build/release/bin/verify_precision) and checks their bounds.
 //
-// Lengths are told in roundings: 2⁻²⁴ of the tracer's unit, to which the largest half extent of a room is scaled, ½
-// … 1.
+// The unit of lengths is one rounding: 2⁻²⁴ of the tracer's unit, in which the largest half extent of a room is ½ … 1.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -64,10 +63,10 @@ std::vector<std::array<glm::dvec3, 3>> corners_of(const Room& room, const Tracer
 
 struct HitPoints {
   Errors float_off_plane;   // origin + length · direction, all in float
-  Errors engine_off_plane;  // from the place on the facet, in double
-  Errors float_beside;      // along the facet, from where the flight meets it in double
+  Errors engine_off_plane;  // from the position on the facet, in double
+  Errors float_beside;      // along the facet, from the hit point in double
   Errors engine_beside;
-  std::uint64_t float_behind = 0;  // of the float points, those behind their facet
+  std::uint64_t float_behind = 0;  // float points that lie behind their facet
   std::uint64_t hits = 0;
 };
 
@@ -111,7 +110,7 @@ HitPoints hit_points(const Room& room, std::uint32_t flights) {
         if (side * off(by_float) < 0.0) ++found.float_behind;
         ++found.hits;
       }
-      // On by Lambert's law; what has left the room starts anew from where it was.
+      // Scatters by Lambert's law; a photon that left the room starts again.
       for (std::uint32_t i = 0; i < rays.size; ++i) {
         if (rays.facet[i] == no_facet) scene.launcher->launch(stream, batch * batch_histories + i, rays, i);
         const Words words = stream.draw(batch * batch_histories + i, flight + 1, Purpose::flight);
@@ -127,7 +126,7 @@ HitPoints hit_points(const Room& room, std::uint32_t flights) {
 
 }  // namespace
 
-TEST_CASE("precision: hit points in float and by their place on the facet") {
+TEST_CASE("precision: hit points in float and by their position on the facet") {
   for (const std::string scene : {"living_room.glb", "cube_paper.gltf"}) {
     const Room room = read_gltf(std::string(LICHTMC_SCENES) + "/" + scene);
     const HitPoints found = hit_points(room, 4);
@@ -138,17 +137,17 @@ TEST_CASE("precision: hit points in float and by their place on the facet") {
                << "\n  along the facet, by the place: " << found.engine_beside.text(rounding)
                << "\n  float points behind their facet: "
                << 100.0 * static_cast<double>(found.float_behind) / static_cast<double>(found.hits) << " %");
-    // In the plane to the digits of double; float leaves it by some roundings, to either side.
+    // In the plane within the precision of double; float deviates by some roundings, to either side.
     CHECK(found.engine_off_plane.largest < 1e-6 * rounding);
     CHECK(found.float_off_plane.rms() > 0.01 * rounding);
     CHECK(found.float_off_plane.largest > 0.5 * rounding);
-    // Tiles are millions of roundings wide: a hit is counted beside its tile once in some hundred thousand times.
+    // Tiles are millions of roundings wide: a hit counts on a neighbouring tile once in some hundred thousand times.
     CHECK(found.engine_beside.rms() < 4.0 * rounding);
     CHECK(found.float_behind > 0);
   }
 }
 
-TEST_CASE("precision: tallies of float stop, tallies of double drift, those of integers do neither") {
+TEST_CASE("precision: float tallies stop growing, double tallies drift, integer tallies are exact") {
   constexpr std::uint64_t hits = 20'000'000;
   float in_float = 0.0F;
   double in_double = 0.0;
@@ -170,7 +169,7 @@ TEST_CASE("precision: tallies of float stop, tallies of double drift, those of i
   CHECK(std::abs(in_float / exact - 1.0) > 0.01);
   CHECK(ones == 0x1p24F);
   CHECK(std::abs(in_double / exact - 1.0) < 1e-8);
-  // Each weight is rounded once, by 3·10⁻⁸ at most; what rounding there is does not grow with the number of hits.
+  // Each weight is rounded once, by 3·10⁻⁸ at most; the rounding does not increase with the number of hits.
   CHECK(std::abs(by_integers / exact - 1.0) < 0.5 / weight_units / 0.6);
 }
 
@@ -219,7 +218,7 @@ TEST_CASE("precision: lengths of paths in float and double") {
         in_double[i] += metres;
         in_float[i] += static_cast<float>(metres);
         squares[i] += metres * metres;
-        // A direction of float is not of length 1.
+        // A direction in float does not have exactly length 1.
         lengths.add(glm::length(tracer.world_vector(glm::dvec3(rays.direction(i)))) /
                         glm::length(tracer.world_vector({1.0, 0.0, 0.0})) -
                     1.0);
@@ -246,8 +245,8 @@ TEST_CASE("precision: lengths of paths in float and double") {
                            << "\n  mean free flight " << mean << " ± " << error << " m, exact 4V/S = 0.66666667 m");
     CHECK(sums.largest < 1e-4);
     CHECK(lengths.largest < 1e-6);
-    // From the second flight on the light is nearly even; 4V/S holds for light that is even to the last (1·10⁻³ covers
-    // the first flights of the thousand).
+    // From the second flight on the light is nearly uniform; 4V/S holds for exactly uniform light (1·10⁻³ covers the
+    // first flights of the thousand).
     CHECK(std::abs(mean - 2.0 / 3.0) < 5.0 * error + 1e-3);
   }
 }

@@ -31,7 +31,7 @@ Settings backward(Estimator estimator, Engine engine, double photons, std::uint6
   return settings;
 }
 
-// Receivers on the floor of a unit cube, at the centres of n × n tiles, looking up.
+// Receivers on the floor of a unit cube, at the centres of n × n tiles, with normals upwards.
 std::vector<Receiver> on_floor(int n) {
   std::vector<Receiver> receivers;
   for (int i = 0; i < n; ++i) {
@@ -55,7 +55,7 @@ void check(const std::string& what, const Verdict& verdict) {
   CHECK(verdict.agrees);
 }
 
-// A room that is only looked at: the direct light of its emitters at one receiver.
+// The direct light of a room's emitters at one receiver.
 double direct_at(Room room, const Receiver& receiver, Engine engine = Engine::automatic) {
   room.receivers = {receiver};
   return simulate(room, backward(Estimator::collision, engine, 10, 1)).receiver_results[0].direct;
@@ -63,7 +63,7 @@ double direct_at(Room room, const Receiver& receiver, Engine engine = Engine::au
 
 }  // namespace
 
-TEST_CASE("receivers: CIE 171 case 5.2 to the last digits of its closed form") {
+TEST_CASE("receivers: CIE 171 case 5.2 to the precision of its closed form") {
   // 4 m × 4 m, source 3 m above its centre, I0 = 1000 cd, Lambert; the points of the case with their values in lx.
   Room room;
   Surface plane = make_floor(4.0, 4.0);
@@ -91,7 +91,7 @@ TEST_CASE("receivers: CIE 171 case 5.6 by the closed polygon formula and by poin
       {0.25, 26.795188}, {0.75, 30.938711}, {1.25, 33.975719}, {1.75, 35.566592}};
   for (const auto& [z, expected] : ceiling)
     CHECK(direct_at(room, at({2.0, 3.0, z}, {0, -1, 0})) == Approx(0.01 * expected).epsilon(1e-7));
-  // By points, as where something may stand between: a small box far in a corner makes the room one with shadows.
+  // By points, as in rooms with shadows: a small box far in a corner makes the room such a room.
   Surface box = make_box(glm::dvec3(0.01));
   for (glm::dvec3& p : box.positions) p += glm::dvec3(3.9, 3.9, 3.9);
   box.reflectance = 0.0;
@@ -120,7 +120,7 @@ TEST_CASE("receivers: the paper's cube, indirect light of every floor tile's cen
       const double r = glm::length(segment);
       return 6.0 / (2.0 * pi) * std::pow(0.5 / r, 6) / (r * r);
     };
-    // The indirect part is even over a tile: its mean is its value at the centre to some 1e-4.
+    // The indirect part is nearly uniform over a tile: its mean is its value at the centre within some 1e-4.
     const auto expected = [&](std::size_t k) {
       const glm::dvec3 centre = room.receivers[k].position;
       return map[2 * (k / 5)][2 * (k % 5)] - tile_mean(centre, {0.05, 0, 0}, {0, 0, 0.05}, 64, direct);
@@ -140,9 +140,11 @@ TEST_CASE("receivers: the paper's cube, indirect light of every floor tile's cen
   }
 }
 
-TEST_CASE("receivers: every wall emits what it absorbs, and every receiver gets the same, edges and corners too") {
-  // M_i = 1 − ρ_i: E = 1 everywhere. Receivers a millimetre from the edges see the emission of the wall beside from
-  // very near.
+TEST_CASE(
+    "receivers: if every wall emits what it absorbs, every receiver has the same irradiance, also at edges and "
+    "corners") {
+  // M_i = 1 − ρ_i: E = 1 everywhere. Receivers a millimetre from the edges get the emission of the adjacent wall from a
+  // very small distance.
   const std::vector<double> rho{0.1, 0.3, 0.5, 0.7, 0.8, 0.4};
   Room room = make_cuboid({1.0, 0.5, 2.0}, {rho[0], rho[1], rho[2], rho[3], rho[4], rho[5]});
   room.quantity = Quantity::radiometric;
@@ -152,7 +154,7 @@ TEST_CASE("receivers: every wall emits what it absorbs, and every receiver gets 
     for (const double z : {0.001, 1.0, 1.9}) room.receivers.push_back(at({x, 0.0, z}, {0, 1, 0}));
     room.receivers.push_back(at({x, 0.499, 0.0}, {0, 0, 1}));
   }
-  // Receivers on shining walls are refused only where they face them; these look into the room.
+  // Receivers on emitting walls are refused only if they face the wall; these face into the room.
   for (const Estimator estimator : estimators) {
     const Result result = simulate(room, backward(estimator, Engine::automatic, 2e5, 41));
     std::vector<Compared> figures;
@@ -177,11 +179,11 @@ TEST_CASE("receivers: a sphere gives every point the same indirect light") {
   for (const Estimator estimator : estimators) {
     const Result result = simulate(room, backward(estimator, Engine::automatic, 2.4e5, 51));
     check(std::string(to_string(estimator)), compare(indirect_against(result, [&](std::size_t) { return expected; })));
-    CHECK(result.backward.shadow_rays == 0);  // a sphere casts no shadow
+    CHECK(result.backward.shadow_rays == 0);  // no shadows in a sphere
   }
 }
 
-TEST_CASE("receivers: the field of view takes its share of even light and nothing of 0 degrees") {
+TEST_CASE("receivers: a field of view receives its share of uniform light, and none at 0 degrees") {
   Room room = make_cuboid({1.0, 1.0, 1.0}, uniform_reflectance(0.5));
   for (std::size_t k = 0; k < 6; ++k) room.emitters.push_back(surface_emitter(k, 0.5));
   const std::vector<double> angles{0.0, 1.0, 10.0, 30.0, 60.0, 89.0, 90.0};
@@ -204,7 +206,7 @@ TEST_CASE("receivers: emitters behind or outside the field of view give exactly 
   CHECK(direct_at(room, at({0.5, 0.0, 0.5}, {0, 1, 0}, 0.0)) == 0.0);
   CHECK(direct_at(room, at({0.5, 0.1, 0.5}, {1, 0, 0}, 80.0)) == 0.0);
   CHECK(direct_at(room, at({0.5, 0.0, 0.5}, {0, 1, 0}, 10.0)) == Approx(1.0 / (4.0 * pi * 0.81)).epsilon(1e-12));
-  // A spot that shines past it.
+  // A spot whose beam does not include the receiver.
   Room spot = unit_cube(0.5, {"spot", 1.0, SpotEmitter{{0.5, 0.9, 0.5}, {0, -1, 0}, 0.1, 0.2}});
   CHECK(direct_at(spot, at({0.1, 0.0, 0.5}, {0, 1, 0})) == 0.0);
   CHECK(direct_at(spot, at({0.5, 0.0, 0.5}, {0, 1, 0})) > 0.0);
@@ -224,8 +226,9 @@ TEST_CASE("receivers: one that lies on an emitter is refused by its name") {
                     ContainsSubstring("no receiver"));
 }
 
-TEST_CASE("receivers: a small Lambert emitter and a small receiver may change places") {
-  // H = E·A/Φ of a Lambert point emitter and a receiver of the same area and place is the same both ways.
+TEST_CASE("receivers: a small Lambert emitter and a small receiver are reciprocal") {
+  // H = E·A/Φ of a Lambert point emitter and a receiver of the same area and position is the same if they are
+  // exchanged.
   const glm::dvec3 a(0.2, 0.3, 0.4);
   const glm::dvec3 b(0.8, 0.6, 0.7);
   const glm::dvec3 n_a = glm::normalize(glm::dvec3(1.0, 0.2, 0.3));
@@ -247,7 +250,7 @@ TEST_CASE("receivers: a small Lambert emitter and a small receiver may change pl
   CHECK(verdict.smallest_bias < 0.02);
 }
 
-TEST_CASE("receivers: many emitters, of which one is chosen for each surface, add up") {
+TEST_CASE("receivers: many emitters, one of which is sampled per impact, add up") {
   Room room = make_cuboid({3.0, 2.5, 4.0}, uniform_reflectance(0.6));
   for (int k = 0; k < 9; ++k)
     room.emitters.push_back(isotropic({0.3 + 0.25 * k, 2.2, 0.4 + 0.35 * k}, k == 4 ? 0.0 : 1.0 + k));
@@ -272,7 +275,7 @@ TEST_CASE("receivers: many emitters, of which one is chosen for each surface, ad
   check("ten emitters", compare(figures));
 }
 
-TEST_CASE("receivers: the same digits for any number of threads") {
+TEST_CASE("receivers: the same figures for any number of threads") {
   Room room = read_gltf(std::string(LICHTMC_SCENES) + "/living_room.glb");
   room.receivers.clear();
   for (int k = 0; k < 40; ++k) room.receivers.push_back(at({0.5 + 0.1 * k, 0.9, 1.0 + 0.05 * k}, {0, 1, 0}));
@@ -290,7 +293,7 @@ TEST_CASE("receivers: the same digits for any number of threads") {
   }
 }
 
-TEST_CASE("receivers: backward at tile centres is what forward finds on the tiles") {
+TEST_CASE("receivers: backward at tile centres agrees with forward on the tiles") {
   struct Case {
     const char* scene;
     const char* surface;
@@ -300,8 +303,8 @@ TEST_CASE("receivers: backward at tile centres is what forward finds on the tile
   for (const Case& one : {Case{"l_room.gltf", "floor", 0.1, 4e6}, Case{"living_room.glb", "floor", 0.1, 8e6}}) {
     Room room = read_gltf(std::string(LICHTMC_SCENES) + "/" + one.scene);
     room.receivers.clear();
-    // Point lamps a few centimetres from their shades give backward walks rare large scores, whose errors so few
-    // samples do not tell: they are left out.
+    // Point emitters a few centimetres from their lampshades give backward walks rare large scores, whose errors cannot
+    // be estimated from few samples: they are left out.
     std::erase_if(room.emitters, [](const Emitter& e) { return e.name == "floor_lamp" || e.name == "reading_lamp"; });
     const Result tiles =
         simulate(room, settings_of(Estimator::collision, Engine::automatic, one.photons, 95, one.tile));
@@ -316,7 +319,7 @@ TEST_CASE("receivers: backward at tile centres is what forward finds on the tile
     for (const Estimator estimator : estimators) {
       const Result points =
           simulate(room, backward(estimator, Engine::automatic, 400.0 * static_cast<double>(numbers.size()), 96));
-      // Under furniture a tile's centre is not its mean: the median of |z| tells what most tiles say.
+      // Under furniture the value at a tile's centre is not its mean: the median of |z| represents most tiles.
       std::vector<double> z;
       for (std::size_t k = 0; k < numbers.size(); ++k) {
         const ReceiverResult& point = points.receiver_results[k];
@@ -328,7 +331,7 @@ TEST_CASE("receivers: backward at tile centres is what forward finds on the tile
       const double median = z[z.size() / 2];
       WARN(one.scene << ", " << to_string(estimator) << ": " << z.size() << " tiles, median |z| " << median
                      << " (normal: 0.67)");
-      // The median of n |z| scatters by 1.5·0.67/√n.
+      // The median of n values |z| has a spread of 1.5·0.67/√n.
       CHECK(std::abs(median - 0.674) < 5.0 * 1.0 / std::sqrt(static_cast<double>(z.size())));
     }
   }

@@ -1,4 +1,4 @@
-// Reflectance from point to point: the walk with textures.
+// Reflectance maps: the walk with textures.
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -20,7 +20,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 const std::vector<Estimator> estimators{Estimator::weight, Estimator::collision, Estimator::absorption};
 
-// Gives a surface of make_cuboid() a map over its UVs, which run from 0 to 1.
+// Gives a surface of make_cuboid() a reflectance map over its UVs, which run from 0 to 1.
 void give_map(Room& room, std::size_t surface, ReflectanceMap map) {
   room.surfaces[surface].reflectance_map = room.reflectance_maps.size();
   room.surfaces[surface].reflectance_uvs = room.surfaces[surface].uvs;
@@ -28,14 +28,14 @@ void give_map(Room& room, std::size_t surface, ReflectanceMap map) {
   room.surfaces[surface].reflectance = mean_reflectance(room, room.surfaces[surface]);
 }
 
-// Dark and bright corners: 3 × 2 pixels that no symmetry maps on each other.
+// Dark and bright corners: 3 × 2 pixels without symmetry.
 ReflectanceMap uneven() {
   return {"uneven", 3, 2, {0.1F, 0.9F, 0.3F, 0.7F, 0.2F, 0.6F}, Wrap::clamp, Wrap::repeat};
 }
 
-// Irradiance of the ceiling of a black unit cube whose floor alone reflects, by the light that the floor gets from the
-// paper's emitter: ∫ ρ E_d/π · cos θ cos θ'/r² dA over the floor, 200 × 200 midpoints. Both factors change over about
-// 0.3 m; the rule's error is below 1e-5 of the whole.
+// Irradiance of the ceiling of a black unit cube whose floor alone reflects, by the light that the floor receives from
+// the paper's emitter: ∫ ρ E_d/π · cos θ cos θ'/r² dA over the floor, 200 × 200 midpoints. Both factors change over
+// about 0.3 m; the rule's error is below 1e-5 of the whole.
 double ceiling_irradiance(const glm::dvec3& point, const std::function<double(double, double)>& reflectance) {
   constexpr int n = 200;
   double sum = 0.0;
@@ -66,7 +66,7 @@ Result simulate_uneven_floor(const Room& room, Estimator estimator) {
 
 }  // namespace
 
-TEST_CASE("reflectance maps: a map of one value is that value, bit for bit") {
+TEST_CASE("reflectance maps: a constant reflectance map gives the same bits as the constant") {
   for (const Estimator estimator : {Estimator::weight, Estimator::collision}) {
     Room room = unit_cube(0.5, paper_emitter());
     const Settings settings = settings_of(estimator, Engine::embree, 20000, 3);
@@ -78,17 +78,17 @@ TEST_CASE("reflectance maps: a map of one value is that value, bit for bit") {
   }
 }
 
-TEST_CASE("reflectance maps: the ceiling gets what an uneven floor reflects") {
+TEST_CASE("reflectance maps: the ceiling receives what a non-uniform floor reflects") {
   const Room room = room_with_uneven_floor();
   const auto rho = [&room](double x, double z) { return reflectance_at(room.reflectance_maps[0], x, z); };
-  // Swapped axes, as a mistake in the look-up would make them.
+  // Exchanged axes, as from an error in the look-up.
   const auto swapped = [&room](double x, double z) { return reflectance_at(room.reflectance_maps[0], z, x); };
   for (const Estimator estimator : estimators) {
     const Result result = simulate_uneven_floor(room, estimator);
     CHECK(result.engine == Engine::embree);
     const auto expected = [](const std::function<double(double, double)>& law) {
       return [law](const Tile& tile) {
-        // Over a tile the irradiance is nearly even: four points tell its mean to 1e-4.
+        // Over a tile the irradiance is nearly uniform: four points give its mean to 1e-4.
         return tile_mean(tile.point, {0.1, 0, 0}, {0, 0, 0.1}, 2,
                          [&](const glm::dvec3& p) { return ceiling_irradiance(p, law); });
       };
@@ -102,7 +102,7 @@ TEST_CASE("reflectance maps: the ceiling gets what an uneven floor reflects") {
   }
 }
 
-TEST_CASE("reflectance maps: all three estimators agree in a room of uneven walls") {
+TEST_CASE("reflectance maps: all three estimators agree in a room with non-uniform walls") {
   Room room = unit_cube(0.6, paper_emitter());
   for (std::size_t k = 0; k < 6; ++k) give_map(room, k, uneven());
   std::vector<Result> results;
@@ -117,7 +117,7 @@ TEST_CASE("reflectance maps: all three estimators agree in a room of uneven wall
     CHECK(std::abs(b.absorbed + b.escaped + b.residual + b.lost - b.emitted) <= 16 * 0x1p-53 * b.emitted);
     CHECK(results[k].lost_histories == 0);
   }
-  // Walls that reflect 5 % more are told apart.
+  // Walls that reflect 5 % more are rejected.
   for (ReflectanceMap& map : room.reflectance_maps) {
     for (float& value : map.values) value *= 1.05F;
   }
@@ -133,7 +133,7 @@ TEST_CASE("reflectance maps: the absorption estimator refuses a texture that is 
   CHECK(simulate(room, settings_of(Estimator::collision, Engine::automatic, 1000, 1)).lost_histories == 0);
 }
 
-TEST_CASE("reflectance maps: light shut in by white textures is refused") {
+TEST_CASE("reflectance maps: light enclosed by white textures is refused") {
   Room room = unit_cube(0.6, paper_emitter());
   for (std::size_t k = 0; k < 6; ++k) give_map(room, k, {"white", 1, 1, {1.0F}, {}, {}});
   CHECK_THROWS_AS(simulate(room, settings_of(Estimator::collision, Engine::automatic, 1000, 1)), InputError);

@@ -1,4 +1,4 @@
-// The same digits for any number of threads, two runs at once, stop rules, progress and cancellation.
+// The same figures for any number of threads, two runs at once, stop rules, progress and cancellation.
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -43,7 +43,7 @@ Room uneven_room() {
 TEST_CASE("results are the same to the last digit for 1 and 2 and 7 threads") {
   for (const Engine engine : {Engine::cuboid, Engine::embree}) {
     for (const Estimator estimator : {Estimator::weight, Estimator::collision, Estimator::absorption}) {
-      // Not a multiple of the batch size: the last batch is a part of one.
+      // Not a multiple of the batch size: the last batch is incomplete.
       Settings settings = settings_of(estimator, engine, 100'001, 7);
       settings.threads = 1;
       const Result one = simulate(uneven_room(), settings);
@@ -69,7 +69,7 @@ TEST_CASE("a target error ends the run at the same history for any number of thr
   CHECK(same_digits(one, simulate(uneven_room(), settings)));
 }
 
-TEST_CASE("two runs at once in one process do not know of each other") {
+TEST_CASE("two runs at once in one process do not affect each other") {
   const Settings settings = settings_of(Estimator::collision, Engine::embree, 200'000, 5);
   const Result alone = simulate(uneven_room(), settings);
   Result first;
@@ -82,7 +82,7 @@ TEST_CASE("two runs at once in one process do not know of each other") {
   CHECK(same_digits(alone, second));
 }
 
-TEST_CASE("progress is told and a stop request keeps what was simulated") {
+TEST_CASE("progress is reported and a stop request keeps what was simulated") {
   Settings settings = settings_of(Estimator::collision, Engine::cuboid, 1e12, 5);
   std::stop_source stop;
   std::atomic<int> calls{0};
@@ -100,7 +100,7 @@ TEST_CASE("progress is told and a stop request keeps what was simulated") {
   CHECK(result.stopped_by == StopReason::interrupt);
   CHECK(result.histories > 0);
   CHECK(result.histories % 1024 == 0);
-  // What was simulated is the first part of the run: the same as one that was asked for no more.
+  // What was simulated is the first part of the run: the same as a run with only this part.
   settings.photons = result.histories;
   CHECK(same_digits(result, simulate(uneven_room(), settings)));
 }
@@ -113,7 +113,7 @@ TEST_CASE("a time limit ends the run") {
   CHECK(result.seconds >= 0.3);
 }
 
-TEST_CASE("an exception from the progress callback comes out of the simulation") {
+TEST_CASE("an exception from the progress callback leaves the simulation") {
   struct Refusal {};
   Control control;
   control.progress = [](const Progress&) { throw Refusal(); };
@@ -129,7 +129,7 @@ TEST_CASE("one history has an irradiance but no error") {
   for (const TileResult& tile : result.tiles) CHECK(std::isnan(tile.standard_error) == (tile.hits > 0));
 }
 
-TEST_CASE("a tile that was not hit has the error of a hit that did not come") {
+TEST_CASE("a tile without hits has the error that the absence of hits allows") {
   const Room room = uneven_room();
   for (const Estimator estimator : {Estimator::weight, Estimator::collision, Estimator::absorption}) {
     const Result result = simulate(room, settings_of(estimator, Engine::cuboid, 3000, 5, 0.02));

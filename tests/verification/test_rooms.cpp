@@ -38,8 +38,8 @@ void check_balance(const Result& result) {
     absorbed += (1.0 - surface.reflectance) * surface.power;
     variance += std::pow((1.0 - surface.reflectance) * surface.standard_error * surface.area_m2, 2);
   }
-  // Impacts times 1 − ρ are another measure of what was absorbed; the surfaces' errors are correlated, so their sum in
-  // quadrature is a guide: three times the limit for one figure.
+  // Impacts times 1 − ρ are another estimate of the absorbed power; the surfaces' errors are correlated, so their sum
+  // in quadrature is a guide: three times the limit for one figure.
   CHECK(std::abs(absorbed - b.absorbed) <= 3.0 * largest_z_allowed(1) * std::sqrt(variance) + 1e-9 * b.emitted);
 }
 
@@ -81,14 +81,14 @@ TEST_CASE("living room: balance closes and the three estimators agree tile by ti
   check_agreement(results);
 }
 
-TEST_CASE("garage that nobody here made: balance closes and the three estimators agree tile by tile") {
+TEST_CASE("garage from other authors: balance closes and the three estimators agree tile by tile") {
   const std::string file = std::string(LICHTMC_ROOMS) + "/real/webxr_garage/garage.gltf";
   if (!std::filesystem::exists(file)) {
     WARN("skipped: " << file << " is not there (set LICHTMC_ROOMS to the folder of the room files)");
     return;
   }
   Room room = read_gltf(file);
-  // Some base colours are exactly 1, which the absorption estimator cannot see.
+  // Some base colours are exactly 1, which the absorption estimator cannot handle.
   limit_reflectance(room, 0.9);
   const std::vector<Result> results = by_all_estimators(room, 1e7, 0.25, 81);
   for (const Result& result : results) CHECK(result.lost_histories == 0);
@@ -96,8 +96,8 @@ TEST_CASE("garage that nobody here made: balance closes and the three estimators
 }
 
 TEST_CASE("a mirrored node is the mirrored room") {
-  // The paper's cube with its emitter off the middle, once written mirrored in x by a negative scale: tile maps are
-  // mirror images.
+  // The paper's cube with its emitter off the centre, once mirrored in x by a negative scale: tile maps are mirror
+  // images.
   Room room = make_cuboid({1.0, 1.0, 1.0}, {0.2, 0.8, 0.3, 0.7, 0.5, 0.5});
   room.emitters.push_back(lambert({0.3, 0.8, 0.6}, {0.5, -1, 0}, 2.0));
   Room mirrored = room;
@@ -119,7 +119,7 @@ TEST_CASE("a mirrored node is the mirrored room") {
 TEST_CASE("a rotated cuboid is recognised and gives the same irradiance") {
   Room room = make_cuboid({2.0, 1.0, 1.5}, {0.2, 0.8, 0.3, 0.7, 0.5, 0.6});
   room.emitters.push_back(lambert({0.3, 0.8, 0.6}, {0.5, -1, 0}, 2.0));
-  // A rotation with rational entries: no coordinate is rounded twice.
+  // A rotation with rational elements: no coordinate is rounded twice.
   const glm::dmat3 turn(glm::dvec3(2, -2, 1) / 3.0, glm::dvec3(1, 2, 2) / 3.0, glm::dvec3(-2, -1, 2) / 3.0);
   Room turned = room;
   for (Surface& surface : turned.surfaces) {
@@ -136,8 +136,8 @@ TEST_CASE("a rotated cuboid is recognised and gives the same irradiance") {
   }
 }
 
-TEST_CASE("both sides of a two-sided sheet have maps of their own") {
-  // A sheet across the middle of a cube, light on one side only: the other side stays dark where the cube is black.
+TEST_CASE("the two sides of a two-sided screen have separate tile maps") {
+  // A screen across the middle of a cube, light on one side only: the other side is dark if the cube is black.
   Room room = unit_cube(0.0, isotropic({0.5, 0.75, 0.5}));
   Surface sheet;
   sheet.name = "sheet";
@@ -152,12 +152,12 @@ TEST_CASE("both sides of a two-sided sheet have maps of their own") {
   CHECK(surface_named(result, "sheet.back").hits == 0);
   CHECK(surface_named(result, "floor").hits == 0);
   CHECK(surface_named(result, "sheet").behind_share == 0.0);
-  // Turned over, the same light falls on its back.
+  // Turned over, the screen receives the same light on its back.
   room.surfaces.back().triangles = {{0, 1, 2}, {1, 3, 2}};
   const Result over = simulate(room, settings_of(Estimator::collision, Engine::automatic, 1e5, 65));
   CHECK(surface_named(over, "sheet").hits == 0);
   CHECK(surface_named(over, "sheet.back").hits == surface_named(result, "sheet").hits);
-  // With one map for both sides the share from behind is told.
+  // With one tile map for both sides the share from behind is reported.
   room.surfaces.back().sides = Sides::one;
   const Result one = simulate(room, settings_of(Estimator::collision, Engine::automatic, 1e5, 65));
   CHECK(surface_named(one, "sheet").behind_share == 1.0);

@@ -1,5 +1,4 @@
-// The same room in another form: compressed, mirrored, turned, far away, in another unit. Light does not see the
-// difference.
+// The same room in other forms: compressed, mirrored, rotated, far away, in another unit. The results are the same.
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -28,7 +27,7 @@ Result simulate_glb(const Glb& glb, std::uint64_t seed, const ReadOptions& optio
                   settings_of(Estimator::collision, Engine::automatic, 4e5, seed, 0.25));
 }
 
-// All nodes below one with this transform.
+// All nodes as children of a node with this transform.
 Glb placed(Glb glb, const json& transform) {
   json root = transform;
   root["children"] = glb.json["scenes"][0]["nodes"];
@@ -60,7 +59,7 @@ void check_same(const char* form, const Result& plain, const Result& other) {
 
 }  // namespace
 
-TEST_CASE("the same room: compressed, mirrored, turned, moved and in centimetres") {
+TEST_CASE("the same room: compressed, mirrored, rotated, moved and in centimetres") {
   const Glb room = living_room();
   const Result plain = simulate_glb(room, 81);
   check_same("meshopt", plain, simulate_glb(with_meshopt(room), 82));
@@ -71,7 +70,7 @@ TEST_CASE("the same room: compressed, mirrored, turned, moved and in centimetres
   ReadOptions centimetres;
   centimetres.scale = 0.01;
   check_same("in centimetres", plain, simulate_glb(placed(room, {{"scale", {100, 100, 100}}}), 87, centimetres));
-  // The same in a room whose lamps are 3 % brighter is not the same.
+  // With 3 % more power of the emitters the results are not the same.
   Glb brighter = room;
   for (json& node : brighter.json["nodes"]) {
     if (node.contains("extras") && node["extras"].contains("power"))

@@ -1,5 +1,5 @@
-// Whether standard errors are what they say: 200 independent runs against the truth, for tiles with many hits and with
-// few.
+// Whether standard errors are correct: 200 independent runs compared with the exact values, for tiles with many hits
+// and with few.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -61,7 +61,7 @@ void check_share(double measured, double expected, double pairs) {
 
 }  // namespace
 
-TEST_CASE("standard errors: 200 runs cover the exact floor of the paper's cube, by every estimator") {
+TEST_CASE("standard errors: 200 runs cover the exact values on the floor of the paper's cube, by every estimator") {
   const auto floor = read_table(std::string(LICHTMC_TEST_DATA) + "/cube_cos5_rho0.6_floor.csv");
   for (const Case& each :
        {Case{Estimator::weight, Direct::sampled}, Case{Estimator::collision, Direct::sampled},
@@ -100,17 +100,17 @@ TEST_CASE("standard errors: 200 runs cover the exact floor of the paper's cube, 
     CHECK(variances.agrees);
     // Tails: 5.0 % beyond 1.96 errors; 20 000 pairs find 0.75 % more or less of them, errors off by 8 %.
     check_share(beyond / 20000.0, 0.05, 20000.0);
-    // The mutation: errors that are 15 % too small are found out, by their tails and by their variances.
+    // The mutation: errors that are 15 % too small are rejected, by their tails and by their variances.
     CHECK_FALSE(compare({{shrunk_beyond / 20000.0, std::sqrt(0.05 * 0.95 / 20000.0), 0.05, 0.0}}).agrees);
     for (Spread& tile : tiles) tile.stated *= 0.85 * 0.85;
     CHECK_FALSE(compare(variances_of(tiles)).agrees);
   }
 }
 
-// A black cube with an isotropic emitter in the middle: photons are independent and each hits one tile, with a
-// probability p that is known. So hits follow the binomial law, and how often an interval of one standard error holds
-// the truth is a sum over that law: not 68 %, because hits come in whole numbers.
-TEST_CASE("standard errors: of tiles that expect between a half and three hits") {
+// A black cube with an isotropic emitter at the centre: photons are independent and each hits one tile, with a known
+// probability p. So hits follow the binomial law, and the probability that an interval of one standard error contains
+// the exact value is a sum over that law: not 68 %, because hits are integers.
+TEST_CASE("standard errors: tiles with half a hit to three hits expected") {
   constexpr double photons = 20'000;
   constexpr double edge = 0.02;
   const auto p_of = [](const Tile& tile) {
@@ -150,7 +150,7 @@ TEST_CASE("standard errors: of tiles that expect between a half and three hits")
       }
       squares += std::pow(found.power - p, 2);
       if (run > 0) continue;
-      // The law of the hits, and which of their numbers hold the truth.
+      // The law of the hits, and the numbers of hits whose interval contains the exact value.
       double probability = std::pow(1.0 - p, photons);
       expected_empty += probability;
       double holds_with = photons * p <= 1.1479 ? probability : 0.0;
@@ -169,13 +169,13 @@ TEST_CASE("standard errors: of tiles that expect between a half and three hits")
   const Verdict verdict = compare({{covered, error, expected_covered * runs, 0.0}});
   INFO("covered " << covered / pairs << ", by the binomial law " << expected_covered / tiles << "; " << verdict.text);
   CHECK(verdict.agrees);
-  // Squared errors are right in the mean, whatever the number of hits: none count as none here.
+  // Squared errors are correct in the mean, for any number of hits: no hits count as an error of 0 here.
   const Verdict variance = compare({{stated, stated * std::sqrt(1.0 / (stated / (1.0 / photons / photons))), squares,
                                      squares * std::sqrt(3.0 / pairs)}});
   INFO("variance: " << variance.text);
   CHECK(variance.agrees);
-  // Tiles without a hit are as many as the law says, and what they state holds the truth where fewer than 1.15 hits
-  // were to be expected.
+  // The number of tiles without hits follows the law, and their stated error includes the exact value if fewer than
+  // 1.15 hits are expected.
   check_share(empty / pairs, expected_empty / tiles, pairs);
   CHECK(empty_covered > 0.0);
   CHECK(empty_covered < empty);

@@ -1,5 +1,5 @@
-// However a run is split (into sessions, parts, members of a team), its figures are the same to the last bit. Nothing
-// here is a matter of chance: one history counted twice, or not at all, changes bits.
+// A run has the same figures to the last bit for any split into sessions, parts and ranks. These tests are
+// deterministic: one history counted twice, or not at all, changes bits.
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -15,7 +15,7 @@
 using namespace lichtmc;
 using namespace lichtmc::test;
 
-TEST_CASE("a run that is resumed, from within a batch too, ends as one without interruption") {
+TEST_CASE("a resumed run, also from within a batch, ends as one without interruption") {
   for (const SplitRun& split : split_runs()) {
     const Room room = room_to_split(split.kind);
     const Result whole = simulate(room, split.settings);
@@ -26,13 +26,13 @@ TEST_CASE("a run that is resumed, from within a batch too, ends as one without i
       CHECK_FALSE(same_figures(whole, begun));
       const Result resumed = resume(room, written_and_read(begun.state), split.settings);
       CHECK(same_figures(whole, resumed));
-      // And the state that it leaves is that of the whole.
+      // The state that it writes is that of the whole run.
       CHECK(same_figures(whole, result_of(room, resumed.state)));
     }
   }
 }
 
-TEST_CASE("every checkpoint of a run is a state that ends as the run does") {
+TEST_CASE("resuming any checkpoint of a run ends with the figures of the run") {
   for (const SplitRun& split : split_runs()) {
     const Room room = room_to_split(split.kind);
     Settings settings = split.settings;
@@ -44,7 +44,7 @@ TEST_CASE("every checkpoint of a run is a state that ends as the run does") {
     control.checkpoint = [&](const State& state) { states.push_back(state); };
     CHECK(same_figures(whole, simulate(room, settings, control)));
     REQUIRE_FALSE(states.empty());
-    // States that are kept do not change when the run goes on.
+    // Stored states do not change when the run continues.
     CHECK(same_figures(whole, resume(room, states.front(), settings)));
     CHECK(same_figures(whole, resume(room, states[states.size() / 2], settings)));
     CHECK(same_figures(whole, resume(room, std::move(states.back()), settings)));
@@ -68,7 +68,7 @@ TEST_CASE("a smaller target error ends where a run with it from the start ends")
   CHECK(same_figures(whole, resume(room, begun.state, settings)));
 }
 
-TEST_CASE("a run whose estimator was chosen keeps its choice and its looks") {
+TEST_CASE("a run with an automatic estimator keeps its choice and its error checks") {
   const Room room = room_to_split(Furniture::board);
   Settings settings = settings_of(Estimator::automatic, Engine::embree, 1e12, 4, 0.3);
   settings.measured = Measured::all;
@@ -108,16 +108,16 @@ TEST_CASE("parts add up to one run, in any order and grouping") {
     CHECK(same_figures(whole, result_of(room, sum)));
     if (split.settings.tile_walk == WalkDirection::forward)
       CHECK(sum.histories() == std::vector<HistoryRange>{{0, split.settings.photons}});
-    // And the sum goes on.
+    // The sum can be resumed.
     Settings longer = split.settings;
     longer.photons = 70'000;
     CHECK(same_figures(simulate(room, longer), resume(room, sum, longer)));
-    // One part less is another result.
+    // With one part missing the result differs.
     CHECK_FALSE(same_figures(whole, result_of(room, merge({parts[0], parts[1], parts[3]}, {"a", "b", "d"}))));
   }
 }
 
-TEST_CASE("states that do not belong together are refused by what sets them apart") {
+TEST_CASE("states that do not belong together are refused with their difference") {
   const Room room = room_to_split(Furniture::none);
   const Settings settings = settings_of(Estimator::collision, Engine::cuboid, 10'240, 1);
   const State one = simulate(room, settings).state;
@@ -164,10 +164,10 @@ TEST_CASE("states that do not belong together are refused by what sets them apar
   Room darker = room;
   darker.surfaces[0].reflectance = 0.31;
   refused(after(darker, settings), "different rooms");
-  // Within a batch only the last may end.
+  // Only the last part may end within a batch.
   const State uneven = part(room, settings, 0, 10'000).state;
   CHECK_THROWS_WITH(merge({uneven, after(room, settings)}, {"one.h5", "two.h5"}), ContainsSubstring("batch of 1024"));
-  // To go on there must be the same room, and no gap.
+  // To resume, the room must be the same, and there must be no gap.
   CHECK_THROWS_WITH(resume(darker, one, settings), ContainsSubstring("another room"));
   const State gap = merge({one, part(room, settings, 20'480, 30'720).state}, {"one.h5", "two.h5"});
   CHECK_THROWS_WITH(resume(room, gap, settings),
@@ -180,13 +180,13 @@ TEST_CASE("states that do not belong together are refused by what sets them apar
   CHECK_THROWS_WITH(part(room, other, 1024, 20'480), ContainsSubstring("'auto'"));
 }
 
-TEST_CASE("a sum that lacks walks back from the receivers cannot go on") {
+TEST_CASE("a sum without the backward walks from the receivers cannot be resumed") {
   const Room room = room_to_split(Furniture::none);
   Settings settings = settings_of(Estimator::collision, Engine::cuboid, 10'240, 1);
   settings.measured = Measured::all;
   const std::vector<State> parts{part(room, settings, 0, 10'240).state, part(room, settings, 10'240, 20'480).state,
                                  part(room, settings, 20'480, 30'720).state};
-  // Of one of them the receivers were not reached.
+  // One of them was stopped before the receivers.
   for (std::size_t missing = 0; missing < 2; ++missing) {
     std::vector<State> some = parts;
     StateData data = parts[missing].data();
@@ -202,7 +202,7 @@ TEST_CASE("a sum that lacks walks back from the receivers cannot go on") {
   CHECK(same_figures(simulate(room, longer), resume(room, merge(parts, {"a", "b", "c"}), longer)));
 }
 
-TEST_CASE("a team of any size finds the same figures, and all its members do") {
+TEST_CASE("any number of ranks gives the same figures, on all ranks") {
   std::vector<SplitRun> all = split_runs();
   SplitRun chosen{Furniture::board, settings_of(Estimator::automatic, Engine::embree, 200'000, 4, 0.3)};
   chosen.settings.target_error = 0.05;

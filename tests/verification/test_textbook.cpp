@@ -1,4 +1,4 @@
-// The engine against the walk as a textbook writes it, which shares no code with it.
+// The engine compared with the textbook walk, which shares no code with it.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -15,7 +15,7 @@ namespace {
 constexpr int cells = 10;
 constexpr std::array<double, 3> size{1.0, 1.0, 1.0};
 
-// Where the textbook counts a tile's hits.
+// The index at which the textbook walk counts a tile's hits.
 std::size_t place_of(const Tile& tile) {
   const std::array<double, 3> at{tile.point.x, tile.point.y, tile.point.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -24,7 +24,7 @@ std::size_t place_of(const Tile& tile) {
     const auto cell = [&](std::size_t k) { return static_cast<std::size_t>(at[k % 3] / size[k % 3] * cells); };
     return ((2 * axis + (high ? 1 : 0)) * cells + cell(axis + 1)) * cells + cell(axis + 2);
   }
-  FAIL("a tile in mid-air");
+  FAIL("a tile on no wall");
   return 0;
 }
 
@@ -50,7 +50,7 @@ std::vector<Compared> textbook(const TextbookRoom& room) {
 
 }  // namespace
 
-TEST_CASE("every tile gets what a textbook's walk gives it, by every estimator and both tracers") {
+TEST_CASE("every tile agrees with the textbook walk, by every estimator and both tracers") {
   TextbookRoom textbook_room;
   textbook_room.size = size;
   textbook_room.reflectance = 0.7;

@@ -38,7 +38,7 @@ double largest_extent(const Room& room) {
   return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
 }
 
-// Sums with a carry (W. Kahan, 1965), so that the sum of a million tiles is as exact as its terms.
+// Compensated summation (W. Kahan, 1965), so that the sum of a million tiles is as precise as its terms.
 struct ExactSum {
   double sum = 0.0;
   double carry = 0.0;
@@ -70,9 +70,9 @@ void check_areas(const Room& room, double edge_m) {
 
 }  // namespace
 
-// The tiles of a surface cover it: their areas add up to its own to 1e-9, also in rooms as they come, with overlapping
-// and wrapping UVs and thousands of triangles without area. A tile left out or counted twice would be missing by 1e-5
-// or more in all but the finest of these.
+// The tiles of a surface cover it: their areas add up to its own to 1e-9, also in real rooms, with overlapping and
+// wrapping UVs and thousands of triangles without area. A tile left out or counted twice would be missing by 1e-5 or
+// more in all but the finest of these.
 TEST_CASE("tile areas add up to the area of every surface of real rooms") {
   const auto files = real_rooms();
   if (files.empty()) {

@@ -1,4 +1,4 @@
-// Tiles whose direct light is integrated, and tiles walked from backward.
+// Tiles with integrated direct light, and tiles with backward walks.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -35,7 +35,7 @@ void check(const std::string& what, const Verdict& verdict) {
   CHECK(verdict.agrees);
 }
 
-// Tiles of two results that got light, where counts are large enough for a normal law.
+// Tiles of two results with light, whose counts are large enough for a normal law.
 std::vector<Compared> well_counted(const Result& counted, const Result& other, std::uint64_t hits = 200) {
   std::vector<Compared> figures;
   for (std::size_t i = 0; i < counted.tiles.size(); ++i) {
@@ -87,22 +87,22 @@ TEST_CASE("tiles: CIE 171 case 5.8, the mean indirect illuminance of all surface
   }
 }
 
-TEST_CASE("tiles: narrow beams and lamps close to a surface lose none of their direct light") {
+TEST_CASE("tiles: narrow beams and emitters close to a surface lose none of their direct light") {
   const auto direct_power = [](const Emitter& emitter, const std::string& surface, double tile) {
     const Result result =
         simulate(unit_cube(0.5, emitter), analytic(Estimator::collision, Engine::automatic, 2048, 1, tile));
     const SurfaceResult& one = surface_named(result, surface);
     return one.mean_direct * one.area_m2;
   };
-  // A pencil of light, between the points that a rule would look at.
+  // A narrow beam, between the points that a quadrature rule would use.
   CHECK(direct_power(lambert({0.37, 0.9, 0.52}, {0, -1, 0}, 1e6), "floor", 0.5) == Approx(1.0).epsilon(3e-3));
   CHECK(direct_power({"spot", 1.0, SpotEmitter{{0.37, 0.9, 0.52}, {0, -1, 0}, 0.001, 0.002}}, "floor", 0.5) ==
         Approx(1.0).epsilon(1e-2));
-  // A micrometre over the floor all light downwards falls on it: a half, but for what goes to the horizon.
+  // A micrometre above the floor all downward light falls on it: a half, minus the light near the horizon.
   CHECK(direct_power(isotropic({0.37, 1e-6, 0.52}), "floor", 0.25) == Approx(0.5).epsilon(3e-3));
 }
 
-TEST_CASE("tiles: every wall emits what it absorbs, and every tile gets the same from tiles walked from") {
+TEST_CASE("tiles: if every wall emits what it absorbs, backward walks give every tile the same irradiance") {
   const std::vector<double> rho{0.1, 0.3, 0.5, 0.7, 0.8, 0.4};
   Room room = make_cuboid({1.0, 0.5, 2.0}, {rho[0], rho[1], rho[2], rho[3], rho[4], rho[5]});
   room.quantity = Quantity::radiometric;
@@ -125,7 +125,7 @@ TEST_CASE("tiles: every wall emits what it absorbs, and every tile gets the same
   }
 }
 
-TEST_CASE("tiles: counted, integrated and walked from, they are the same") {
+TEST_CASE("tiles: forward walks, integrated direct light and backward walks agree") {
   struct Case {
     const char* scene;
     double tile;
@@ -134,7 +134,7 @@ TEST_CASE("tiles: counted, integrated and walked from, they are the same") {
   };
   for (const Case& one : {Case{"l_room.gltf", 0.25, 4e6, 2e6}, Case{"living_room.glb", 0.25, 8e6, 2e6}}) {
     Room room = read_gltf(std::string(LICHTMC_SCENES) + "/" + one.scene);
-    // Point lamps centimetres from their shades make rare large scores of backward walks.
+    // Point emitters centimetres from their lampshades give backward walks rare large scores.
     std::erase_if(room.emitters, [](const Emitter& e) { return e.name == "floor_lamp" || e.name == "reading_lamp"; });
     room.receivers.clear();
     const Result counted =
@@ -148,7 +148,7 @@ TEST_CASE("tiles: counted, integrated and walked from, they are the same") {
       check(name + ", direct integrated", by_integral);
       CHECK(by_integral.smallest_bias < 0.02);
       const Result walked = simulate(room, from_tiles(estimator, Engine::automatic, one.walked, 33, one.tile));
-      // With few walks each an error is as uncertain as the figure: surfaces as a whole are compared.
+      // With few walks per tile an error is as uncertain as the figure: whole surfaces are compared.
       std::vector<Compared> surfaces;
       for (std::size_t m = 0; m < counted.surfaces.size(); ++m) {
         const SurfaceResult& a = counted.surfaces[m];
@@ -161,8 +161,8 @@ TEST_CASE("tiles: counted, integrated and walked from, they are the same") {
   }
 }
 
-TEST_CASE("tiles: both sides of a screen, on one map or on two, by all ways") {
-  // A screen in the middle of a room, a lamp on either side.
+TEST_CASE("tiles: both sides of a screen, on one tile map or on two, by all methods") {
+  // A screen in the middle of a room, an emitter on each side.
   for (const Sides sides : {Sides::one, Sides::both}) {
     Room room = unit_cube(0.5, isotropic({0.3, 0.6, 0.5}, 0.7));
     room.emitters.push_back(isotropic({0.8, 0.4, 0.4}, 0.3));
@@ -187,7 +187,7 @@ TEST_CASE("tiles: both sides of a screen, on one map or on two, by all ways") {
   }
 }
 
-TEST_CASE("tiles: the same digits for any number of threads, integrated and walked from") {
+TEST_CASE("tiles: the same figures for any number of threads, integrated and backward") {
   Room room = read_gltf(std::string(LICHTMC_SCENES) + "/living_room.glb");
   room.receivers.clear();
   for (Settings settings : {analytic(Estimator::collision, Engine::automatic, 1e5, 51, 0.5),
@@ -205,7 +205,7 @@ TEST_CASE("tiles: the same digits for any number of threads, integrated and walk
   }
 }
 
-TEST_CASE("tiles: a target error ends both, and what cannot be is refused") {
+TEST_CASE("tiles: a target error ends both walks, and impossible settings are refused") {
   const Room room = unit_cube(0.6, paper_emitter());
   for (Settings settings : {analytic(Estimator::collision, Engine::automatic, 1e9, 61),
                             from_tiles(Estimator::collision, Engine::automatic, 1e9, 62)}) {
