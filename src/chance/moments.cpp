@@ -7,7 +7,7 @@
 namespace lichtmc {
 
 Estimate estimate(const Moments& moments, std::uint64_t histories) {
-  // Long double: Σ x_b²/n and X²/N agree in their first digits where the variance is small against the mean.
+  // Long double: Σ x_b²/n and X²/N agree in their first digits if the variance is small compared with the mean.
   const auto n = static_cast<long double>(histories);
   const auto sum = static_cast<long double>(moments.sum);
   const auto batches = static_cast<long double>(batches_of(histories));

@@ -5,7 +5,7 @@
 
 namespace lichtmc {
 
-// Whether a mesh is one closed shell about a convex body: every edge belongs to two triangles, and no corner lies in
+// Whether a mesh is one closed shell around a convex body: every edge belongs to two triangles, and no corner lies in
 // front of any triangle's plane, seen from outside, by more than a millionth of the room's size. Meshes for which the
 // test would take more than some seconds (over 10⁹ pairs of triangle and corner) count as not convex: the answer "no"
 // is the safe one.

@@ -146,7 +146,7 @@ bool cover_the_square(const std::vector<Flat>& triangles, const glm::dvec2& tole
   return true;
 }
 
-// The face that a triangle lies in, given its corners in the unit cube; 6 where it lies in none.
+// The face that a triangle lies in, given its corners in the unit cube; 6 if it lies in none.
 std::uint8_t face_of(const std::array<glm::dvec3, 3>& p, const glm::dvec3& tolerance) {
   for (int axis = 0; axis < 3; ++axis) {
     for (int end = 0; end < 2; ++end) {

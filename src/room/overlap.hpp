@@ -15,7 +15,7 @@ namespace lichtmc {
 
 using FlatTriangle = std::array<glm::dvec2, 3>;
 
-// The smallest of the heights of a triangle; 0 where it has no area.
+// The smallest of the heights of a triangle; 0 if it has no area.
 double thickness(const FlatTriangle& triangle);
 
 // The length of the shortest shift that separates two triangles, whatever their winding; 0 or less if they do not

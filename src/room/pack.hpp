@@ -13,9 +13,9 @@ struct Packing {
   std::vector<bool> turned;         // which rectangles have columns and rows exchanged
 };
 
-// Places rectangles side by side in a grid that is about square and wastes little; if that helps, all of them have their
-// longer sides along the rows. Sizes and results are integers ≥ 1 of columns and rows; doubles, so that sizes beyond the
-// limits of a grid do not overflow.
+// Places rectangles side by side in a grid that is about square and wastes little; if that helps, all of them have
+// their longer sides along the rows. Sizes and results are integers ≥ 1 of columns and rows; they are doubles, so that
+// sizes beyond the limits of a grid do not overflow.
 Packing pack(const std::vector<glm::dvec2>& sizes);
 
 }  // namespace lichtmc

@@ -16,7 +16,7 @@ namespace lichtmc {
 // do not overlap.
 struct Patch {
   std::vector<std::uint32_t> triangles;  // indices into Surface::triangles, the largest first
-  std::vector<FlatTriangle> flat;        // m, their corners in the plane: first axis as close to a world axis as possible
+  std::vector<FlatTriangle> flat;        // m, corners in the plane; first axis as close to a world axis as possible
 };
 
 struct Patches {
