@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* export_again = " Export the file again.";
 
-// Elements at equal distances in a buffer.
+// Elements in a buffer, `stride` bytes apart.
 struct Elements {
   const unsigned char* first = nullptr;
   std::size_t stride = 0;
@@ -26,7 +26,7 @@ std::size_t component_size(const Document& document, int type, const std::string
   return static_cast<std::size_t>(size);
 }
 
-// The elements that a buffer view holds from an offset on; stride 0 means one directly after the other.
+// `count` elements of a buffer view, the first at `offset`; stride 0: tightly packed.
 Elements elements_in(const Document& document, long long view_index, std::size_t offset, std::size_t count,
                      std::size_t size, std::size_t stride, const std::string& where) {
   const auto& model = document.model;
@@ -35,17 +35,17 @@ Elements elements_in(const Document& document, long long view_index, std::size_t
   const auto& bytes =
       model.buffers[checked_index(document, view.buffer, model.buffers.size(), "the buffer of " + where)].data;
   if (stride == 0) stride = size;
-  // In 128 bits nothing overflows.
+  // 128 bits: the sums of the file's 64-bit numbers do not overflow.
   const uint128 view_end = static_cast<uint128>(view.byteOffset) + view.byteLength;
   const uint128 end = static_cast<uint128>(offset) + (count > 0 ? static_cast<uint128>(count - 1) * stride + size : 0);
   if (view_end > bytes.size() || end > view.byteLength) {
     refuse(document, where + " reaches beyond its buffer (" + std::to_string(count) + " elements from byte " +
-                         std::to_string(offset) + " on, the view has " + std::to_string(view.byteLength) +
+                         std::to_string(offset) + "; the view has " + std::to_string(view.byteLength) +
                          " bytes, the buffer " + std::to_string(bytes.size()) + ")." + export_again);
   }
   if (stride < size)
-    refuse(document,
-           where + " has elements that overlap (stride " + std::to_string(stride) + " bytes)." + export_again);
+    refuse(document, where + " has elements that overlap (stride " + std::to_string(stride) + " bytes, element size " +
+                         std::to_string(size) + " bytes)." + export_again);
   return {bytes.data() + view.byteOffset + offset, stride, count};
 }
 
@@ -57,7 +57,7 @@ double component(const unsigned char* bytes, int type, bool normalized) {
   switch (type) {
     case TINYGLTF_COMPONENT_TYPE_FLOAT:
       return static_cast<double>(read(float{}));
-    // −128 and −127 both stand for −1 (glTF 2.0 specification, section 3.6.2.2).
+    // −128 and −127 both mean −1 (glTF 2.0 specification, section 3.6.2.2).
     case TINYGLTF_COMPONENT_TYPE_BYTE:
       return normalized ? std::max(read(std::int8_t{}) / 127.0, -1.0) : read(std::int8_t{});
     case TINYGLTF_COMPONENT_TYPE_SHORT:
@@ -66,12 +66,12 @@ double component(const unsigned char* bytes, int type, bool normalized) {
       return read(std::uint8_t{}) / (normalized ? 255.0 : 1.0);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
       return read(std::uint16_t{}) / (normalized ? 65535.0 : 1.0);
-    default:  // TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT; callers let no other pass
+    default:  // TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: the callers have excluded all other types
       return read(std::uint32_t{});
   }
 }
 
-// The types of coordinates: floats, and with KHR_mesh_quantization bytes and shorts, normalized or not.
+// Component types of coordinates: float; with KHR_mesh_quantization also byte and short, normalized or not.
 bool is_coordinate(int type) {
   return type == TINYGLTF_COMPONENT_TYPE_FLOAT || type == TINYGLTF_COMPONENT_TYPE_BYTE ||
          type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT ||
@@ -83,13 +83,14 @@ bool is_unsigned(int type) {
          type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-// Sparse elements replace some of the values.
+// Replaces some of the values by the accessor's sparse elements.
 void overlay_sparse(const Document& document, const tinygltf::Accessor& accessor, std::size_t components,
                     const std::string& where, std::vector<double>& values) {
   const auto& sparse = accessor.sparse;
   if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count ||
       !is_unsigned(sparse.indices.componentType)) {
-    refuse(document, where + " has sparse elements that are not sound." + export_again);
+    refuse(document, where + " has invalid sparse elements (allowed: at most as many as the accessor has, with " +
+                         "unsigned integer indices)." + export_again);
   }
   const auto count = static_cast<std::size_t>(sparse.count);
   const std::size_t index_size = component_size(document, sparse.indices.componentType, where);
@@ -111,36 +112,33 @@ void overlay_sparse(const Document& document, const tinygltf::Accessor& accessor
   }
 }
 
-// All components of an accessor, element by element.
-std::vector<double> values_of(const Document& document, const tinygltf::Accessor& accessor, std::size_t components,
-                              const std::string& where) {
-  // What is read is held in memory as often as the count says; no count beyond what the file could hold.
-  constexpr std::size_t most = std::size_t{1} << 31;
-  if (accessor.count > most)
+// The values of an accessor without a buffer view: 0, except for its sparse elements.
+std::vector<double> sparse_values_of(const Document& document, const tinygltf::Accessor& accessor,
+                                     std::size_t components, const std::string& where) {
+  if (!accessor.sparse.isSparse) {
     refuse(document,
-           where + " has " + std::to_string(accessor.count) + " elements (allowed: up to 2^31)." + export_again);
-  const std::size_t size = component_size(document, accessor.componentType, where);
-  if (accessor.bufferView < 0) {
-    if (!accessor.sparse.isSparse) {
-      refuse(
-          document,
-          where + " has no data (compressed by an extension that is not known here?). Export the file uncompressed.");
-    }
-    // Values that no buffer holds are 0; so many that no file would hold them are a fault.
-    std::size_t bytes = 0;
-    for (const auto& buffer : document.model.buffers) bytes += buffer.data.size();
-    constexpr std::size_t zeros_per_byte = 1000;
-    if (accessor.count / zeros_per_byte > bytes)
-      refuse(document, where + " has more elements than the file has room for." + export_again);
-    std::vector<double> values(accessor.count * components, 0.0);
-    overlay_sparse(document, accessor, components, where, values);
-    return values;
+           where + " has no data (perhaps an unsupported extension compresses it). Export the file uncompressed.");
   }
+  // The count alone determines the memory needed: untrusted input, so it is limited by the size of the file.
+  std::size_t bytes = 0;
+  for (const auto& buffer : document.model.buffers) bytes += buffer.data.size();
+  constexpr std::size_t zeros_per_byte = 1000;
+  if (accessor.count / zeros_per_byte > bytes)
+    refuse(document, where + " has " + std::to_string(accessor.count) + " elements, too many for a file with " +
+                         std::to_string(bytes) + " bytes of data (allowed: 1000 per byte)." + export_again);
+  std::vector<double> values(accessor.count * components, 0.0);
+  overlay_sparse(document, accessor, components, where, values);
+  return values;
+}
+
+// The values in an accessor's buffer view, without its sparse elements.
+std::vector<double> stored_values_of(const Document& document, const tinygltf::Accessor& accessor,
+                                     std::size_t components, std::size_t size, const std::string& where) {
   const auto& views = document.model.bufferViews;
   const auto& view = views[checked_index(document, accessor.bufferView, views.size(), "the buffer view of " + where)];
   const int stride = accessor.ByteStride(view);
   if (stride <= 0)
-    refuse(document, where + " has elements at a distance that its component type does not allow." + export_again);
+    refuse(document, where + " has a byte stride that its component type does not allow." + export_again);
   const Elements elements = elements_in(document, accessor.bufferView, accessor.byteOffset, accessor.count,
                                         components * size, view.byteStride, where);
   std::vector<double> values;
@@ -151,6 +149,19 @@ std::vector<double> values_of(const Document& document, const tinygltf::Accessor
           component(elements.first + k * elements.stride + c * size, accessor.componentType, accessor.normalized));
     }
   }
+  return values;
+}
+
+// All components of an accessor, element by element.
+std::vector<double> values_of(const Document& document, const tinygltf::Accessor& accessor, std::size_t components,
+                              const std::string& where) {
+  constexpr std::size_t max_count = std::size_t{1} << 31;
+  if (accessor.count > max_count)
+    refuse(document,
+           where + " has " + std::to_string(accessor.count) + " elements (allowed: up to 2^31)." + export_again);
+  const std::size_t size = component_size(document, accessor.componentType, where);
+  if (accessor.bufferView < 0) return sparse_values_of(document, accessor, components, where);
+  std::vector<double> values = stored_values_of(document, accessor, components, size, where);
   if (accessor.sparse.isSparse) overlay_sparse(document, accessor, components, where, values);
   return values;
 }
@@ -159,16 +170,16 @@ const tinygltf::Accessor& accessor_of(const Document& document, int index, int t
                                       const std::string& where) {
   const auto& accessors = document.model.accessors;
   const auto& accessor = accessors[checked_index(document, index, accessors.size(), "the accessor of " + where)];
-  if (accessor.type != type) refuse(document, where + " is not of type " + type_name + "." + export_again);
+  if (accessor.type != type) refuse(document, where + " is not of the type " + type_name + "." + export_again);
   return accessor;
 }
 
-// Coordinates as the file holds them, element by element.
+// Coordinates as stored in the file, element by element.
 std::vector<double> coordinates(const Document& document, int index, int type, const char* type_name,
                                 std::size_t components, const std::string& where) {
   const auto& accessor = accessor_of(document, index, type, type_name, where);
   if (!is_coordinate(accessor.componentType))
-    refuse(document, where + " are neither floats, bytes nor shorts." + export_again);
+    refuse(document, where + " are neither floats, bytes nor shorts (the types allowed)." + export_again);
   return values_of(document, accessor, components, where);
 }
 
@@ -198,24 +209,25 @@ std::vector<glm::dquat> read_rotations(const Document& document, int index, cons
     const double length = glm::length(rotation);
     if (!(length > 0.0) || !std::isfinite(length)) {
       refuse(document, where + ": number " + std::to_string(k / 4) +
-                           " has no direction (allowed: quaternions of length 1)." + export_again);
+                           " has length 0 or is not finite (allowed: quaternions of length 1)." + export_again);
     }
-    rotations.push_back(rotation / length);  // stored values are of length 1 but for their rounding
+    rotations.push_back(rotation / length);  // the stored length is 1 up to rounding
   }
   return rotations;
 }
 
 std::vector<glm::dvec2> read_texture_coordinates(const Document& document, int index, const std::string& where) {
   const std::vector<double> values = coordinates(document, index, TINYGLTF_TYPE_VEC2, "VEC2", 2, where);
-  std::vector<glm::dvec2> places(values.size() / 2);
-  for (std::size_t k = 0; k < places.size(); ++k) places[k] = {values[2 * k], values[2 * k + 1]};
-  return places;
+  std::vector<glm::dvec2> uvs(values.size() / 2);
+  for (std::size_t k = 0; k < uvs.size(); ++k) uvs[k] = {values[2 * k], values[2 * k + 1]};
+  return uvs;
 }
 
 std::vector<std::uint32_t> read_indices(const Document& document, int index, std::size_t vertices,
                                         const std::string& where) {
   const auto& accessor = accessor_of(document, index, TINYGLTF_TYPE_SCALAR, "SCALAR", where);
-  if (!is_unsigned(accessor.componentType)) refuse(document, where + " are not unsigned integers." + export_again);
+  if (!is_unsigned(accessor.componentType))
+    refuse(document, where + " are not unsigned integers (the types allowed)." + export_again);
   std::vector<std::uint32_t> indices;
   for (const double value : values_of(document, accessor, 1, where)) {
     indices.push_back(static_cast<std::uint32_t>(

@@ -1,4 +1,5 @@
-// Numbers out of a glTF file's buffers. Every offset, stride, count and index is checked before a byte is read.
+// Reads numbers from the buffers of a glTF file. Every offset, stride, count and index is checked before the data is
+// read.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +14,18 @@
 
 namespace lichtmc {
 
-// Each takes the number of an accessor and what it belongs to, for messages, and throws InputError where the accessor
-// does not exist, has another type than the specification allows there, or reaches beyond its buffer. Integers are read
-// as KHR_mesh_quantization says: normalized ones as shares of their range, others as they are.
+// Arguments of each function: the index of an accessor, and what it belongs to (`where`, for messages). Each throws
+// InputError if the accessor does not exist, has a type that the specification does not allow there, or reaches beyond
+// its buffer. Integers are read as defined by KHR_mesh_quantization: normalized integers as fractions of their range,
+// others unchanged.
 
 // Positions, or translations and scales of instances (VEC3). They must be finite.
 std::vector<glm::dvec3> read_vectors(const Document& document, int accessor, const std::string& where);
 
-// Rotations of instances (VEC4), made of length 1.
+// Rotations of instances (VEC4), normalized to length 1.
 std::vector<glm::dquat> read_rotations(const Document& document, int accessor, const std::string& where);
 
-// Texture coordinates (VEC2) as stored: a KHR_texture_transform is still to be applied.
+// Texture coordinates (VEC2) as stored; KHR_texture_transform is not applied.
 std::vector<glm::dvec2> read_texture_coordinates(const Document& document, int accessor, const std::string& where);
 
 // Indices (unsigned SCALAR), each below `vertices`.

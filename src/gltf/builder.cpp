@@ -16,7 +16,7 @@ constexpr int element_array_buffer = 34963;
 constexpr int float_type = 5126;
 constexpr int unsigned_int_type = 5125;
 
-// A text's length up to the next multiple of 4.
+// Extends a text to the next multiple of 4 bytes.
 void pad(std::string& text, char with) {
   text.resize((text.size() + 3) / 4 * 4, with);
 }
@@ -25,7 +25,7 @@ void append_word(std::string& bytes, std::size_t value) {
   for (std::size_t k = 0; k < 4; ++k) bytes += static_cast<char>(value >> (8 * k) & 0xFFU);
 }
 
-// Names may hold bytes that are no UTF-8; they are replaced, not refused.
+// Bytes of names that are not UTF-8 are replaced.
 std::string dump(const GltfBuilder::Json& json, int indent) {
   return json.dump(indent, ' ', false, GltfBuilder::Json::error_handler_t::replace);
 }
@@ -41,7 +41,7 @@ GltfBuilder::GltfBuilder() {
 std::size_t GltfBuilder::add_view(const void* data, std::size_t bytes) {
   const std::size_t offset = buffer_.size();
   buffer_.append(static_cast<const char*>(data), bytes);
-  pad(buffer_, '\0');  // what follows is aligned
+  pad(buffer_, '\0');  // aligns the next view to 4 bytes
   json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes}});
   return json["bufferViews"].size() - 1;
 }
@@ -105,7 +105,7 @@ void GltfBuilder::use_extension(const std::string& name) {
 
 void GltfBuilder::finish() {
   if (!buffer_.empty()) json["buffers"] = Json::array({{{"byteLength", buffer_.size()}}});
-  // The specification allows no empty lists.
+  // The specification does not allow empty arrays.
   if (json["scenes"][0]["nodes"].empty()) json["scenes"][0].erase("nodes");
 }
 
@@ -115,7 +115,8 @@ std::string GltfBuilder::binary() {
   pad(text, ' ');
   const std::size_t total = 12 + 8 + text.size() + (buffer_.empty() ? 0 : 8 + buffer_.size());
   if (total > std::numeric_limits<std::uint32_t>::max())
-    throw RuntimeError("The room is too large for a .glb file (over 4 GiB). Split it.");
+    throw RuntimeError("The room is too large for a .glb file (" + std::to_string(total) +
+                       " bytes; allowed: below 4 GiB). Split the room.");
   std::string bytes = "glTF";
   append_word(bytes, 2);
   append_word(bytes, total);

@@ -1,4 +1,4 @@
-// A glTF document in the making: JSON and one binary buffer, which grow together.
+// Builds a glTF document: JSON and one binary buffer.
 #pragma once
 
 #include <array>
@@ -19,10 +19,10 @@ class GltfBuilder {
 
   GltfBuilder();
 
-  // Lists that need no care ("meshes", "materials", "textures", …) are filled by the caller.
+  // The caller fills the arrays without a function below ("meshes", "materials", "textures", …).
   Json json;
 
-  // Each of these returns the number of what it added.
+  // Each function returns the index of the object that it added.
   std::size_t add_view(const void* data, std::size_t bytes);
   std::size_t add_positions(const std::vector<std::array<float, 3>>& positions);
   std::size_t add_vectors(const std::vector<std::array<float, 2>>& vectors);
@@ -33,9 +33,9 @@ class GltfBuilder {
 
   void use_extension(const std::string& name);
 
-  // The whole as a .glb file. Throws RuntimeError beyond 4 GiB.
+  // The document as a .glb file. Throws RuntimeError from 4 GiB on.
   std::string binary();
-  // As a .gltf file with the buffer in it.
+  // The document as a .gltf file with the buffer embedded.
   std::string text();
 
  private:
@@ -45,10 +45,10 @@ class GltfBuilder {
   std::string buffer_;
 };
 
-// A node at a place, with a name unless it is empty.
+// A node at a position; an empty name is left out.
 GltfBuilder::Json placed_node(const std::string& name, const glm::dvec3& position_m);
 
-// Positions as glTF stores them.
+// Positions rounded to float, as glTF stores them.
 std::vector<std::array<float, 3>> as_floats(const std::vector<glm::dvec3>& points);
 
 }  // namespace lichtmc

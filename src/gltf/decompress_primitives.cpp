@@ -1,4 +1,4 @@
-// KHR_draco_mesh_compression: the triangles and attributes of a primitive, compressed together.
+// KHR_draco_mesh_compression: decompresses the triangles and attributes of a primitive.
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -17,9 +17,9 @@ namespace lichtmc {
 namespace {
 
 constexpr const char* extension_name = "KHR_draco_mesh_compression";
-constexpr const char* export_again = " Export the file again, or uncompressed.";
+constexpr const char* export_again = " Export the file again, or without compression.";
 
-// Appends values to the file as a buffer of its own; the number of the accessor that holds them.
+// Adds a buffer with these values to the model. Returns the index of its accessor.
 template <class T>
 int add_accessor(tinygltf::Model& model, const std::vector<T>& values, int components, int type, int component_type) {
   tinygltf::Buffer buffer;
@@ -57,10 +57,10 @@ std::unique_ptr<draco::Mesh> decode(const Document& document, const tinygltf::Va
     auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
     if (mesh.ok()) return std::move(mesh).value();
     reason = mesh.status().error_msg_string();
-  } catch (const std::exception& fault) {  // a length that no memory holds
+  } catch (const std::exception& fault) {  // for example a stored length beyond the memory
     reason = fault.what();
   }
-  refuse(document, where + " cannot be decompressed (" + reason + "): its data is damaged." + export_again);
+  refuse(document, where + " is damaged and cannot be decompressed (" + reason + ")." + export_again);
 }
 
 std::vector<std::uint32_t> indices_of(const draco::Mesh& mesh) {
@@ -72,8 +72,8 @@ std::vector<std::uint32_t> indices_of(const draco::Mesh& mesh) {
   return indices;
 }
 
-// The values of an attribute, point by point. Integers become numbers as they are stored: whether they are shares of a
-// range the file's own accessor says, not Draco.
+// The values of an attribute, point by point. Integers are converted as stored: the accessor of the file, not the Draco
+// data, states whether they are normalized.
 std::vector<float> values_of(const Document& document, const draco::Mesh& mesh, draco::PointAttribute& attribute,
                              int components, const std::string& where) {
   attribute.set_normalized(false);
@@ -81,13 +81,13 @@ std::vector<float> values_of(const Document& document, const draco::Mesh& mesh, 
   for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
     float* value = values.data() + std::size_t{point.value()} * static_cast<std::size_t>(components);
     if (!attribute.ConvertValue<float>(attribute.mapped_index(point), static_cast<std::int8_t>(components), value))
-      refuse(document, where + " has an attribute that cannot be read." + export_again);
+      refuse(document, where + " has an attribute that cannot be converted to float." + export_again);
   }
   return values;
 }
 
-// What a normalized integer is divided by; 1 for others.
-float range_of(const tinygltf::Accessor& accessor) {
+// The divisor of a normalized integer; 1 for other types.
+float divisor_of(const tinygltf::Accessor& accessor) {
   if (!accessor.normalized) return 1.0F;
   switch (accessor.componentType) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -111,19 +111,19 @@ void decompress(Document& document, tinygltf::Primitive& primitive, const std::s
       add_accessor(model, indices_of(*mesh), 1, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   if (!extension.Has("attributes") || !extension.Get("attributes").IsObject())
-    refuse(document, where + " names no attributes." + export_again);
+    refuse(document, where + " has no 'attributes' object." + export_again);
   for (auto& [name, index] : primitive.attributes) {
     const bool needed = name == "POSITION" || name.rfind("TEXCOORD_", 0) == 0;
     if (!needed || !extension.Get("attributes").Has(name)) continue;
     const double id = number_in(document, extension.Get("attributes"), name.c_str(), -1.0, where);
     const int number = id >= 0.0 && id < 0x1p31 ? mesh->GetAttributeIdByUniqueId(static_cast<std::uint32_t>(id)) : -1;
-    if (number < 0) refuse(document, where + " does not hold its attribute " + name + "." + export_again);
+    if (number < 0) refuse(document, where + " does not contain its attribute " + name + "." + export_again);
     const auto& described =
         model.accessors[checked_index(document, index, model.accessors.size(), "the accessor of " + name)];
     const int components = name == "POSITION" ? 3 : 2;
     std::vector<float> values = values_of(document, *mesh, *mesh->attribute(number), components, where);
-    const float range = range_of(described);
-    for (float& value : values) value /= range;
+    const float divisor = divisor_of(described);
+    for (float& value : values) value /= divisor;
     index = add_accessor(model, values, components, components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC2,
                          TINYGLTF_COMPONENT_TYPE_FLOAT);
   }

@@ -1,4 +1,4 @@
-// EXT_meshopt_compression: buffer views compressed byte by byte (A. Kapoulkine, glTF extension, 2020).
+// EXT_meshopt_compression: decompresses buffer views (A. Kapoulkine, glTF extension, 2020).
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -13,14 +13,16 @@ namespace lichtmc {
 
 namespace {
 
-constexpr const char* export_again = " Export the file again, or uncompressed.";
+constexpr const char* export_again = " Export the file again, or without compression.";
 
-// The codecs write no less than a bit for 256 bytes; a view that claims more is damaged, and no memory is taken for it.
-constexpr std::uint64_t most_bytes_per_byte = 2048;
-constexpr std::uint64_t bytes_for_nothing = 4096;
+// The codecs need at least 1 bit for 256 bytes. A view that states a higher ratio is damaged: it is rejected before
+// memory is allocated for it.
+constexpr std::uint64_t max_compression_ratio = 2048;
+constexpr std::uint64_t always_allowed_bytes = 4096;
 
 enum class Mode { attributes, triangles, indices };
 
+// A compressed buffer view.
 struct Packed {
   const unsigned char* data = nullptr;
   std::size_t size = 0;
@@ -41,8 +43,8 @@ std::string text_in(const tinygltf::Value& object, const char* name, const char*
   return object.Has(name) && object.Get(name).IsString() ? object.Get(name).Get<std::string>() : otherwise;
 }
 
-Packed read_description(const Document& document, const tinygltf::Value& extension, const std::string& where) {
-  if (!extension.IsObject()) refuse(document, where + " is not an object." + export_again);
+// Reads the position of the compressed data and the size of the decompressed data.
+Packed read_extent(const Document& document, const tinygltf::Value& extension, const std::string& where) {
   Packed packed;
   const std::uint64_t buffer = whole_number(document, extension, "buffer", -1.0, where);
   const std::uint64_t offset = whole_number(document, extension, "byteOffset", 0.0, where);
@@ -52,31 +54,41 @@ Packed read_description(const Document& document, const tinygltf::Value& extensi
   const auto& buffers = document.model.buffers;
   const auto& bytes =
       buffers[checked_index(document, static_cast<long long>(buffer), buffers.size(), "the buffer of " + where)].data;
-  // Each is below 2³²: nothing overflows.
+  // Each is below 2³²: the sum does not overflow.
   if (offset + packed.size > bytes.size()) refuse(document, where + " reaches beyond its buffer." + export_again);
   packed.data = bytes.data() + offset;
+  return packed;
+}
 
-  const std::string mode = text_in(extension, "mode", "(none)");
+// Whether the extension allows this stride for attributes and their filter.
+bool is_attribute_stride(std::size_t stride, const std::string& filter) {
+  if (filter == "OCTAHEDRAL") return stride == 4 || stride == 8;
+  if (filter == "QUATERNION") return stride == 8;
+  if (filter != "NONE" && filter != "EXPONENTIAL") return false;
+  return stride > 0 && stride <= 256 && stride % 4 == 0;
+}
+
+// Reads mode and filter. Returns false if the extension does not allow them together with stride and count.
+bool read_mode(const tinygltf::Value& extension, const std::string& mode, Packed& packed) {
   packed.filter = text_in(extension, "filter", "NONE");
-  const std::size_t stride = packed.stride;
-  bool sound = false;
-  if (mode == "ATTRIBUTES") {
-    sound = stride > 0 && stride <= 256 && stride % 4 == 0;
-    if (packed.filter == "OCTAHEDRAL") sound = sound && (stride == 4 || stride == 8);
-    if (packed.filter == "QUATERNION") sound = sound && stride == 8;
-  } else if (mode == "TRIANGLES" || mode == "INDICES") {
-    packed.mode = mode == "TRIANGLES" ? Mode::triangles : Mode::indices;
-    sound = (stride == 2 || stride == 4) && packed.filter == "NONE" &&
-            (packed.mode == Mode::indices || packed.count % 3 == 0);
+  if (mode == "ATTRIBUTES") return is_attribute_stride(packed.stride, packed.filter);
+  if (mode != "TRIANGLES" && mode != "INDICES") return false;
+  packed.mode = mode == "TRIANGLES" ? Mode::triangles : Mode::indices;
+  return (packed.stride == 2 || packed.stride == 4) && packed.filter == "NONE" &&
+         (packed.mode == Mode::indices || packed.count % 3 == 0);
+}
+
+Packed read_description(const Document& document, const tinygltf::Value& extension, const std::string& where) {
+  if (!extension.IsObject()) refuse(document, where + " is not an object." + export_again);
+  Packed packed = read_extent(document, extension, where);
+  const std::string mode = text_in(extension, "mode", "(none)");
+  if (!read_mode(extension, mode, packed)) {
+    refuse(document, where + " has values that the extension does not allow together (mode " + mode + ", filter " +
+                         packed.filter + ", stride " + std::to_string(packed.stride) + ", count " +
+                         std::to_string(packed.count) + ")." + export_again);
   }
-  const bool known_filter = packed.filter == "NONE" || packed.filter == "OCTAHEDRAL" || packed.filter == "QUATERNION" ||
-                            packed.filter == "EXPONENTIAL";
-  if (!sound || !known_filter) {
-    refuse(document, where + " is not sound (mode " + mode + ", filter " + packed.filter + ", stride " +
-                         std::to_string(stride) + ", count " + std::to_string(packed.count) + ")." + export_again);
-  }
-  if (std::uint64_t{packed.count} * stride > most_bytes_per_byte * packed.size + bytes_for_nothing)
-    refuse(document, where + " has more elements than its data can hold." + export_again);
+  if (std::uint64_t{packed.count} * packed.stride > max_compression_ratio * packed.size + always_allowed_bytes)
+    refuse(document, where + " states more elements than its data can hold." + export_again);
   return packed;
 }
 
@@ -94,7 +106,7 @@ std::vector<unsigned char> decompressed(const Document& document, const Packed& 
       fault = meshopt_decodeIndexSequence(bytes.data(), packed.count, packed.stride, packed.data, packed.size);
       break;
   }
-  if (fault != 0) refuse(document, where + " cannot be decompressed: its data is damaged." + export_again);
+  if (fault != 0) refuse(document, where + " is damaged and cannot be decompressed." + export_again);
   if (packed.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(bytes.data(), packed.count, packed.stride);
   if (packed.filter == "QUATERNION") meshopt_decodeFilterQuat(bytes.data(), packed.count, packed.stride);
   if (packed.filter == "EXPONENTIAL") meshopt_decodeFilterExp(bytes.data(), packed.count, packed.stride);

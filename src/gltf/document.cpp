@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* export_again = " Export the file again.";
 
-// Extensions that are read, or without which a room can be read rightly as well.
+// Extensions that are read, or that have no influence on the room.
 constexpr std::array<const char*, 8> known_extensions{"EXT_mesh_gpu_instancing",         "EXT_meshopt_compression",
                                                       "KHR_draco_mesh_compression",      "KHR_lights_punctual",
                                                       "KHR_materials_emissive_strength", "KHR_materials_unlit",
@@ -34,13 +34,13 @@ constexpr std::array<const char*, 8> known_extensions{"EXT_mesh_gpu_instancing",
 std::string read_bytes(const std::filesystem::path& path, const std::string& file) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    throw InputError("Cannot read " + file + " (it is a folder). Give a .gltf or .glb file.");
+    throw InputError("Cannot read " + file + " (it is a folder). Give the name of a .gltf or .glb file.");
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError("Cannot open " + file + " (" + std::strerror(errno) + "). Check the name of the file.");
   std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (in.bad()) throw InputError("Cannot read " + file + ". Check the disk it is on.");
-  if (bytes.empty()) throw InputError(file + ": the file is empty. Give a .gltf or .glb file.");
+  if (in.bad()) throw InputError("Cannot read " + file + ". Check the disk that contains it.");
+  if (bytes.empty()) throw InputError(file + ": the file is empty. Give the name of a .gltf or .glb file.");
   return bytes;
 }
 
@@ -54,11 +54,11 @@ bool is_binary(const std::string& bytes) {
   return bytes.compare(0, 4, "glTF") == 0;
 }
 
-// The container: 12 bytes of header, then chunks of 8 bytes of header and their data (glTF 2.0 specification, section
-// 4).
+// The container: a header of 12 bytes, then chunks, each with a header of 8 bytes and its data (glTF 2.0
+// specification, section 4).
 void check_container(const std::string& bytes, const std::string& file) {
   const auto require = [&file](bool sound, const std::string& what) {
-    if (!sound) throw InputError(file + ": the GLB container is broken: " + what + "." + export_again);
+    if (!sound) throw InputError(file + ": the GLB container is damaged (" + what + ")." + export_again);
   };
   constexpr std::uint32_t json_chunk = 0x4E4F534A;
   require(bytes.size() >= 20, "it ends within its header");
@@ -66,7 +66,7 @@ void check_container(const std::string& bytes, const std::string& file) {
   const std::size_t length = word_at(bytes, 8);
   require(length <= bytes.size(),
           "it ends after " + std::to_string(bytes.size()) + " of " + std::to_string(length) + " bytes");
-  require(length >= 20, "its length is given as " + std::to_string(length) + " bytes");
+  require(length >= 20, "its header states a length of " + std::to_string(length) + " bytes");
   require(word_at(bytes, 16) == json_chunk, "its first chunk is not JSON");
   for (std::size_t offset = 12; offset < length;) {
     require(length - offset >= 8, "a chunk ends within its header");
@@ -78,10 +78,10 @@ void check_container(const std::string& bytes, const std::string& file) {
 
 using Images = std::vector<std::vector<unsigned char>>;
 
-// Keeps an image as its file has it: only some are ever decoded. The place of one in a buffer the parser has not
-// checked: that comes later.
-bool keep_image(tinygltf::Image* image, const int index, std::string* /*error*/, std::string* /*warning*/,
-                int /*width*/, int /*height*/, const unsigned char* bytes, int size, void* user) {
+// Stores an image undecoded: only base colour images are decoded, and later. The parser has not yet checked the buffer
+// view of an image in a buffer: store_images_in_buffers() does that.
+bool store_image(tinygltf::Image* image, const int index, std::string* /*error*/, std::string* /*warning*/,
+                 int /*width*/, int /*height*/, const unsigned char* bytes, int size, void* user) {
   Images& images = *static_cast<Images*>(user);
   const auto k = static_cast<std::size_t>(index);
   if (images.size() <= k) images.resize(k + 1);
@@ -89,7 +89,7 @@ bool keep_image(tinygltf::Image* image, const int index, std::string* /*error*/,
   return true;
 }
 
-void keep_images_in_buffers(Document& document) {
+void store_images_in_buffers(Document& document) {
   const auto& model = document.model;
   for (std::size_t k = 0; k < model.images.size(); ++k) {
     if (model.images[k].bufferView < 0) continue;
@@ -117,11 +117,10 @@ std::vector<std::string> lines_of(const std::string& text) {
 std::string joined(const std::string& text) {
   std::string all;
   for (const std::string& line : lines_of(text)) all += (all.empty() ? "" : "; ") + line;
-  return all.empty() ? "no reason is given" : all;
+  return all.empty() ? "unknown reason" : all;
 }
 
-// The names in a list of the file, as far as its JSON can be read at all; the parser says what is wrong with it
-// otherwise.
+// The strings in an array of the file; none if the JSON is invalid: the parser reports that later.
 std::vector<std::string> names_in(const nlohmann::json& json, const char* list) {
   std::vector<std::string> names;
   if (!json.is_object() || !json.contains(list) || !json[list].is_array()) return names;
@@ -131,14 +130,15 @@ std::vector<std::string> names_in(const nlohmann::json& json, const char* list) 
   return names;
 }
 
-// Looked at before parsing: a parser that does not know a required extension fails with other words.
+// Called before parsing: the parser reports an unknown required extension less clearly.
 void check_extensions(const Document& document, const nlohmann::json& json) {
   for (const std::string& name : names_in(json, "extensionsRequired")) {
     if (is_known_extension(name)) continue;
     std::string known;
     for (const char* k : known_extensions) known += (known.empty() ? "" : ", ") + std::string(k);
     refuse(document, "the file requires the extension " + in_quotes(name) +
-                         ", which is not known here (known: " + known + "). Export it without.");
+                         ", which lichtmc does not support (allowed: " + known +
+                         "). Export the file without this extension.");
   }
 }
 
@@ -150,10 +150,10 @@ void check_version(const Document& document) {
   };
   if (!is_2(version)) refuse(document, "the glTF version is '" + version + "' (allowed: 2.0)." + export_again);
   if (!least.empty() && least != "2.0")
-    refuse(document, "the file asks for glTF version '" + least + "' (allowed: 2.0)." + export_again);
+    refuse(document, "the file requires glTF version '" + least + "' (allowed: 2.0)." + export_again);
 }
 
-// Where a file's JSON stands in its bytes.
+// Position of the JSON in the bytes of the file.
 struct JsonText {
   std::size_t offset = 0;
   std::size_t size = 0;
@@ -163,7 +163,7 @@ void set_word(std::string& bytes, std::size_t offset, std::size_t value) {
   for (std::size_t k = 0; k < 4; ++k) bytes[offset + k] = static_cast<char>(value >> (8 * k) & 0xFF);
 }
 
-// Puts other JSON in place of a file's own; the chunks behind it stay.
+// Replaces the JSON of the file; the chunks after it stay unchanged.
 void replace_json(std::string& bytes, bool binary, const JsonText& old, std::string text) {
   if (binary) {
     text.resize((text.size() + 3) / 4 * 4, ' ');  // chunks end at multiples of four bytes
@@ -174,7 +174,7 @@ void replace_json(std::string& bytes, bool binary, const JsonText& old, std::str
   bytes.replace(old.offset, old.size, text);
 }
 
-// Everything that the parser reads, from bytes that have passed the checks before it.
+// Parses the bytes; the checks before parsing have passed.
 void parse(Document& document, const std::string& bytes, bool binary, const std::string& folder) {
   constexpr std::size_t largest = std::numeric_limits<std::int32_t>::max();  // the parser counts bytes in 32 bits
   if (bytes.size() > largest) {
@@ -182,7 +182,7 @@ void parse(Document& document, const std::string& bytes, bool binary, const std:
            "the file has " + std::to_string(bytes.size()) + " bytes (allowed: up to 2147483647). Split the room.");
   }
   tinygltf::TinyGLTF parser;
-  parser.SetImageLoader(keep_image, &document.images);
+  parser.SetImageLoader(store_image, &document.images);
   std::string error;
   std::string warning;
   const auto size = static_cast<unsigned int>(bytes.size());
@@ -194,10 +194,10 @@ void parse(Document& document, const std::string& bytes, bool binary, const std:
   } catch (const std::exception& reason) {
     error += reason.what();
   }
-  if (!parsed) refuse(document, "this is not a glTF 2.0 file that can be read (" + joined(error) + ")." + export_again);
+  if (!parsed) refuse(document, "the file is not valid glTF 2.0 (" + joined(error) + ")." + export_again);
   document.warnings = lines_of(warning);
   document.images.resize(document.model.images.size());
-  keep_images_in_buffers(document);
+  store_images_in_buffers(document);
 }
 
 }  // namespace
@@ -215,7 +215,7 @@ Document load_document(const std::filesystem::path& path) {
   if (binary) check_container(bytes, document.file);
   const JsonText text = binary ? JsonText{20, word_at(bytes, 12)} : JsonText{0, bytes.size()};
   if (nests_too_deep(bytes.data() + text.offset, bytes.data() + text.offset + text.size))
-    refuse(document, "its JSON is nested deeper than 256 levels." + std::string(export_again));
+    refuse(document, "the JSON is nested deeper than 256 levels (the limit)." + std::string(export_again));
   const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(text.offset);
   nlohmann::json json = nlohmann::json::parse(begin, begin + static_cast<std::ptrdiff_t>(text.size), nullptr, false);
   check_extensions(document, json);
@@ -237,8 +237,10 @@ void refuse(const Document& document, const std::string& what_and_remedy) {
 
 std::size_t checked_index(const Document& document, long long index, std::size_t count, const std::string& what) {
   if (index >= 0 && static_cast<unsigned long long>(index) < count) return static_cast<std::size_t>(index);
-  refuse(document, what + " is number " + std::to_string(index) + ", but there are " + std::to_string(count) +
-                       " (allowed: 0 to one below that)." + export_again);
+  refuse(document,
+         what + " is number " + std::to_string(index) +
+             (count == 0 ? ", but the file has none of them." : " (allowed: 0 to " + std::to_string(count - 1) + ").") +
+             export_again);
 }
 
 double number_in(const Document& document, const tinygltf::Value& object, const char* name, double otherwise,
@@ -246,7 +248,7 @@ double number_in(const Document& document, const tinygltf::Value& object, const 
   if (!object.IsObject() || !object.Has(name)) return otherwise;
   const tinygltf::Value& value = object.Get(name);
   if (!value.IsNumber())
-    refuse(document, "'" + std::string(name) + "' of " + where + " is not a number. Give it as a number.");
+    refuse(document, "'" + std::string(name) + "' of " + where + " is not a number. Set it to a number.");
   return value.GetNumberAsDouble();
 }
 

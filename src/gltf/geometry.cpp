@@ -15,7 +15,7 @@ namespace lichtmc {
 
 namespace {
 
-// Lists, strips and fans as triples, in the order that keeps the winding (glTF 2.0 specification, section 3.7.2.1).
+// Lists, strips and fans as triples of indices; the order keeps the winding (glTF 2.0 specification, section 3.7.2.1).
 std::vector<glm::uvec3> triples(const std::vector<std::uint32_t>& index, int mode) {
   std::vector<glm::uvec3> triangles;
   if (mode == TINYGLTF_MODE_TRIANGLES) {
@@ -29,8 +29,8 @@ std::vector<glm::uvec3> triples(const std::vector<std::uint32_t>& index, int mod
   return triangles;
 }
 
-// Whether three points span an area. Float coordinates of points on a line, put through a transform in double, miss it
-// by roundings of 2⁻⁵³ of their distance from the origin.
+// Whether a triangle has an area. Collinear points with float coordinates, transformed in double, deviate from a line
+// by rounding errors of 2⁻⁵³ of their distance from the origin.
 bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 cross = glm::cross(b - a, c - a);
   const double longest = std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)});
@@ -39,12 +39,12 @@ bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
 }
 
 std::optional<int> choose_uv_set(const Document& document, const tinygltf::Primitive& primitive,
-                                 std::optional<int> asked) {
-  if (asked && *asked < 0)
-    refuse(document,
-           "the UV set is " + std::to_string(*asked) + " (allowed: 0 or more). Give --uv-set the n of TEXCOORD_n.");
+                                 std::optional<int> requested) {
+  if (requested && *requested < 0)
+    refuse(document, "the UV set is " + std::to_string(*requested) +
+                         " (allowed: 0 or more). Give --uv-set the number n of TEXCOORD_n.");
   const auto has = [&](int n) { return primitive.attributes.count("TEXCOORD_" + std::to_string(n)) != 0; };
-  if (asked) return has(*asked) ? asked : std::nullopt;
+  if (requested) return has(*requested) ? requested : std::nullopt;
   if (has(1)) return 1;
   if (has(0)) return 0;
   return std::nullopt;
@@ -61,14 +61,14 @@ std::vector<glm::uvec3> read_triangles(const Document& document, const tinygltf:
   return triples(index, primitive.mode);
 }
 
-// The texture coordinates of a set, one per position, as a material's transform of them says.
+// The texture coordinates of a set, one per position, after the texture transform.
 std::vector<glm::dvec2> read_uvs(const Document& document, const tinygltf::Primitive& primitive, int set,
                                  const UvTransform& transform, std::size_t vertices, const std::string& where) {
   std::vector<glm::dvec2> uvs = read_texture_coordinates(
       document, primitive.attributes.at("TEXCOORD_" + std::to_string(set)), "the texture coordinates of " + where);
   if (uvs.size() != vertices) {
     refuse(document, where + " has " + to_text(vertices, "position") + " but " + std::to_string(uvs.size()) +
-                         " texture coordinates (allowed: as many). Export the file again.");
+                         " texture coordinates (allowed: one per position). Export the file again.");
   }
   for (glm::dvec2& uv : uvs) uv = transform(uv);
   return uvs;
@@ -81,21 +81,21 @@ UvTransform transform_of_set(const Material& material, int set) {
   return {};
 }
 
-void note_what_is_left_out(const tinygltf::Primitive& primitive, const Material& material, const std::string& where,
-                           std::vector<Ignored>& ignored) {
+void note_ignored_attributes(const tinygltf::Primitive& primitive, const Material& material, const std::string& where,
+                             std::vector<Ignored>& ignored) {
   if (primitive.attributes.count("COLOR_0") != 0) {
-    ignored.push_back(
-        {"Vertex colours of " + where + " are not read; its material alone says its reflectance.", Effect::figures});
+    ignored.push_back({"Vertex colours of " + where + " are not read; its material alone determines its reflectance.",
+                       Effect::figures});
   }
   if (primitive.attributes.count("JOINTS_0") != 0)
     ignored.push_back(
-        {"The skin of " + where + " is not applied; the mesh is taken in its rest pose.", Effect::figures});
+        {"The skin of " + where + " is not applied; the vertices stay in the rest pose.", Effect::figures});
   if (!primitive.targets.empty())
     ignored.push_back({"Morph targets of " + where + " are not applied.", Effect::figures});
   const auto& base = material.base_colour;
   if (base && primitive.attributes.count("TEXCOORD_" + std::to_string(base->uv_set)) == 0) {
     ignored.push_back({"The base colour texture of " + where + " has no texture coordinates (TEXCOORD_" +
-                           std::to_string(base->uv_set) + "): the base colour factor alone is its reflectance.",
+                           std::to_string(base->uv_set) + "): the base colour factor alone determines its reflectance.",
                        Effect::figures});
   }
 }
@@ -115,7 +115,7 @@ std::optional<Primitive> read_primitive(const Document& document, const tinygltf
   }
   const auto position = primitive.attributes.find("POSITION");
   if (position == primitive.attributes.end()) {
-    ignored.push_back({where + " has no positions: nothing is there.", Effect::none});
+    ignored.push_back({where + " has no positions: it is left out.", Effect::none});
     return std::nullopt;
   }
   Primitive result;
@@ -130,14 +130,14 @@ std::optional<Primitive> read_primitive(const Document& document, const tinygltf
     for (const glm::dvec2& uv : result.reflectance_uvs) {
       if (std::isfinite(uv.x) && std::isfinite(uv.y)) continue;
       refuse(document, "the texture coordinates of " + where +
-                           " are not finite (allowed: finite numbers). Unwrap the mesh again, or give its material the "
-                           "custom property 'reflectance'.");
+                           " are not finite (allowed: finite numbers). Unwrap the mesh again, or set the custom "
+                           "property 'reflectance' of its material.");
     }
   }
   result.triangles = read_triangles(document, primitive, vertices, where);
-  note_what_is_left_out(primitive, material, where, ignored);
+  note_ignored_attributes(primitive, material, where, ignored);
   if (result.triangles.empty()) {
-    ignored.push_back({where + " has no triangles.", Effect::none});
+    ignored.push_back({where + " has no triangles: it is left out.", Effect::none});
     return std::nullopt;
   }
   return result;

@@ -1,4 +1,4 @@
-// Meshes: triangles of a primitive, placed in the world.
+// Reads the triangles of a primitive and transforms them to world coordinates.
 #pragma once
 
 #include <optional>
@@ -15,24 +15,25 @@
 
 namespace lichtmc {
 
-// A primitive as it is stored, read once and placed as often as it is used.
+// A primitive in its local coordinates: read once, placed once per use.
 struct Primitive {
   std::string where;  // for messages: "mesh 'table', primitive 1"
   std::vector<glm::dvec3> positions;
   std::vector<glm::uvec3> triangles;
-  std::vector<glm::dvec2> uvs;              // for the tiles, decoded; may be missing
-  std::vector<glm::dvec2> reflectance_uvs;  // for the base colour texture, decoded; may be missing
+  std::vector<glm::dvec2> uvs;              // for the tiles, decoded; may be empty
+  std::vector<glm::dvec2> reflectance_uvs;  // for the base colour texture, decoded; may be empty
 };
 
-// Reads a primitive; none where it has no triangles, which is noted in `ignored`. `uv_set`: n of the TEXCOORD_n for the
-// tiles, or none for 1 where present, else 0; they are decoded as the first texture of the material that uses them
-// says.
+// Reads a primitive. Returns none if it has no triangles, and notes that in `ignored`. `uv_set`: the n of TEXCOORD_n
+// for the tiles; none: 1 if present, else 0. The first texture of the material that uses the set determines its
+// transform.
 std::optional<Primitive> read_primitive(const Document& document, const tinygltf::Primitive& primitive,
                                         const Material& material, std::optional<int> uv_set, const std::string& where,
                                         std::vector<Ignored>& ignored);
 
-// The primitive as a surface in the world: name, material and optics are left to the caller. A transform that mirrors
-// has its winding turned back, so that the front stays the front. Triangles without area are left out and counted.
+// The primitive as a surface in world coordinates. The caller sets name, material and optical properties. If the
+// transform mirrors (determinant < 0), the winding is reversed: the front face stays the front face. Triangles without
+// area are left out and counted.
 Surface place_primitive(const Primitive& primitive, const glm::dmat4& world);
 
 }  // namespace lichtmc

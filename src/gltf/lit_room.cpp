@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -23,14 +24,15 @@ namespace {
 
 using Json = GltfBuilder::Json;
 
-constexpr std::uint32_t most_pixels = 4096;  // a side: what every device that draws WebGL takes
-constexpr double glass = 0.06;               // opacity of what gets no light
-constexpr int nearest = 9728;                // texture filters: a tile has one colour, whole;
-constexpr int mipmaps = 9987;                // from afar, the mean of those behind a pixel
+constexpr std::uint32_t max_pixels = 4096;  // of a texture's side: every WebGL device supports it
+constexpr double unlit_opacity = 0.06;      // opacity of triangles without light on either side
+constexpr int nearest = 9728;               // texture filters: a tile has one uniform colour;
+constexpr int mipmaps = 9987;               // from a distance, a pixel shows the mean of the tiles behind it
 constexpr int clamp_to_edge = 33071;
 constexpr int lines = 1;
 
-// Irradiance as a tile map's picture shows it: where cells are more than pixels, the mean by area.
+// False colours of a tile map's texture. If the map has more cells than the texture has pixels, a pixel shows the
+// area-weighted mean irradiance of its cells.
 std::vector<std::uint8_t> pixels_of(const Result& result, const TileMap& map, const ColourScale& scale,
                                     std::uint32_t columns, std::uint32_t rows) {
   std::vector<std::uint8_t> pixels;
@@ -59,39 +61,38 @@ std::vector<std::uint8_t> pixels_of(const Result& result, const TileMap& map, co
   return pixels;
 }
 
-// Triangles with their places on the map, corners in common written once.
+// Triangles with their texture coordinates on the tile map; shared corners are stored once.
 class Mesh {
  public:
   Mesh(const Surface& surface, const std::vector<std::array<glm::dvec2, 3>>& cells, const TileMap& map)
       : surface_(&surface), cells_(&cells), size_(map.columns, map.rows) {}
 
-  void add(std::size_t n, bool turned) {
+  void add(std::size_t n, bool reversed) {
     const glm::uvec3 corner = surface_->triangles[n];
     std::array<std::uint32_t, 3> index{};
     for (int k = 0; k < 3; ++k)
       index[static_cast<std::size_t>(k)] = vertex(corner[k], (*cells_)[n][static_cast<std::size_t>(k)]);
-    if (turned) std::swap(index[1], index[2]);
+    if (reversed) std::swap(index[1], index[2]);
     indices_.insert(indices_.end(), index.begin(), index.end());
   }
   bool empty() const { return indices_.empty(); }
 
   Json primitive(GltfBuilder& document, std::size_t material) const {
     const std::size_t position = document.add_positions(positions_);
-    const std::size_t place = document.add_vectors(places_);
+    const std::size_t uv = document.add_vectors(uvs_);
     const std::size_t indices = document.add_indices(indices_);
-    return {
-        {"attributes", {{"POSITION", position}, {"TEXCOORD_0", place}}}, {"indices", indices}, {"material", material}};
+    return {{"attributes", {{"POSITION", position}, {"TEXCOORD_0", uv}}}, {"indices", indices}, {"material", material}};
   }
 
  private:
   std::uint32_t vertex(std::uint32_t position, const glm::dvec2& cell) {
-    const std::array<float, 2> place{static_cast<float>(cell.x / size_.x), static_cast<float>(cell.y / size_.y)};
-    const auto [entry, fresh] =
-        known_.try_emplace({position, place[0], place[1]}, static_cast<std::uint32_t>(positions_.size()));
-    if (fresh) {
+    const std::array<float, 2> uv{static_cast<float>(cell.x / size_.x), static_cast<float>(cell.y / size_.y)};
+    const auto [entry, inserted] =
+        vertices_.try_emplace({position, uv[0], uv[1]}, static_cast<std::uint32_t>(positions_.size()));
+    if (inserted) {
       const glm::dvec3& p = surface_->positions[position];
       positions_.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-      places_.push_back(place);
+      uvs_.push_back(uv);
     }
     return entry->second;
   }
@@ -99,9 +100,9 @@ class Mesh {
   const Surface* surface_;
   const std::vector<std::array<glm::dvec2, 3>>* cells_;
   glm::dvec2 size_;
-  std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known_;
+  std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> vertices_;  // by position and texture coordinates
   std::vector<std::array<float, 3>> positions_;
-  std::vector<std::array<float, 2>> places_;
+  std::vector<std::array<float, 2>> uvs_;
   std::vector<std::uint32_t> indices_;
 };
 
@@ -133,7 +134,7 @@ class LitRoom {
   void add_emitter(const Emitter& emitter);
   std::size_t add_material(std::size_t m, bool double_sided);
   std::size_t add_texture(std::size_t m);
-  std::size_t glass_material();
+  std::size_t unlit_material();
 
   const Room* room_;
   const Result* result_;
@@ -141,16 +142,16 @@ class LitRoom {
   const ColourScale* scale_;
   GltfBuilder document_;
   std::map<std::size_t, std::size_t> textures_;  // by tile map
-  std::map<std::size_t, Json> numbers_;          // extras, by tile map
-  std::size_t glass_ = no_surface;
+  std::map<std::size_t, Json> extras_;           // of the materials, by tile map
+  std::optional<std::size_t> unlit_material_;
 };
 
 std::size_t LitRoom::add_texture(std::size_t m) {
-  const auto [entry, fresh] = textures_.try_emplace(m, 0);
-  if (!fresh) return entry->second;
+  const auto [entry, inserted] = textures_.try_emplace(m, 0);
+  if (!inserted) return entry->second;
   const TileMap& map = result_->tiling.maps[m];
-  const std::uint32_t columns = std::min(map.columns, most_pixels);
-  const std::uint32_t rows = std::min(map.rows, most_pixels);
+  const std::uint32_t columns = std::min(map.columns, max_pixels);
+  const std::uint32_t rows = std::min(map.rows, max_pixels);
   const std::size_t image =
       document_.add_png(map.name, png_file(columns, rows, 3, pixels_of(*result_, map, *scale_, columns, rows)));
   Json& textures = document_.json["textures"];
@@ -160,25 +161,25 @@ std::size_t LitRoom::add_texture(std::size_t m) {
   std::vector<float> irradiance;
   std::vector<float> error;
   for (const std::uint32_t tile : map.tile_of_cell) {
-    const bool there = tile != no_tile;
-    irradiance.push_back(there ? static_cast<float>(result_->tiles[tile].irradiance)
-                               : std::numeric_limits<float>::quiet_NaN());
-    error.push_back(there ? static_cast<float>(result_->tiles[tile].standard_error)
-                          : std::numeric_limits<float>::quiet_NaN());
+    const bool has_tile = tile != no_tile;
+    irradiance.push_back(has_tile ? static_cast<float>(result_->tiles[tile].irradiance)
+                                  : std::numeric_limits<float>::quiet_NaN());
+    error.push_back(has_tile ? static_cast<float>(result_->tiles[tile].standard_error)
+                             : std::numeric_limits<float>::quiet_NaN());
   }
   const SurfaceResult& surface = result_->surfaces[m];
-  numbers_[m] = {{"surface", map.name},
-                 {"side", map.side == Side::front ? "front" : "back"},
-                 {"unit", std::string(irradiance_unit(result_->quantity))},
-                 {"columns", map.columns},
-                 {"rows", map.rows},
-                 {"irradiance", document_.add_view(irradiance.data(), irradiance.size() * sizeof(float))},
-                 {"standard_error", document_.add_view(error.data(), error.size() * sizeof(float))},
-                 {"mean", surface.mean_irradiance},
-                 {"lowest", surface.min_irradiance},
-                 {"highest", surface.max_irradiance},
-                 {"area", surface.area_m2},
-                 {"reflectance", surface.reflectance}};
+  extras_[m] = {{"surface", map.name},
+                {"side", map.side == Side::front ? "front" : "back"},
+                {"unit", std::string(irradiance_unit(result_->quantity))},
+                {"columns", map.columns},
+                {"rows", map.rows},
+                {"irradiance", document_.add_view(irradiance.data(), irradiance.size() * sizeof(float))},
+                {"standard_error", document_.add_view(error.data(), error.size() * sizeof(float))},
+                {"mean", surface.mean_irradiance},
+                {"lowest", surface.min_irradiance},
+                {"highest", surface.max_irradiance},
+                {"area", surface.area_m2},
+                {"reflectance", surface.reflectance}};
   return entry->second;
 }
 
@@ -189,20 +190,21 @@ std::size_t LitRoom::add_material(std::size_t m, bool double_sided) {
                        {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}, {"metallicFactor", 0.0}}},
                        {"doubleSided", double_sided},
                        {"extensions", {{"KHR_materials_unlit", Json::object()}}},
-                       {"extras", {{"lichtmc", numbers_[m]}}}});
+                       {"extras", {{"lichtmc", extras_[m]}}}});
   return materials.size() - 1;
 }
 
-std::size_t LitRoom::glass_material() {
-  if (glass_ != no_surface) return glass_;
+std::size_t LitRoom::unlit_material() {
+  if (unlit_material_) return *unlit_material_;
   Json& materials = document_.json["materials"];
-  materials.push_back({{"name", "no light"},
-                       {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, glass}}, {"metallicFactor", 0.0}}},
-                       {"alphaMode", "BLEND"},
-                       {"doubleSided", true},
-                       {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
-  glass_ = materials.size() - 1;
-  return glass_;
+  materials.push_back(
+      {{"name", "no light"},
+       {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, unlit_opacity}}, {"metallicFactor", 0.0}}},
+       {"alphaMode", "BLEND"},
+       {"doubleSided", true},
+       {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
+  unlit_material_ = materials.size() - 1;
+  return *unlit_material_;
 }
 
 void LitRoom::add_surface(std::size_t m) {
@@ -210,12 +212,12 @@ void LitRoom::add_surface(std::size_t m) {
   const Surface& surface = room_->surfaces[map.surface];
   const auto& cells = result_->tiling.cells[map.surface];
   Mesh front(surface, cells, map), back(surface, cells, map), either(surface, cells, map), dark(surface, cells, map);
-  const bool maps_apart = surface.sides == Sides::both;
+  const bool map_per_side = surface.sides == Sides::both;
   for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
     const SideLight side = (*lit_)[map.surface][n];
     if (!side.front && !side.back) {
       dark.add(n, false);
-    } else if (side.front && side.back && !maps_apart) {
+    } else if (side.front && side.back && !map_per_side) {
       either.add(n, false);
     } else {
       if (side.front) front.add(n, false);
@@ -224,9 +226,9 @@ void LitRoom::add_surface(std::size_t m) {
   }
   Json primitives = Json::array();
   if (!front.empty()) primitives.push_back(front.primitive(document_, add_material(m, false)));
-  if (!back.empty()) primitives.push_back(back.primitive(document_, add_material(maps_apart ? m + 1 : m, false)));
+  if (!back.empty()) primitives.push_back(back.primitive(document_, add_material(map_per_side ? m + 1 : m, false)));
   if (!either.empty()) primitives.push_back(either.primitive(document_, add_material(m, true)));
-  if (!dark.empty()) primitives.push_back(dark.primitive(document_, glass_material()));
+  if (!dark.empty()) primitives.push_back(dark.primitive(document_, unlit_material()));
   if (primitives.empty()) return;
   Json& meshes = document_.json["meshes"];
   meshes.push_back({{"name", surface.name}, {"primitives", std::move(primitives)}});
@@ -279,7 +281,7 @@ void add_paths(GltfBuilder& document, const std::vector<PhotonPath>& paths) {
 }  // namespace
 
 Colour colour_of_flight(std::size_t flight) {
-  // The first flights, which nearly all photons have, differ most.
+  // The colours of the first flights, which nearly all photons make, differ most.
   constexpr double flights = 2.5;
   return colour_at(ColourMap::viridis, 1.0 - std::exp(-(static_cast<double>(flight) - 1.0) / flights));
 }

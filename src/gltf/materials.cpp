@@ -29,8 +29,9 @@ double read_reflectance(const Document& document, const tinygltf::Material& mate
                                  ? number_in(document, material.extras, "reflectance", 0.0, where)
                                  : luminance(colour.r, colour.g, colour.b);
   if (reflectance >= 0.0 && reflectance <= 1.0) return reflectance;
-  refuse(document, "the reflectance of " + where + " is " + to_text(reflectance) +
-                       " (allowed: 0 to 1). Set the material's custom property 'reflectance' or its base colour.");
+  refuse(document,
+         "the reflectance of " + where + " is " + to_text(reflectance) +
+             " (allowed: 0 to 1). Set the custom property 'reflectance' of the material, or its base colour.");
 }
 
 std::vector<TextureUse> read_texture_uses(const Document& document, const tinygltf::Material& material,
@@ -58,7 +59,7 @@ std::optional<Emission> read_emission(const Document& document, const tinygltf::
   if (colour.size() == 3) emission.luminance = strength * luminance(colour[0], colour[1], colour[2]);
   if (!(emission.luminance >= 0.0) || !std::isfinite(emission.luminance)) {
     refuse(document, "the emission of " + where + " is " + to_text(emission.luminance) +
-                         " cd/m² (allowed: a finite number, 0 or more). Set its emissive colour and strength.");
+                         " cd/m² (allowed: a finite number, 0 or more). Set its emissive factor and strength.");
   }
   emission.power = power_in(document, material.extras, where);
   emission.quantity = unit_in(document, material.extras, where).value_or(Quantity::photometric);
@@ -70,7 +71,7 @@ std::optional<Emission> read_emission(const Document& document, const tinygltf::
 }  // namespace
 
 double luminance(double red, double green, double blue) {
-  // ITU-R BT.709: 0.2126 R + 0.7152 G + 0.0722 B, arranged so that greys keep their value exactly.
+  // ITU-R BT.709: 0.2126 R + 0.7152 G + 0.0722 B, in a form that keeps the value of greys exactly.
   return green + 0.2126 * (red - green) + 0.0722 * (blue - green);
 }
 
@@ -79,7 +80,7 @@ std::optional<double> power_in(const Document& document, const tinygltf::Value& 
   const double power = number_in(document, extras, "power", 0.0, where);
   if (power >= 0.0 && std::isfinite(power)) return power;
   refuse(document, "'power' of " + where + " is " + to_text(power) +
-                       " (allowed: a finite number, 0 or more). Set that custom property.");
+                       " (allowed: a finite number, 0 or more). Correct this custom property.");
 }
 
 std::optional<Quantity> unit_in(const Document& document, const tinygltf::Value& extras, const std::string& where) {
@@ -88,7 +89,8 @@ std::optional<Quantity> unit_in(const Document& document, const tinygltf::Value&
   const std::string text = unit.IsString() ? unit.Get<std::string>() : "(not a text)";
   if (text == "W") return Quantity::radiometric;
   if (text == "lm") return Quantity::photometric;
-  refuse(document, "'unit' of " + where + " is '" + text + "' (allowed: \"W\" or \"lm\"). Set that custom property.");
+  refuse(document,
+         "'unit' of " + where + " is '" + text + "' (allowed: \"W\" or \"lm\"). Correct this custom property.");
 }
 
 std::optional<double> exponent_in(const Document& document, const tinygltf::Value& extras, const std::string& where) {
@@ -97,13 +99,13 @@ std::optional<double> exponent_in(const Document& document, const tinygltf::Valu
   if (exponent >= 0.0) return exponent;
   refuse(document,
          "'lambert_exponent' of " + where + " is " + to_text(exponent) +
-             " (allowed: 0 or more). Set that custom property: 0 uniform hemisphere, 1 Lambert, more for a beam.");
+             " (allowed: 0 or more). Correct this custom property: 0 uniform hemisphere, 1 Lambert, above 1 a beam.");
 }
 
 std::string material_name(const Document& document, int index) {
   if (index == -1) return "(default)";
   const auto& materials = document.model.materials;
-  const std::size_t k = checked_index(document, index, materials.size(), "a mesh's material");
+  const std::size_t k = checked_index(document, index, materials.size(), "the material of a mesh");
   return name_of(materials[k], k);
 }
 
@@ -124,44 +126,59 @@ Material read_material(const Document& document, int index, bool by_number) {
   return result;
 }
 
+namespace {
+
+void note_ignored_extensions(const tinygltf::Material& material, const std::string& where,
+                             std::vector<Ignored>& ignored) {
+  for (const auto& [name, value] : material.extensions) {
+    if (name == strength_extension || name == "KHR_materials_unlit") continue;
+    const bool transmits = name == "KHR_materials_transmission" || name == "KHR_materials_diffuse_transmission" ||
+                           name == "KHR_materials_volume";
+    const bool has_other_colour = name == "KHR_materials_pbrSpecularGlossiness";
+    const char* consequence = transmits          ? " and transmits no light. Remove panes that should transmit light."
+                              : has_other_colour ? " with the reflectance of its base colour. Set the custom property "
+                                                   "'reflectance'."
+                                                 : ".";
+    ignored.push_back(
+        {where + "the extension " + name + " is not modelled; the material reflects diffusely" + consequence,
+         transmits || has_other_colour ? Effect::figures : Effect::none});
+  }
+}
+
+// `where`: "Material 'name': ".
+void note_ignored_properties(const tinygltf::Material& material, bool emits, const std::string& where,
+                             std::vector<Ignored>& ignored) {
+  const auto note = [&](bool present, Effect effect, const char* what) {
+    if (present) ignored.push_back({where + what, effect});
+  };
+  note(material.emissiveTexture.index >= 0 && emits, Effect::figures,
+       "its emissive texture is not read; its exitance is uniform, from its emissive factor.");
+  note(material.normalTexture.index >= 0, Effect::none, "its normal texture is not modelled; facets are flat.");
+  note(material.alphaMode == "BLEND" || material.alphaMode == "MASK", Effect::figures,
+       "transparency (alpha) is not modelled; the material is opaque. Remove surfaces that should transmit light.");
+  note(material.occlusionTexture.index >= 0, Effect::none,
+       "its occlusion texture is not used; occlusion is simulated.");
+  note(material.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0, Effect::none,
+       "its metallic-roughness texture is not modelled; the material reflects diffusely.");
+}
+
+}  // namespace
+
 void note_ignored_materials(const Document& document, const std::vector<bool>& used, std::vector<Ignored>& ignored) {
   const auto& materials = document.model.materials;
   std::size_t metals = 0;
   for (std::size_t k = 0; k < materials.size(); ++k) {
     if (!used[k]) continue;
     const auto& material = materials[k];
-    const auto& pbr = material.pbrMetallicRoughness;
     const std::string where = "Material " + in_quotes(name_of(material, k)) + ": ";
-    const auto note = [&](bool present, Effect effect, const char* what) {
-      if (present) ignored.push_back({where + what, effect});
-    };
-    const bool is_area_light = read_emission(document, material, where).has_value();
-    note(material.emissiveTexture.index >= 0 && is_area_light, Effect::figures,
-         "its emissive texture is not read; it shines evenly, as its emissive factor says.");
-    note(material.normalTexture.index >= 0, Effect::none, "its normal map is not modelled; surfaces are flat.");
-    note(material.alphaMode == "BLEND" || material.alphaMode == "MASK", Effect::figures,
-         "transparency (alpha) is not modelled; it is opaque. Remove what light should pass.");
-    note(material.occlusionTexture.index >= 0, Effect::none, "its occlusion map is not used; occlusion is simulated.");
-    note(pbr.metallicRoughnessTexture.index >= 0, Effect::none,
-         "its metallic-roughness map is not modelled; it reflects diffusely.");
-    if (pbr.metallicFactor > 0.0 && !gives_reflectance(material)) ++metals;
-    for (const auto& [name, value] : material.extensions) {
-      if (name == strength_extension || name == "KHR_materials_unlit") continue;
-      const bool lets_light_through = name == "KHR_materials_transmission" ||
-                                      name == "KHR_materials_diffuse_transmission" || name == "KHR_materials_volume";
-      const bool colour_elsewhere = name == "KHR_materials_pbrSpecularGlossiness";
-      ignored.push_back(
-          {where + "the extension " + name + " is not modelled; it reflects diffusely" +
-               (lets_light_through ? " and lets no light through. Remove panes that light should pass."
-                : colour_elsewhere ? ", as its base colour says. Give it the custom property 'reflectance'."
-                                   : "."),
-           lets_light_through || colour_elsewhere ? Effect::figures : Effect::none});
-    }
+    note_ignored_properties(material, read_emission(document, material, where).has_value(), where, ignored);
+    if (material.pbrMetallicRoughness.metallicFactor > 0.0 && !gives_reflectance(material)) ++metals;
+    note_ignored_extensions(material, where, ignored);
   }
   if (metals > 0) {
     ignored.push_back({to_text(metals, "material") + (metals == 1 ? " is" : " are") +
-                           " metallic (glTF's default is metallicFactor 1): metal and gloss are not modelled, they "
-                           "reflect diffusely. Where a real mirror is meant, figures near it differ.",
+                           " metallic (glTF's default is metallicFactor 1): metal and gloss are not modelled, these "
+                           "materials reflect diffusely. Near real mirrors the figures differ.",
                        Effect::figures});
   }
 }

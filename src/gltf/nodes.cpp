@@ -42,11 +42,11 @@ const tinygltf::Scene& find_scene(const Document& document, const std::string& n
                        "). Give --scene one of these names, or leave it out.");
 }
 
-// First scaled, then turned, then moved.
+// Scales, then rotates, then translates.
 glm::dmat4 transform_of(const glm::dvec3& translation, const glm::dquat& rotation, const glm::dvec3& scale) {
-  const glm::dmat3 turned = glm::mat3_cast(rotation);
-  return {glm::dvec4(turned[0] * scale.x, 0.0), glm::dvec4(turned[1] * scale.y, 0.0),
-          glm::dvec4(turned[2] * scale.z, 0.0), glm::dvec4(translation, 1.0)};
+  const glm::dmat3 rotated = glm::mat3_cast(rotation);
+  return {glm::dvec4(rotated[0] * scale.x, 0.0), glm::dvec4(rotated[1] * scale.y, 0.0),
+          glm::dvec4(rotated[2] * scale.z, 0.0), glm::dvec4(translation, 1.0)};
 }
 
 glm::dmat4 local_transform(const Document& document, const tinygltf::Node& node, const std::string& where) {
@@ -65,7 +65,7 @@ glm::dmat4 local_transform(const Document& document, const tinygltf::Node& node,
     const double length = glm::length(rotation);
     if (!(length > 0.0))
       refuse(document, where + " has a rotation of length 0 (allowed: a unit quaternion). Set its rotation.");
-    rotation = rotation / length;  // float quaternions are of length 1 to 10⁻⁷
+    rotation = rotation / length;  // the length of a float quaternion is 1 to 10⁻⁷
   }
   return transform_of(vector(node.translation, 0.0), rotation, vector(node.scale, 1.0));
 }
@@ -79,39 +79,45 @@ bool finite(const glm::dmat4& matrix) {
   return true;
 }
 
+// The root nodes of the scene, in the order of the file.
+std::vector<std::size_t> roots_of(const Document& document, const std::string& scene) {
+  const auto& nodes = document.model.nodes;
+  std::vector<std::size_t> roots;
+  if (document.model.scenes.empty() && scene.empty()) {
+    roots = roots_without_scene(document);
+    if (roots.empty() && !nodes.empty())
+      refuse(document, "every node has a parent: the nodes form a cycle (allowed: trees). Export the file again.");
+    return roots;
+  }
+  for (const int root : find_scene(document, scene).nodes)
+    roots.push_back(checked_index(document, root, nodes.size(), "a node of the scene"));
+  return roots;
+}
+
 }  // namespace
 
-std::vector<PlacedNode> place_nodes(const Document& document, const std::string& scene, const glm::dmat4& root_place) {
+std::vector<PlacedNode> place_nodes(const Document& document, const std::string& scene,
+                                    const glm::dmat4& root_transform) {
   const auto& nodes = document.model.nodes;
   struct Pending {
     std::size_t node;
     glm::dmat4 parent;
   };
-  std::vector<Pending> pending;
-  if (document.model.scenes.empty() && scene.empty()) {
-    for (const std::size_t root : roots_without_scene(document)) pending.push_back({root, root_place});
-    if (pending.empty() && !nodes.empty())
-      refuse(document, "every node is the child of another, in a circle. Export the file again.");
-  } else {
-    for (const int root : find_scene(document, scene).nodes) {
-      pending.push_back({checked_index(document, root, nodes.size(), "a node of the scene"), root_place});
-    }
-  }
-  std::reverse(pending.begin(), pending.end());  // the last is taken first
+  std::vector<Pending> pending;  // a stack: depth first, without recursion
+  const std::vector<std::size_t> roots = roots_of(document, scene);
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root, root_transform});
 
   std::vector<PlacedNode> placed;
-  std::vector<bool> seen(nodes.size(), false);
+  std::vector<bool> visited(nodes.size(), false);
   while (!pending.empty()) {
     const Pending next = pending.back();
     pending.pop_back();
     const auto& node = nodes[next.node];
     const std::string where = label("node", node.name, next.node);
-    if (seen[next.node]) {
-      refuse(document, where +
-                           " is reached twice: it has two parents or is its own ancestor (allowed: one parent). Export "
-                           "the file again.");
+    if (visited[next.node]) {
+      refuse(document, where + " has two parents or is its own ancestor (allowed: one parent). Export the file again.");
     }
-    seen[next.node] = true;
+    visited[next.node] = true;
     const glm::dmat4 world = next.parent * local_transform(document, node, where);
     if (!finite(world))
       refuse(document, "the transform of " + where + " is not finite. Set its position, rotation and scale.");
@@ -123,7 +129,7 @@ std::vector<PlacedNode> place_nodes(const Document& document, const std::string&
   return placed;
 }
 
-std::vector<glm::dmat4> mesh_places(const Document& document, const PlacedNode& placed) {
+std::vector<glm::dmat4> mesh_transforms(const Document& document, const PlacedNode& placed) {
   const auto& extensions = document.model.nodes[placed.index].extensions;
   const auto found = extensions.find("EXT_mesh_gpu_instancing");
   if (found == extensions.end()) return {placed.world};
@@ -140,7 +146,8 @@ std::vector<glm::dmat4> mesh_places(const Document& document, const PlacedNode& 
     const auto accessor = static_cast<int>(number_in(document, attributes, name, -1.0, where));
     list = read(document, accessor, std::string(name) + " of " + where);
     if (any && list.size() != count)
-      refuse(document, where + " do not have as many values of each kind. Export the file again.");
+      refuse(document, where + " do not have as many values of each kind (" + std::to_string(count) + " and " +
+                           std::to_string(list.size()) + "; allowed: equal numbers). Export the file again.");
     any = true;
     count = list.size();
     return list;
@@ -148,14 +155,16 @@ std::vector<glm::dmat4> mesh_places(const Document& document, const PlacedNode& 
   const auto translations = values("TRANSLATION", read_vectors, glm::dvec3(0.0));
   const auto rotations = values("ROTATION", read_rotations, glm::dquat(1.0, 0.0, 0.0, 0.0));
   const auto scales = values("SCALE", read_vectors, glm::dvec3(1.0));
-  std::vector<glm::dmat4> places;
+  std::vector<glm::dmat4> transforms;
   for (std::size_t k = 0; k < count; ++k) {
-    places.push_back(placed.world * transform_of(translations.empty() ? glm::dvec3(0.0) : translations[k],
-                                                 rotations.empty() ? glm::dquat(1.0, 0.0, 0.0, 0.0) : rotations[k],
-                                                 scales.empty() ? glm::dvec3(1.0) : scales[k]));
-    if (!finite(places.back())) refuse(document, where + ": a transform is not finite. Export the file again.");
+    transforms.push_back(placed.world * transform_of(translations.empty() ? glm::dvec3(0.0) : translations[k],
+                                                     rotations.empty() ? glm::dquat(1.0, 0.0, 0.0, 0.0) : rotations[k],
+                                                     scales.empty() ? glm::dvec3(1.0) : scales[k]));
+    if (!finite(transforms.back()))
+      refuse(document,
+             where + ": the transform of number " + std::to_string(k) + " is not finite. Export the file again.");
   }
-  return places;
+  return transforms;
 }
 
 }  // namespace lichtmc

@@ -1,4 +1,4 @@
-// The nodes of a scene with their places in the world.
+// The nodes of a scene with their world transforms.
 #pragma once
 
 #include <string>
@@ -17,17 +17,18 @@ struct PlacedNode {
   glm::dmat4 world{1.0};
 
   glm::dvec3 position() const { return glm::dvec3(world[3]); }
-  // The way it looks: its −Z. Not normalized, and 0 where the node is scaled to nothing.
+  // The direction of the node's −Z axis. Not normalized; 0 if the scale of the node is 0.
   glm::dvec3 forward() const { return -glm::dvec3(world[2]); }
 };
 
-// All nodes of the scene with this name; of the default scene, or the first, where the name is empty; all nodes without
-// a parent and theirs where the file has no scenes. Parents come before their children. `root` comes before every
-// node's own transform. Throws InputError where there is no such scene, a node has two parents or is its own ancestor,
-// or a transform is not finite.
-std::vector<PlacedNode> place_nodes(const Document& document, const std::string& scene, const glm::dmat4& root);
+// All nodes of the scene with this name, parents before their children. Empty name: the default scene, else the first
+// scene; all nodes if the file has no scenes. `root_transform` is the parent transform of the root nodes. Throws
+// InputError if the scene does not exist, if a node has two parents or is its own ancestor, or if a transform is not
+// finite.
+std::vector<PlacedNode> place_nodes(const Document& document, const std::string& scene,
+                                    const glm::dmat4& root_transform);
 
-// The places of a node's mesh: the node's own, or those of its instances (EXT_mesh_gpu_instancing).
-std::vector<glm::dmat4> mesh_places(const Document& document, const PlacedNode& placed);
+// The world transforms of a node's mesh: one, or one per instance (EXT_mesh_gpu_instancing).
+std::vector<glm::dmat4> mesh_transforms(const Document& document, const PlacedNode& placed);
 
 }  // namespace lichtmc

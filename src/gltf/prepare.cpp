@@ -10,9 +10,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int deepest = 256;
+constexpr int max_depth = 256;
 
-// The elements of a list, or none where it is missing or no list.
+// The elements of an array; none if it is missing or not an array.
 Json& list_in(Json& object, const char* name) {
   static thread_local Json none = Json::array();
   return object.is_object() && object.contains(name) && object[name].is_array() ? object[name] : none;
@@ -29,7 +29,7 @@ bool lacks_data(const Json& accessors, const Json& index) {
   return k < accessors.size() && accessors[k].is_object() && !accessors[k].contains("bufferView");
 }
 
-bool leave_out_compressed_indices(Json& json) {
+bool remove_compressed_indices(Json& json) {
   bool changed = false;
   const Json& accessors = list_in(json, "accessors");
   for (Json& mesh : list_in(json, "meshes")) {
@@ -69,14 +69,14 @@ bool nests_too_deep(const char* begin, const char* end) {
       continue;
     }
     if (*c == '"') in_text = true;
-    if ((*c == '{' || *c == '[') && ++depth > deepest) return true;
+    if ((*c == '{' || *c == '[') && ++depth > max_depth) return true;
     if (*c == '}' || *c == ']') --depth;
   }
   return false;
 }
 
 bool make_readable(Json& json) {
-  const bool indices = leave_out_compressed_indices(json);
+  const bool indices = remove_compressed_indices(json);
   const bool buffers = fill_empty_buffers(json);
   return indices || buffers;
 }

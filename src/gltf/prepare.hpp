@@ -1,4 +1,4 @@
-// What tinygltf trips over in sound files, put into a form that it takes.
+// Adapts JSON of valid files that tinygltf rejects.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace lichtmc {
 
-// Whether JSON text nests objects and arrays deeper than any glTF file does: parsers that call themselves for every
-// level would run out of stack.
+// Whether JSON text nests objects and arrays deeper than 256 levels. No glTF file needs that; recursive parsers would
+// exhaust the stack.
 bool nests_too_deep(const char* begin, const char* end);
 
-// Whether `json` was changed:
-//  * Indices without a buffer view, which only compressed meshes have, are left out; decompressing brings them back.
-//  * Buffers without data, into which EXT_meshopt_compression says to decompress, get three bytes of data; whoever
-//    decompresses does so elsewhere.
+// Adapts `json` to tinygltf. Returns whether it was changed.
+//  * Indices without a buffer view (in compressed meshes only) are removed; the decompression adds them again.
+//  * Buffers without data, the targets of EXT_meshopt_compression, get three bytes of data; lichtmc decompresses into
+//    buffers of its own.
 bool make_readable(nlohmann::json& json);
 
 }  // namespace lichtmc

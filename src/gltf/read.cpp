@@ -17,23 +17,24 @@ namespace lichtmc {
 
 namespace {
 
-// More triangles than any machine's memory holds as tiles: some hundreds of bytes each.
-constexpr std::size_t most_triangles = 200'000'000;
+// Limit for untrusted input: with tiles, a triangle takes some hundreds of bytes, this number more than the memory of
+// any machine.
+constexpr std::size_t max_triangles = 200'000'000;
 
-// Comes before the transforms of all nodes: the file's unit of length, and its axes where Z is up.
-glm::dmat4 root_place(const Document& document, const ReadOptions& options) {
+// The parent transform of all root nodes: converts the file's unit of length to metres, and a Z-up file to Y-up.
+glm::dmat4 root_transform(const Document& document, const ReadOptions& options) {
   if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
     refuse(document, "the scale is " + to_text(options.scale) +
                          " (allowed: a finite number above 0). Give --scale the length of the file's unit in metres, "
                          "for example 0.01 for centimetres.");
   }
-  glm::dmat4 place(1.0);
+  glm::dmat4 transform(1.0);
   if (options.up == UpAxis::z) {
-    place[1] = {0.0, 0.0, -1.0, 0.0};
-    place[2] = {0.0, 1.0, 0.0, 0.0};
+    transform[1] = {0.0, 0.0, -1.0, 0.0};
+    transform[2] = {0.0, 1.0, 0.0, 0.0};
   }
-  for (int k = 0; k < 3; ++k) place[k] *= options.scale;
-  return place;
+  for (int k = 0; k < 3; ++k) transform[k] *= options.scale;
+  return transform;
 }
 
 class RoomReader {
@@ -41,24 +42,24 @@ class RoomReader {
   RoomReader(const Document& document, const ReadOptions& options)
       : document_(&document),
         options_(&options),
-        maps_(document),
+        reflectance_maps_(document),
         used_materials_(document.model.materials.size(), false) {
     room_.source = document.file;
   }
 
   Room read() {
-    for (const PlacedNode& placed : place_nodes(*document_, options_->scene, root_place(*document_, *options_))) {
+    for (const PlacedNode& placed : place_nodes(*document_, options_->scene, root_transform(*document_, *options_))) {
       read_mesh(placed);
       if (auto light = read_light(*document_, placed, room_.ignored)) add_emitter(std::move(*light));
       if (auto receiver = read_receiver(*document_, placed)) room_.receivers.push_back(std::move(*receiver));
       note_node(placed);
     }
-    room_.reflectance_maps = maps_.take();
+    room_.reflectance_maps = reflectance_maps_.take();
     for (Surface& surface : room_.surfaces) surface.reflectance = mean_reflectance(room_, surface);
     note_ignored_materials(*document_, used_materials_, room_.ignored);
     note_file();
-    note_mending();
-    choose_quantity();
+    note_overrides();
+    set_quantity();
     return std::move(room_);
   }
 
@@ -69,7 +70,7 @@ class RoomReader {
     if (node.mesh < 0) return;
     const std::size_t index = checked_index(*document_, node.mesh, model.meshes.size(), "the mesh of " + placed.label);
     const auto& mesh = model.meshes[index];
-    const std::vector<glm::dmat4> places = mesh_places(*document_, placed);
+    const std::vector<glm::dmat4> transforms = mesh_transforms(*document_, placed);
     for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
       const auto& primitive = mesh.primitives[k];
       std::string where = label("mesh", mesh.name, index);
@@ -83,11 +84,11 @@ class RoomReader {
                          : !mesh.name.empty() ? mesh.name
                                               : "mesh_" + std::to_string(index);
       if (mesh.primitives.size() > 1) name += "." + (primitive.material >= 0 ? material.name : std::to_string(k));
-      for (const glm::dmat4& place : places) add_surface(place_primitive(*stored, place), name, material, where);
+      for (const glm::dmat4& world : transforms) add_surface(place_primitive(*stored, world), name, material, where);
     }
   }
 
-  // Whether a material's reflectance will be given as a number.
+  // Whether the reflectance of a material will be set as a number.
   bool by_number(int material) const {
     const auto& names = options_->numbered_materials;
     return std::find(names.begin(), names.end(), material_name(*document_, material)) != names.end();
@@ -95,37 +96,36 @@ class RoomReader {
 
   void add_surface(Surface surface, const std::string& name, const Material& material, const std::string& where) {
     if (surface.triangles.empty()) {
-      note("No triangle of " + where + " has an area (of " + std::to_string(surface.without_area) +
-               "): no light can fall on it.",
-           Effect::none);
+      note(
+          "None of the " + to_text(surface.without_area, "triangle") + " of " + where + " has an area: it is left out.",
+          Effect::none);
       return;
     }
     triangles_ += surface.triangles.size();
-    if (triangles_ > most_triangles) {
-      refuse(*document_, "the room has more than " + std::to_string(most_triangles) +
-                             " triangles, instances included. Split it, or simplify its meshes.");
+    if (triangles_ > max_triangles) {
+      refuse(*document_, "the room has more than " + std::to_string(max_triangles) +
+                             " triangles (the limit), including instances. Split it, or simplify its meshes.");
     }
     surface.name = unique(name);
     surface.material = material.name;
     surface.reflectance = material.reflectance;
     surface.sides = material.sides;
     if (material.base_colour && !surface.reflectance_uvs.empty()) {
-      surface.reflectance_map =
-          maps_.find_or_make(material.base_colour->texture, material.factor, "material " + in_quotes(material.name));
+      surface.reflectance_map = reflectance_maps_.find_or_make(material.base_colour->texture, material.factor,
+                                                               "material " + in_quotes(material.name));
     }
     room_.surfaces.push_back(std::move(surface));
     if (!material.emission) return;
-    add_shining(*material.emission);
+    add_area_light(*material.emission);
     if (material.sides == Sides::both) {
-      room_.ignored.push_back({"Surface " + in_quotes(room_.surfaces.back().name) +
-                                   " is two-sided and shines: it shines on its front only. Where that is the wrong "
-                                   "side, turn its faces.",
-                               Effect::figures});
+      note("Surface " + in_quotes(room_.surfaces.back().name) +
+               " is two-sided and emissive: it emits from its front only. If that is the wrong side, flip its faces.",
+           Effect::figures);
     }
   }
 
-  // The surface just read shines.
-  void add_shining(const Emission& emission) {
+  // Makes the surface added last an emitter.
+  void add_area_light(const Emission& emission) {
     const Surface& surface = room_.surfaces.back();
     FileEmitter emitter;
     emitter.emitter.name = surface.name;
@@ -140,17 +140,17 @@ class RoomReader {
     quantities_.push_back(emitter.quantity);
   }
 
-  void choose_quantity() {
+  // Photometric or radiometric: one quantity for the whole room.
+  void set_quantity() {
     const auto other = std::adjacent_find(quantities_.begin(), quantities_.end(), std::not_equal_to<>());
     if (other != quantities_.end()) {
       const auto k = static_cast<std::size_t>(other - quantities_.begin());
       const auto named = [&](std::size_t n) {
         return in_quotes(room_.emitters[n].name) + " is in " + std::string(power_unit(quantities_[n]));
       };
-      refuse(*document_, "powers are mixed: emitter " + named(k) + ", emitter " + named(k + 1) +
+      refuse(*document_, "the emitters have different units: emitter " + named(k) + ", emitter " + named(k + 1) +
                              " (allowed: one unit for all; lights and emissive materials are in lm unless their custom "
-                             "property 'unit' says \"W\"). "
-                             "Set 'power' and 'unit' alike.");
+                             "property 'unit' is \"W\"). Set 'power' and 'unit' of all emitters in the same unit.");
     }
     if (!quantities_.empty()) room_.quantity = quantities_.front();
     if (options_->quantity) room_.quantity = *options_->quantity;
@@ -158,7 +158,7 @@ class RoomReader {
 
   std::string unique(const std::string& name) {
     std::string candidate = name;
-    // From the last number used on: a file may have as many nodes of one name as it likes.
+    // Starts at the last number used: the cost stays low for many nodes of one name.
     for (int& n = last_number_[name]; !names_.insert(candidate).second;)
       candidate = name + "_" + std::to_string(n == 0 ? n = 2 : ++n);
     return candidate;
@@ -178,31 +178,31 @@ class RoomReader {
   void note_file() {
     const auto& model = document_->model;
     if (model.scenes.size() > 1) {
-      note("The file has " + std::to_string(model.scenes.size()) + " scenes; one is read (--scene NAME chooses).",
+      note("The file has " + std::to_string(model.scenes.size()) + " scenes; one is read (--scene NAME selects it).",
            Effect::none);
     }
     if (!model.animations.empty())
-      note(to_text(model.animations.size(), "animation") + ": the room is taken as it stands.", Effect::none);
+      note("Not applied: " + to_text(model.animations.size(), "animation") + ".", Effect::none);
     for (const std::string& name : model.extensionsUsed) {
       if (!is_known_extension(name)) note("The file uses the extension " + name + ", which is not read.", Effect::none);
     }
-    for (const std::string& warning : document_->warnings) note("While reading: " + warning, Effect::none);
+    for (const std::string& warning : document_->warnings) note("Message of the parser: " + warning, Effect::none);
   }
 
-  void note_mending() {
+  void note_overrides() {
     if (options_->scale != 1.0) room_.mended.push_back("Lengths multiplied by " + to_text(options_->scale) + ".");
-    if (options_->up == UpAxis::z) room_.mended.push_back("Turned: the file's Z axis points up.");
+    if (options_->up == UpAxis::z) room_.mended.push_back("Rotated from Z-up to Y-up.");
   }
 
   const Document* document_;
   const ReadOptions* options_;
   Room room_;
-  ReflectanceMaps maps_;
+  ReflectanceMaps reflectance_maps_;
   std::size_t triangles_ = 0;
   std::vector<Quantity> quantities_;  // of the emitters
   std::vector<bool> used_materials_;
   std::set<std::string> names_;
-  std::map<std::string, int> last_number_;  // given to names that were taken
+  std::map<std::string, int> last_number_;  // appended to make a name unique, by name
 };
 
 }  // namespace

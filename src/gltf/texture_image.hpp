@@ -1,4 +1,4 @@
-// A reflectance map as a picture.
+// Reflectance maps as images.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace lichtmc {
 
-// The map as a grey PNG of 8 bits a pixel, in sRGB as base colour textures are: ρ is rounded to one of 256 steps.
+// The map as a grey PNG file with 8 bits per pixel, in sRGB like base colour textures: ρ is rounded to one of 256
+// steps.
 std::string png_of(const ReflectanceMap& map);
 
 }  // namespace lichtmc

@@ -16,7 +16,7 @@ namespace lichtmc {
 
 namespace {
 
-constexpr double most_pixels = 0x1p28;
+constexpr double max_pixels = 0x1p28;
 
 glm::dvec2 pair_in(const Document& document, const tinygltf::Value& object, const char* name,
                    const glm::dvec2& otherwise, const std::string& where) {
@@ -25,12 +25,12 @@ glm::dvec2 pair_in(const Document& document, const tinygltf::Value& object, cons
   const bool numbers = value.IsArray() && value.ArrayLen() == 2 && value.Get(0).IsNumber() && value.Get(1).IsNumber();
   if (!numbers) {
     refuse(document, "'" + std::string(name) + "' of the texture transform of " + where +
-                         " is not made of two numbers. Export the file again.");
+                         " is not an array of two numbers. Export the file again.");
   }
   return {value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble()};
 }
 
-// Linear light of every value that a channel of n bits can have.
+// The linear value of every sRGB value of a channel.
 template <class Channel>
 std::vector<double> linear_values() {
   constexpr std::size_t count = std::size_t{1} << (8 * sizeof(Channel));
@@ -46,7 +46,7 @@ std::vector<float> luminances(const Channel* pixels, std::size_t count, const gl
   std::vector<float> values(count);
   for (std::size_t k = 0; k < count; ++k) {
     const Channel* p = pixels + 3 * k;
-    // Factors slightly above 1 by rounding make no surface brighter than white.
+    // A factor above 1 by rounding must not give a reflectance above 1.
     values[k] = static_cast<float>(
         std::min(luminance(factor.r * light[p[0]], factor.g * light[p[1]], factor.b * light[p[2]]), 1.0));
   }
@@ -68,15 +68,15 @@ void decode(const Document& document, const std::vector<unsigned char>& bytes, c
   int channels = 0;
   const auto reason = [] {
     const char* text = stbi_failure_reason();
-    return std::string(text != nullptr ? text : "no reason is given");
+    return std::string(text != nullptr ? text : "unknown reason");
   };
   const auto refuse_image = [&](const std::string& fault) {
     refuse(document, what + " cannot be read (" + fault +
-                         "; allowed: PNG or JPEG). Export its textures as PNG or JPEG, or give the material its "
-                         "reflectance: custom property 'reflectance', or --reflectance MATERIAL=R.");
+                         "; allowed: PNG or JPEG). Export its textures as PNG or JPEG, or set the reflectance of the "
+                         "material: custom property 'reflectance', or --reflectance MATERIAL=R.");
   };
   if (stbi_info_from_memory(bytes.data(), size, &columns, &rows, &channels) == 0) refuse_image(reason());
-  if (double{1} * columns * rows > most_pixels)
+  if (double{1} * columns * rows > max_pixels)
     refuse_image("it has " + std::to_string(columns) + " × " + std::to_string(rows) + " pixels, more than 2^28");
   map.columns = static_cast<std::uint32_t>(columns);
   map.rows = static_cast<std::uint32_t>(rows);
@@ -96,7 +96,7 @@ void decode(const Document& document, const std::vector<unsigned char>& bytes, c
 
 }  // namespace
 
-// The extension's own matrices, multiplied out.
+// The product of the matrices in the specification of the extension.
 glm::dvec2 UvTransform::operator()(const glm::dvec2& uv) const {
   const glm::dvec2 scaled = scale * uv;
   const double c = std::cos(rotation);
@@ -116,23 +116,24 @@ TextureUse read_texture_use(const Document& document, int texture, int uv_set, c
   use.transform.scale = pair_in(document, values, "scale", use.transform.scale, where);
   const double set = number_in(document, values, "texCoord", uv_set, what);
   if (!(set >= 0.0 && set < 1e6))
-    refuse(document, "'texCoord' of " + what + " is no number of a set. Export the file again.");
+    refuse(document, "'texCoord' of " + what + " is " + to_text(set) +
+                         " (allowed: the number of a UV set, below 1000000). Export the file again.");
   use.uv_set = static_cast<int>(set);
   return use;
 }
 
 std::size_t ReflectanceMaps::find_or_make(int texture, const glm::dvec3& factor, const std::string& where) {
-  const auto [entry, fresh] = made_.try_emplace({texture, factor.r, factor.g, factor.b}, maps_.size());
-  if (!fresh) return entry->second;
+  const auto [entry, inserted] = made_.try_emplace({texture, factor.r, factor.g, factor.b}, maps_.size());
+  if (!inserted) return entry->second;
 
   const auto& model = document_->model;
   const auto& used =
       model.textures[checked_index(*document_, texture, model.textures.size(), "the base colour texture of " + where)];
   if (used.source < 0) {
     refuse(*document_, "the base colour texture of " + where +
-                           " has no image that can be read (allowed: PNG or JPEG). Export its textures as PNG or JPEG, "
-                           "or give the material its reflectance: custom property 'reflectance', or --reflectance "
-                           "MATERIAL=R.");
+                           " has no image in a supported format (allowed: PNG or JPEG). Export its textures as PNG or "
+                           "JPEG, or set the reflectance of the material: custom property 'reflectance', or "
+                           "--reflectance MATERIAL=R.");
   }
   const std::size_t index =
       checked_index(*document_, used.source, model.images.size(), "the image of the base colour texture of " + where);
@@ -141,8 +142,8 @@ std::size_t ReflectanceMaps::find_or_make(int texture, const glm::dvec3& factor,
   const std::string what = "the image " + in_quotes(name) + ", base colour of " + where + ",";
   if (document_->images[index].empty()) {
     refuse(*document_, what +
-                           " is not there. Put it beside the room's file, or give the material its reflectance: custom "
-                           "property 'reflectance', or --reflectance MATERIAL=R.");
+                           " is missing. Copy it into the folder of the room file, or set the reflectance of the "
+                           "material: custom property 'reflectance', or --reflectance MATERIAL=R.");
   }
   ReflectanceMap map;
   map.name = name;

@@ -1,4 +1,4 @@
-// Textures: where on a picture a vertex lies, and pictures of base colour as reflectance.
+// Textures: texture coordinates of vertices, and reflectance maps from base colour textures.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace lichtmc {
 
-// KHR_texture_transform: scaled, turned by an angle, moved.
+// KHR_texture_transform: scale, rotation, translation.
 struct UvTransform {
   glm::dvec2 offset{0.0};
   double rotation = 0.0;  // rad
@@ -24,25 +24,26 @@ struct UvTransform {
   glm::dvec2 operator()(const glm::dvec2& uv) const;
 };
 
-// A material's use of a texture.
+// The reference of a material to a texture.
 struct TextureUse {
   int texture = -1;
-  int uv_set = 0;  // n of TEXCOORD_n, also where the transform names another
+  int uv_set = 0;  // n of TEXCOORD_n; that of the transform if it has one
   UvTransform transform;
 };
 
-// The use of a texture as the parser gives it (tinygltf has three types for it); `where` names the material.
+// Reads the reference to a texture; the arguments are those of tinygltf's three types for it. `where` names the
+// material.
 TextureUse read_texture_use(const Document& document, int texture, int uv_set, const tinygltf::ExtensionMap& extensions,
                             const std::string& where);
 
-// Makes reflectance maps of textures, one for every texture and factor.
+// Converts textures to reflectance maps, one for each pair of texture and factor.
 class ReflectanceMaps {
  public:
   explicit ReflectanceMaps(const Document& document) : document_(&document) {}
 
-  // The number of the map that a base colour texture and its factor (linear colours) make: the Rec. 709 luminance of
-  // their product, pixel by pixel. Throws InputError naming the material and the image where the image is missing,
-  // cannot be decoded (PNG and JPEG are), or has more than 2^28 pixels.
+  // The index of the reflectance map of a base colour texture and its factor (linear colours): the Rec. 709 luminance
+  // of their product, pixel by pixel. Throws InputError with the names of material and image if the image is missing,
+  // is neither PNG nor JPEG, is damaged, or has more than 2^28 pixels.
   std::size_t find_or_make(int texture, const glm::dvec3& factor, const std::string& where);
 
   std::vector<ReflectanceMap> take() { return std::move(maps_); }

@@ -215,7 +215,7 @@ TEST_CASE("damaged compressed data is refused with its location") {
                                     ContainsSubstring("cannot be decompressed"));
   draco = with_draco(plain, 14);
   draco.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"]["POSITION"] = 77;
-  CHECK_THAT(refusal_of(draco), ContainsSubstring("does not hold its attribute POSITION"));
+  CHECK_THAT(refusal_of(draco), ContainsSubstring("does not contain its attribute POSITION"));
 }
 
 TEST_CASE("a file in centimetres is read in metres, its emissive surfaces with the power of their true area") {
@@ -248,7 +248,7 @@ TEST_CASE("a file with Z up is rotated to Y up") {
   CHECK(room.surfaces[0].positions[2] == glm::dvec3(0, 2, -1));
   CHECK(first_normal(room.surfaces[0]) == glm::dvec3(0, 1, 0));
   CHECK(std::get<IsotropicEmitter>(room.emitters[0].shape).position == glm::dvec3(0.2, 0.2, -1));
-  CHECK(room.mended == std::vector<std::string>{"Turned: the file's Z axis points up."});
+  CHECK(room.mended == std::vector<std::string>{"Rotated from Z-up to Y-up."});
 }
 
 TEST_CASE("deeply nested JSON is refused before it is parsed") {
