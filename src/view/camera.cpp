@@ -12,7 +12,7 @@ namespace lichtmc {
 
 namespace {
 
-constexpr double elevation = 40.0 * std::numbers::pi / 180.0;   // above the horizon: floor and walls in equal parts
+constexpr double elevation = 40.0 * std::numbers::pi / 180.0;   // above the horizon: shows floor and walls alike
 constexpr double half_field = 14.0 * std::numbers::pi / 180.0;  // of view, along the longer side: little distortion
 constexpr double margin = 0.02;                                 // of the picture, on each side
 
@@ -40,8 +40,8 @@ Camera Camera::from_corner(const Bounds& box, double azimuth, std::size_t width,
   camera.middle_x_ = 0.5 * w;
   camera.middle_y_ = 0.5 * h;
 
-  // The eye goes back until all corners are in view; sideways and up until the outermost touch opposite margins alike.
-  // Each step halves what is left of the error, as the box is far off compared with its size.
+  // Moves the eye backwards until all corners are in view, and sideways and upwards until the picture is centred. Each
+  // step halves the remaining error, because the distance is large compared with the box.
   const glm::dvec3 centre = 0.5 * (box.low + box.high);
   const double size = std::max(glm::length(box.high - box.low), std::numeric_limits<double>::min());
   double distance = size / std::tan(half_field);

@@ -1,4 +1,4 @@
-// Where a picture is taken from.
+// Camera of a picture.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,18 @@ struct Ray {
   glm::dvec3 direction{0.0};  // length 1
 };
 
-// A camera that looks at a box and has all of it in its picture.
+// A camera with the whole of a box in its field of view.
 class Camera {
  public:
-  // From above at an angle, `azimuth` (rad) about the vertical: 0 looks along −z, π/2 along −x. Perspective.
+  // Oblique from above, in perspective. `azimuth` (rad) about the vertical: 0 views along −z, π/2 along −x.
   static Camera from_corner(const Bounds& box, double azimuth, std::size_t width, std::size_t height);
-  // Straight down, parallel rays: +x to the right, +z downwards.
+  // Plan view, parallel projection: +x to the right, +z downwards.
   static Camera from_above(const Bounds& box, std::size_t width, std::size_t height);
 
   // The ray through a point of the picture, in pixels from the top left.
   Ray ray(double x, double y) const;
 
-  // A place (m, 1) → (x, y, ·, w): pixel x/w, y/w.
+  // Point (m, 1) → (x, y, ·, w): pixel x/w, y/w.
   glm::dmat4 to_pixel() const;
 
  private:
@@ -35,7 +35,7 @@ class Camera {
   glm::dvec3 down_{0.0, 0.0, 1.0};
   glm::dvec3 forward_{0.0, -1.0, 0.0};
   bool perspective_ = true;
-  double scale_ = 1.0;  // pixels per m at distance 1 m from the eye, or anywhere where rays are parallel
+  double scale_ = 1.0;  // pixels per m: at a distance of 1 m in perspective, at any distance in parallel projection
   double middle_x_ = 0.0;
   double middle_y_ = 0.0;
 };

@@ -1,4 +1,4 @@
-// Colours of the maps, as the authors give them: 256 steps of sRGB in hexadecimal.
+// The colour maps as published by their authors: 256 sRGB colours in hexadecimal.
 // S. van der Walt, N. Smith, mpl colormaps (2015), in the public domain (CC0); as in Matplotlib 3.
 #include "view/colours.hpp"
 
@@ -55,7 +55,7 @@ constexpr int digit(char c) {
   return c <= '9' ? c - '0' : c - 'a' + 10;
 }
 
-// The light of each value of a channel.
+// The linear value of each sRGB value of a channel.
 std::array<float, 256> channel_lights() {
   std::array<float, 256> lights{};
   for (std::size_t k = 0; k < lights.size(); ++k)
@@ -72,7 +72,7 @@ glm::vec3 light_of(const Colour& colour) {
 
 Colour colour_at(ColourMap colours, double share) {
   const std::string_view map = colours == ColourMap::viridis ? viridis : inferno;
-  // The nearest step; what is not a number has the bottom colour.
+  // The nearest step; NaN gives the bottom colour.
   const double place = share > 0.0 ? std::min(share, 1.0) * (steps - 1) : 0.0;
   const auto first = 6 * static_cast<std::size_t>(std::lround(place));
   const auto channel = [&](std::size_t c) {

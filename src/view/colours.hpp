@@ -1,4 +1,4 @@
-// Colours as light.
+// Conversion of colours to linear values.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -7,7 +7,7 @@
 
 namespace lichtmc {
 
-// What a colour of a picture sends out, linear, 0 … 1 each.
+// Linear red, green and blue of an sRGB colour, 0 … 1 each.
 glm::vec3 light_of(const Colour& colour);
 
 }  // namespace lichtmc

@@ -11,9 +11,9 @@ namespace lichtmc {
 
 namespace {
 
-constexpr double same_direction = 0.99985;  // cos 1°: modelled by hand, rounded by exporters
-constexpr double same_plane = 1e-3;         // of the surface's extent
-constexpr int most_seeds = 200;             // a surface of so many planes has no large ones
+constexpr double same_direction = 0.99985;  // cos 1°: tolerance for manual modelling and rounding by exporters
+constexpr double same_plane = 1e-3;         // tolerance, relative to the extent of the surface
+constexpr int max_seeds = 200;              // a surface of more planes has no large ones
 
 }  // namespace
 
@@ -29,7 +29,7 @@ std::vector<FlatPiece> flat_pieces(const Surface& surface, double least_m2) {
 
   std::vector<FlatPiece> pieces;
   const auto corner = [&](std::uint32_t n, int k) { return surface.positions[surface.triangles[n][k]]; };
-  for (int seed = 0; seed < most_seeds && !left.empty() && area_left >= least_m2; ++seed) {
+  for (int seed = 0; seed < max_seeds && !left.empty() && area_left >= least_m2; ++seed) {
     FlatPiece piece;
     piece.normal = shapes[left.front()].normal;
     const glm::dvec3 place = corner(left.front(), 0);
@@ -41,7 +41,7 @@ std::vector<FlatPiece> flat_pieces(const Surface& surface, double least_m2) {
       return true;
     };
     const auto rest = std::stable_partition(left.begin(), left.end(), belongs);
-    if (rest == left.begin()) break;  // a triangle without area: none behind it has one
+    if (rest == left.begin()) break;  // a triangle without area: in descending order, the rest has none either
     for (auto n = left.begin(); n != rest; ++n) {
       piece.triangles.push_back(*n);
       piece.area_m2 += shapes[*n].area_m2;

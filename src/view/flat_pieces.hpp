@@ -1,4 +1,4 @@
-// The large flat pieces of a room's surfaces: walls, floors, table tops.
+// The large coplanar parts of a surface: walls, floors, table tops.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace lichtmc {
 
-// Triangles of one surface that lie in one plane, whether they touch or not: a wall with a door in it is one piece.
+// Coplanar triangles of one surface, connected or not: a wall with a door opening is one piece.
 struct FlatPiece {
   std::vector<std::uint32_t> triangles;  // indices into Surface::triangles
   glm::dvec3 normal{0.0};                // length 1, towards the front

@@ -12,7 +12,7 @@ namespace lichtmc {
 
 namespace {
 
-// A row or column of weighted values averaged with a Gaussian, in place.
+// Convolves a row or column with a Gaussian, in place.
 void blur(std::vector<double>& line, const std::vector<double>& kernel, std::vector<double>& result) {
   const auto n = static_cast<std::ptrdiff_t>(line.size());
   const auto reach = static_cast<std::ptrdiff_t>(kernel.size()) - 1;
@@ -43,17 +43,17 @@ void blur_both_ways(std::vector<double>& values, std::size_t columns, std::size_
   }
 }
 
-// Ends of pieces of line lie on the grid's edges. An edge's number: 2·point for the one to the right, + 1 downwards.
+// A line segment ends on edges of the grid. Number of an edge: 2 · (number of its point), + 1 for the edge downwards.
 using EdgeNumber = std::size_t;
 
-struct Piece {
+struct Segment {
   EdgeNumber from = 0;
   EdgeNumber to = 0;
 };
 
-class March {
+class MarchingSquares {
  public:
-  March(const Field& field, double level) : field_(&field), level_(level) {
+  MarchingSquares(const Field& field, double level) : field_(&field), level_(level) {
     for (std::size_t y = 0; y + 1 < field.rows; ++y) {
       for (std::size_t x = 0; x + 1 < field.columns; ++x) cross_square(x, y);
     }
@@ -61,11 +61,11 @@ class March {
 
   std::vector<Isoline> lines() {
     std::vector<Isoline> lines;
-    std::vector<bool> used(pieces_.size());
-    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    std::vector<bool> used(segments_.size());
+    for (std::size_t p = 0; p < segments_.size(); ++p) {
       if (used[p]) continue;
       used[p] = true;
-      std::deque<EdgeNumber> chain{pieces_[p].from, pieces_[p].to};
+      std::deque<EdgeNumber> chain{segments_[p].from, segments_[p].to};
       while (extend(chain.back(), used, [&](EdgeNumber e) { chain.push_back(e); })) {
       }
       while (extend(chain.front(), used, [&](EdgeNumber e) { chain.push_front(e); })) {
@@ -97,16 +97,16 @@ class March {
     if (n != 4) return;
     double mean = 0.0;
     for (const std::size_t c : corner) mean += 0.25 * field_->values[c];
-    // The middle belongs with corners 0 and 2, or with 1 and 3; the lines cut off the others.
+    // A saddle: the mean belongs to corners 0 and 2, or to corners 1 and 3; the lines separate the other two.
     const bool cut_1_and_3 = (mean >= level_) == above(corner[0]);
     add(crossed[0], crossed[cut_1_and_3 ? 1 : 3]);
     add(crossed[2], crossed[cut_1_and_3 ? 3 : 1]);
   }
 
   void add(EdgeNumber a, EdgeNumber b) {
-    at_[a].push_back(pieces_.size());
-    at_[b].push_back(pieces_.size());
-    pieces_.push_back({a, b});
+    at_[a].push_back(segments_.size());
+    at_[b].push_back(segments_.size());
+    segments_.push_back({a, b});
   }
 
   template <class Take>
@@ -114,7 +114,7 @@ class March {
     for (const std::size_t p : at_[end]) {
       if (used[p]) continue;
       used[p] = true;
-      take(pieces_[p].from == end ? pieces_[p].to : pieces_[p].from);
+      take(segments_[p].from == end ? segments_[p].to : segments_[p].from);
       return true;
     }
     return false;
@@ -132,8 +132,8 @@ class March {
 
   const Field* field_;
   double level_;
-  std::vector<Piece> pieces_;
-  std::map<EdgeNumber, std::vector<std::size_t>> at_;
+  std::vector<Segment> segments_;
+  std::map<EdgeNumber, std::vector<std::size_t>> at_;  // segments that end on an edge
 };
 
 }  // namespace
@@ -155,7 +155,7 @@ Field smoothed(const Field& field, double radius) {
 std::vector<double> round_levels(double low, double high, bool logarithmic) {
   std::vector<double> levels;
   if (logarithmic) {
-    // Down to a hundredth of the highest: below that lines would crowd.
+    // At most two decades: below, the lines would be too close to each other.
     const double least = std::max(low, 0.01 * high);
     for (int exponent = static_cast<int>(std::floor(std::log10(least))); std::pow(10.0, exponent) < high; ++exponent) {
       const double decade = std::pow(10.0, exponent);
@@ -173,7 +173,7 @@ std::vector<double> round_levels(double low, double high, bool logarithmic) {
 }
 
 std::vector<Isoline> lines_of(const Field& field, double level) {
-  return March(field, level).lines();
+  return MarchingSquares(field, level).lines();
 }
 
 }  // namespace lichtmc

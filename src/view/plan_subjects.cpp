@@ -10,14 +10,14 @@ namespace lichtmc {
 
 namespace {
 
-constexpr double least_share = 0.02;  // of the room's surface that a plan is worth
+constexpr double min_area_share = 0.02;  // of the room's surface area, for a plan
 
 class Subjects {
  public:
   Subjects(const Room& room, const Result& result, const LitSides& lit) : room_(&room), result_(&result), lit_(&lit) {
     double area = 0.0;
     for (const Surface& surface : room.surfaces) area += surface_area(surface);
-    for (std::size_t m = 0; m < result.tiling.maps.size(); ++m) add(m, least_share * area);
+    for (std::size_t m = 0; m < result.tiling.maps.size(); ++m) add(m, min_area_share * area);
     std::stable_sort(list_.begin(), list_.end(),
                      [](const PlanSubject& a, const PlanSubject& b) { return a.piece.area_m2 > b.piece.area_m2; });
   }
@@ -47,7 +47,7 @@ class Subjects {
     list_.push_back(std::move(whole));
   }
 
-  // Area whose front, and whose back, gets light, in m².
+  // Area in m² with a lit front face, and with a lit back face.
   std::pair<double, double> lit_areas(std::size_t surface, const FlatPiece& piece) const {
     double front = 0.0;
     double back = 0.0;

@@ -1,4 +1,4 @@
-// What plans are drawn of.
+// Selects the parts of surfaces that get a plan.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,16 @@
 
 namespace lichtmc {
 
-// A piece that gets a plan, seen from one side.
+// A flat piece and the side that its plan shows.
 struct PlanSubject {
   std::size_t map = 0;
-  FlatPiece piece;  // no triangles: the tile map as a whole
+  FlatPiece piece;  // without triangles: the whole tile map
   bool from_behind = false;
 };
 
-// The flat pieces that get light, and the tile maps of surfaces that are mostly of smaller pieces; largest first. A
-// piece is seen from the side that gets light on more of it; where both sides of a surface have tiles, from each that
-// gets some. What is less than 2 % of the room's surface is left out.
+// The lit flat pieces with at least 2 % of the room's surface area; for surfaces with less than half of their area in
+// such pieces, also the whole tile map. Largest first. The plan shows the side with the larger lit area; if both sides
+// have tiles, there is a plan of each lit side.
 std::vector<PlanSubject> plan_subjects(const Room& room, const Result& result, const LitSides& lit);
 
 }  // namespace lichtmc

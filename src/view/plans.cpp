@@ -1,4 +1,4 @@
-// Surfaces laid flat: each large flat piece in its own plane, curved surfaces as their tile maps.
+// Draws plans of surfaces: each large flat piece in its plane, curved surfaces as their tile maps.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,21 +24,22 @@ namespace lichtmc {
 
 namespace {
 
-constexpr std::size_t field_side = 240;    // points along the longer side of the field that isolines are drawn from
-constexpr double noise_of_a_step = 6.0;    // steps between isolines are at least so many standard errors of the field
-constexpr double shortest_line_px = 36.0;  // shorter ones are specks
+constexpr std::size_t field_side = 240;      // points along the longer side of the field for the isolines
+constexpr double min_step_in_errors = 6.0;   // step between isolines, in standard errors of the smoothed field
+constexpr double min_line_length_px = 36.0;  // shorter isolines are left out
+constexpr double levels_in_range = 6.0;      // about this many isolines
 
 struct Axes {
   glm::dvec3 across{1.0, 0.0, 0.0};  // length 1
   glm::dvec3 down{0.0, 0.0, 1.0};
 };
 
-// How to hold a piece whose normal points to the eye.
+// Directions of the picture for a piece whose normal points to the eye.
 Axes axes_for(const glm::dvec3& normal) {
   constexpr double steep = 0.7;
   Axes axes;
   if (std::abs(normal.y) > steep) {
-    // As from above, floor and ceiling alike, so that places in one picture are places in the other.
+    // Floors and ceilings from above: the same position in both pictures has the same x and z.
     const glm::dvec3 x(1.0, 0.0, 0.0);
     axes.across = glm::normalize(x - glm::dot(x, normal) * normal);
     axes.down = glm::cross(axes.across, normal);
@@ -47,7 +48,7 @@ Axes axes_for(const glm::dvec3& normal) {
   }
   const glm::dvec3 up(0.0, 1.0, 0.0);
   axes.down = -glm::normalize(up - glm::dot(up, normal) * normal);
-  axes.across = glm::cross(normal, axes.down);  // to the right of who looks at it
+  axes.across = glm::cross(normal, axes.down);  // to the right in front of the piece
   return axes;
 }
 
@@ -62,18 +63,18 @@ Picture empty_picture(double width, double height) {
 
 class PlanDrawer {
  public:
-  PlanDrawer(const Room& room, const Result& result, const ColourScale& scale, double longest)
-      : room_(&room), result_(&result), scale_(&scale), longest_(longest) {}
+  PlanDrawer(const Room& room, const Result& result, const ColourScale& scale, double longer_side)
+      : room_(&room), result_(&result), scale_(&scale), longer_side_(longer_side) {}
 
   SurfacePlan draw(const PlanSubject& subject) {
     SurfacePlan plan;
     plan.map = subject.map;
     plan.area_m2 = subject.piece.area_m2;
     tile_of_cell_ = nearest_tiles(result_->tiling.maps[subject.map]);
-    seen_.clear();
+    tile_of_pixel_.clear();
     if (subject.piece.triangles.empty()) {
       draw_map(plan);
-      plan.why_no_isolines = "Its tile map: a surface that is curved, or of many pieces, has no isolines.";
+      plan.why_no_isolines = "Tile map. No isolines: the surface is curved, or has many small flat parts.";
     } else {
       draw_piece(subject, plan);
       add_isolines(plan);
@@ -82,13 +83,13 @@ class PlanDrawer {
   }
 
  private:
-  // A place of the picture, in pixels, and of the grid, in cells.
+  // A point in the picture (pixels) and on the tile map (cells).
   struct Corner {
     glm::dvec2 pixel{0.0};
     glm::dvec2 cell{0.0};
   };
 
-  // Error and edge of a tile in the picture, as roots of the mean squares over its pixels.
+  // Standard error and edge of the tiles in the picture: root mean squares over its pixels.
   struct TypicalTile {
     double error = 0.0;
     double edge_m = 0.0;
@@ -97,18 +98,20 @@ class PlanDrawer {
   void draw_piece(const PlanSubject& subject, SurfacePlan& plan);
   void draw_map(SurfacePlan& plan);
   void fill(const std::array<Corner, 3>& triangle, SurfacePlan& plan);
-  void sum_up_seen(SurfacePlan& plan) const;
+  void set_statistics(SurfacePlan& plan) const;
   void set_pixel(SurfacePlan& plan, std::size_t pixel, std::uint32_t tile);
-  std::optional<TypicalTile> typical_tile() const;  // none where no tile is in the picture
+  std::optional<TypicalTile> typical_tile() const;  // none if the picture contains no tile
   void add_isolines(SurfacePlan& plan) const;
+  std::optional<double> smoothing_radius(const SurfacePlan& plan, const Field& field, double step,
+                                         const TypicalTile& tile) const;
   Field field_of(const SurfacePlan& plan, double step) const;
 
   const Room* room_;
   const Result* result_;
   const ColourScale* scale_;
-  double longest_;
+  double longer_side_;
   std::vector<std::uint32_t> tile_of_cell_;
-  std::vector<std::uint32_t> seen_;  // tile of each pixel
+  std::vector<std::uint32_t> tile_of_pixel_;
 };
 
 void PlanDrawer::set_pixel(SurfacePlan& plan, std::size_t pixel, std::uint32_t tile) {
@@ -117,10 +120,10 @@ void PlanDrawer::set_pixel(SurfacePlan& plan, std::size_t pixel, std::uint32_t t
   const Colour colour = colour_of(*scale_, irradiance);
   plan.picture.colour[pixel] = glm::vec4(light_of(colour), 1.0F);
   plan.picture.irradiance[pixel] = static_cast<float>(irradiance);
-  seen_[pixel] = tile;
+  tile_of_pixel_[pixel] = tile;
 }
 
-// Pixels whose middle lies in the triangle take the tile there.
+// Sets the pixels with their middle inside the triangle.
 void PlanDrawer::fill(const std::array<Corner, 3>& t, SurfacePlan& plan) {
   const TileMap& map = result_->tiling.maps[plan.map];
   const glm::dvec2 b = t[1].pixel - t[0].pixel;
@@ -139,8 +142,8 @@ void PlanDrawer::fill(const std::array<Corner, 3>& t, SurfacePlan& plan) {
       const glm::dvec2 p = glm::dvec2(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5) - t[0].pixel;
       const double s = (p.x * c.y - p.y * c.x) / area;
       const double r = (b.x * p.y - b.y * p.x) / area;
-      constexpr double rim = -1e-9;  // a pixel on the edge between two triangles belongs to either
-      if (s < rim || r < rim || s + r > 1.0 - rim) continue;
+      constexpr double tolerance = 1e-9;  // by rounding, a pixel on the edge of two triangles must not miss both
+      if (s < -tolerance || r < -tolerance || s + r > 1.0 + tolerance) continue;
       const glm::dvec2 cell = t[0].cell + s * (t[1].cell - t[0].cell) + r * (t[2].cell - t[0].cell);
       const auto column = std::min(static_cast<std::size_t>(std::max(cell.x, 0.0)), std::size_t{map.columns} - 1);
       const auto row = std::min(static_cast<std::size_t>(std::max(cell.y, 0.0)), std::size_t{map.rows} - 1);
@@ -166,9 +169,9 @@ void PlanDrawer::draw_piece(const PlanSubject& subject, SurfacePlan& plan) {
       depth = glm::dot(p, normal);
     }
   }
-  const double metre = longest_ / std::max(high.x - low.x, high.y - low.y);  // pixels
+  const double metre = longer_side_ / std::max(high.x - low.x, high.y - low.y);  // pixels
   plan.picture = empty_picture(metre * (high.x - low.x), metre * (high.y - low.y));
-  seen_.assign(plan.picture.colour.size(), no_tile);
+  tile_of_pixel_.assign(plan.picture.colour.size(), no_tile);
   plan.corner = low.x * axes.across + low.y * axes.down + depth * normal;
   plan.across = axes.across / metre;
   plan.down = axes.down / metre;
@@ -180,16 +183,16 @@ void PlanDrawer::draw_piece(const PlanSubject& subject, SurfacePlan& plan) {
     }
     fill(triangle, plan);
   }
-  sum_up_seen(plan);
+  set_statistics(plan);
 }
 
-// What the tiles in the picture get, each counted as a whole.
-void PlanDrawer::sum_up_seen(SurfacePlan& plan) const {
+// Mean, lowest and highest irradiance of the tiles in the picture; each tile counts with its whole area.
+void PlanDrawer::set_statistics(SurfacePlan& plan) const {
   double power = 0.0;
   double area = 0.0;
   std::vector<bool> counted(result_->tiles.size());
   plan.min_irradiance = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t tile : seen_) {
+  for (const std::uint32_t tile : tile_of_pixel_) {
     if (tile == no_tile || counted[tile]) continue;
     counted[tile] = true;
     const TileResult& found = result_->tiles[tile];
@@ -202,14 +205,14 @@ void PlanDrawer::sum_up_seen(SurfacePlan& plan) const {
   plan.mean_irradiance = area > 0.0 ? power / area : 0.0;
 }
 
-// Row 0 is the top row, as in the tile map's image.
+// Row 0 of the tile map is the top row, as in its OpenEXR image.
 void PlanDrawer::draw_map(SurfacePlan& plan) {
   const TileMap& map = result_->tiling.maps[plan.map];
   plan.flat = false;
-  const double cell = std::max(1.0, std::floor(longest_ / std::max(map.columns, map.rows)));
-  const double shrink = std::min(1.0, longest_ / std::max(map.columns, map.rows));
+  const double cell = std::max(1.0, std::floor(longer_side_ / std::max(map.columns, map.rows)));
+  const double shrink = std::min(1.0, longer_side_ / std::max(map.columns, map.rows));
   plan.picture = empty_picture(cell * shrink * map.columns, cell * shrink * map.rows);
-  seen_.assign(plan.picture.colour.size(), no_tile);
+  tile_of_pixel_.assign(plan.picture.colour.size(), no_tile);
   for (std::size_t y = 0; y < plan.picture.height; ++y) {
     for (std::size_t x = 0; x < plan.picture.width; ++x) {
       const std::size_t column = x * map.columns / plan.picture.width;
@@ -223,7 +226,7 @@ void PlanDrawer::draw_map(SurfacePlan& plan) {
   plan.max_irradiance = surface.max_irradiance;
 }
 
-// The tiles' irradiance at points `step` pixels apart.
+// The irradiance of the tiles at points `step` pixels apart.
 Field PlanDrawer::field_of(const SurfacePlan& plan, double step) const {
   Field field;
   field.columns = static_cast<std::size_t>(std::ceil(static_cast<double>(plan.picture.width) / step));
@@ -234,15 +237,15 @@ Field PlanDrawer::field_of(const SurfacePlan& plan, double step) const {
   for (std::size_t y = 0; y < field.rows; ++y) {
     for (std::size_t x = 0; x < field.columns; ++x) {
       const std::size_t pixel = pixel_at(y, plan.picture.height) * plan.picture.width + pixel_at(x, plan.picture.width);
-      const bool there = seen_[pixel] != no_tile;
-      field.values.push_back(there ? result_->tiles[seen_[pixel]].irradiance : 0.0);
+      const bool there = tile_of_pixel_[pixel] != no_tile;
+      field.values.push_back(there ? result_->tiles[tile_of_pixel_[pixel]].irradiance : 0.0);
       field.weight.push_back(there ? 1.0 : 0.0);
     }
   }
   return field;
 }
 
-// A field's values on the surface: least and greatest, but for a hundredth at either end, and the median.
+// The 1 % quantile, the median and the 99 % quantile of a field on the surface.
 struct Range {
   double low = 0.0;
   double middle = 0.0;
@@ -269,7 +272,7 @@ std::optional<PlanDrawer::TypicalTile> PlanDrawer::typical_tile() const {
   double variance = 0.0;
   double area = 0.0;
   double count = 0.0;
-  for (const std::uint32_t tile : seen_) {
+  for (const std::uint32_t tile : tile_of_pixel_) {
     if (tile == no_tile) continue;
     variance += std::pow(result_->tiles[tile].standard_error, 2);
     area += result_->tiling.tiles[tile].area_m2;
@@ -279,60 +282,69 @@ std::optional<PlanDrawer::TypicalTile> PlanDrawer::typical_tile() const {
   return TypicalTile{std::sqrt(variance / count), std::sqrt(area / count)};
 }
 
-void PlanDrawer::add_isolines(SurfacePlan& plan) const {
+// The radius in m of the Gaussian that makes the noise small compared with the step between isolines; none if no radius
+// does.
+std::optional<double> PlanDrawer::smoothing_radius(const SurfacePlan& plan, const Field& field, double step,
+                                                   const TypicalTile& tile) const {
   const double metre = 1.0 / glm::length(plan.across);  // pixels
-  const auto longer = static_cast<double>(std::max(plan.picture.width, plan.picture.height));
   const auto shorter = static_cast<double>(std::min(plan.picture.width, plan.picture.height));
-  const double step = std::max(1.0, longer / field_side);  // pixels between points of the field
+  // Averaged over a Gaussian of radius r, tiles of edge h with an error σ have the error σ·h/(2√π·r).
+  const double one = tile.error * tile.edge_m / (2.0 * std::sqrt(std::numbers::pi));
+  const double max_radius = std::max(0.1 * shorter / metre, 0.5 * tile.edge_m);  // m
+  const Range coarse = range_of(smoothed(field, std::clamp(max_radius * metre / step, 0.5, 1e3)));
+  const double wanted_step = (coarse.high - coarse.low) / levels_in_range;
+  const double radius =
+      std::clamp(min_step_in_errors * one / std::max(wanted_step, 1e-300), 0.6 * tile.edge_m, max_radius);
+  if (one / radius > 0.5 * wanted_step) return std::nullopt;
+  return radius;
+}
 
+void PlanDrawer::add_isolines(SurfacePlan& plan) const {
+  const auto longer = static_cast<double>(std::max(plan.picture.width, plan.picture.height));
+  const double step = std::max(1.0, longer / field_side);  // pixels between points of the field
   const auto tile = typical_tile();
   if (!tile) {
     plan.why_no_isolines = "No isolines: the surface is too narrow for them.";
     return;
   }
   if (!std::isfinite(tile->error)) {
-    plan.why_no_isolines = "No isolines: the errors of the tiles are not known. Simulate more photons.";
+    plan.why_no_isolines = "No isolines: the standard errors of the tiles are unknown. Simulate more photons.";
     return;
   }
   const Field field = field_of(plan, step);
-  // Averaged over a Gaussian of radius r, tiles of edge h with an error σ have the error σ·h/(2√π·r).
-  const double one = tile->error * tile->edge_m / (2.0 * std::sqrt(std::numbers::pi));
-  const double most_radius = std::max(0.1 * shorter / metre, 0.5 * tile->edge_m);  // m
-  const Range coarse = range_of(smoothed(field, std::clamp(most_radius * metre / step, 0.5, 1e3)));
-  const double wanted_step = (coarse.high - coarse.low) / 6.0;
-  const double radius =
-      std::clamp(noise_of_a_step * one / std::max(wanted_step, 1e-300), 0.6 * tile->edge_m, most_radius);
-  if (one / radius > 0.5 * wanted_step) {
+  const auto radius = smoothing_radius(plan, field, step, *tile);
+  if (!radius) {
     plan.why_no_isolines =
-        "No isolines: the differences over this surface are no larger than their errors. They appear with more "
-        "photons.";
+        "No isolines: the differences of irradiance on this surface do not exceed their standard errors. Simulate "
+        "more photons.";
     return;
   }
-  plan.smoothing_m = radius;
-  const Field smooth = smoothed(field, std::max(0.5, radius * metre / step));
+  plan.smoothing_m = *radius;
+  const double metre = 1.0 / glm::length(plan.across);  // pixels
+  const Field smooth = smoothed(field, std::max(0.5, *radius * metre / step));
   const Range range = range_of(smooth);
-  // A bright spot on a dark wall: even steps would all lie in the spot.
+  // A small bright area on a dark wall would contain all levels of a linear scale.
   const bool logarithmic = range.high > 8.0 * range.middle;
   for (const double level : round_levels(range.low, range.high, logarithmic)) {
     for (Isoline& line : lines_of(smooth, level)) {
       for (glm::dvec2& point : line.points) point = (point + 0.5) * step;
-      if (length_of(line) >= shortest_line_px) plan.isolines.push_back(std::move(line));
+      if (length_of(line) >= min_line_length_px) plan.isolines.push_back(std::move(line));
     }
   }
-  if (plan.isolines.empty()) plan.why_no_isolines = "No isolines: the light is even here.";
+  if (plan.isolines.empty()) plan.why_no_isolines = "No isolines: the irradiance is nearly uniform here.";
 }
 
 }  // namespace
 
 std::vector<SurfacePlan> draw_plans(const Room& room, const Result& result, const LitSides& lit,
-                                    const ColourScale& scale, std::size_t most, std::size_t longest) {
-  if (longest < 16 || longest > 4096)
-    throw InputError("The longer side of a plan is " + std::to_string(longest) +
-                     " pixels (allowed: 16 to 4096). Ask for another size.");
+                                    const ColourScale& scale, std::size_t max_plans, std::size_t longer_side) {
+  if (longer_side < 16 || longer_side > 4096)
+    throw InputError("The longer side of a plan is " + std::to_string(longer_side) +
+                     " pixels (allowed: 16 to 4096). Choose another size.");
   std::vector<SurfacePlan> plans;
-  PlanDrawer drawer(room, result, scale, static_cast<double>(longest));
+  PlanDrawer drawer(room, result, scale, static_cast<double>(longer_side));
   for (const PlanSubject& subject : plan_subjects(room, result, lit)) {
-    if (plans.size() == most) break;
+    if (plans.size() == max_plans) break;
     plans.push_back(drawer.draw(subject));
   }
   return plans;

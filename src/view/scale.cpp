@@ -1,4 +1,4 @@
-// Which irradiance gets which colour.
+// Colour scale: the colour of each irradiance.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -11,8 +11,8 @@ namespace lichtmc {
 
 namespace {
 
-// Irradiance that a share of the lit area stays below. By area, so that slivers at rims, where a single photon makes a
-// huge irradiance, do not set the scale.
+// The area-weighted quantile of the irradiance. Weighted by area because a single photon gives a very high irradiance
+// on the small tiles at borders, which must not determine the scale.
 double quantile(std::vector<std::pair<double, double>>& lit, double share) {
   double area = 0.0;
   for (const auto& [irradiance, own] : lit) area += own;
@@ -33,7 +33,7 @@ double round_up(double value) {
   return 10.0 * decade;
 }
 
-// The one before, or the value itself.
+// The largest of these numbers that does not exceed the value.
 double round_down(double value) {
   const double decade = std::pow(10.0, std::floor(std::log10(value)));
   double below = decade;
@@ -43,11 +43,11 @@ double round_down(double value) {
   return below;
 }
 
-// Where the brightest places are so many times as bright as the middle, linear colours would leave half of the room
-// in the lowest tenth of the scale.
+// If the top of the scale exceeds the median by this factor, a linear scale shows half of the lit area in its lowest
+// tenth.
 constexpr double contrast_for_logarithm = 10.0;
-// A logarithmic scale spans at most so much; what is darker has the bottom colour.
-constexpr double most_decades = 3.0;
+// Range of a logarithmic scale; lower values have the bottom colour.
+constexpr double max_decades = 3.0;
 // Shares of the lit area that are brighter than the scale's top, and darker than the bottom of a logarithmic one.
 constexpr double above_top = 0.02;
 constexpr double below_bottom = 0.05;
@@ -62,16 +62,15 @@ double ColourScale::share(double irradiance) const {
 
 ColourScale choose_scale(const Result& result, const ScaleOptions& options) {
   if (options.high && !(*options.high >= least_scale_top && *options.high <= greatest_scale_top)) {
-    throw InputError(
-        "The top of the colour scale is " + to_text(*options.high) + " " +
-        std::string(irradiance_unit(result.quantity)) +
-        " (allowed: a number above 0, from 1e-300 to 1e300). Give --scale-max such a number, or leave it out.");
+    throw InputError("The top of the colour scale is " + to_text(*options.high) + " " +
+                     std::string(irradiance_unit(result.quantity)) +
+                     " (allowed: a number above 0, from 1e-300 to 1e300). Give --scale-max such a number, or omit it.");
   }
   std::vector<std::pair<double, double>> lit;
   for (std::size_t t = 0; t < result.tiles.size(); ++t) {
     if (result.tiles[t].irradiance > 0.0) lit.emplace_back(result.tiles[t].irradiance, result.tiling.tiles[t].area_m2);
   }
-  // Where only receivers were measured the scale is theirs.
+  // Without results of tiles, the receivers determine the scale.
   if (lit.empty()) {
     for (const ReceiverResult& receiver : result.receiver_results) {
       if (receiver.irradiance > 0.0) lit.emplace_back(receiver.irradiance, 1.0);
@@ -85,7 +84,7 @@ ColourScale choose_scale(const Result& result, const ScaleOptions& options) {
   const bool contrast = !lit.empty() && top > contrast_for_logarithm * quantile(lit, 0.5);
   scale.logarithmic = options.type == ScaleType::logarithmic || (options.type == ScaleType::automatic && contrast);
   if (scale.logarithmic) {
-    const double least = scale.high / std::pow(10.0, most_decades);
+    const double least = scale.high / std::pow(10.0, max_decades);
     const double dark = lit.empty() ? least : round_down(quantile(lit, below_bottom));
     scale.low = std::clamp(dark, least, 0.1 * scale.high);
   }
