@@ -1,4 +1,4 @@
-// Looking a room over before it is simulated: what will be modelled, what looks wrong, and what to do about it.
+// Checks a room before the simulation: what will be modelled, what is probably wrong, and what to do.
 #pragma once
 
 #include <cstddef>
@@ -17,26 +17,26 @@
 namespace lichtmc {
 
 enum class Severity {
-  note,     // as it should be, or without consequence
-  warning,  // figures may mean something else than is thought
-  fault,    // the room cannot be simulated as it is
+  note,     // information; no influence on the figures
+  warning,  // the figures may not have the meaning that the user expects
+  fault,    // the room cannot be simulated
 };
 
-// Something that was found. `topic` is a stable word for programs: "size", "up-axis", "emitters", "receivers",
+// One finding. `topic` is a stable word for programs: "size", "up-axis", "emitters", "receivers",
 // "not-modelled", "open-edges", "openings", "behind", "duplicates", "zero-area", "reflectance", "texture-coordinates",
 // "tiles", "shape", "trapped-light", "room".
 struct Finding {
   Severity severity = Severity::note;
   std::string topic;
-  std::string text;    // what is there, and where
+  std::string text;    // what was found, and where
   std::string advice;  // what to do
 };
 
 struct SurfaceFacts {
   std::string name;
   std::string material;
-  double reflectance = 0.0;          // its mean, where a texture says it
-  double highest_reflectance = 0.0;  // anywhere on it
+  double reflectance = 0.0;          // with a reflectance map: its mean
+  double highest_reflectance = 0.0;  // of any point of the surface
   double area_m2 = 0.0;              // one side
   std::size_t triangles = 0;
   std::size_t triangles_without_area = 0;  // left out
@@ -44,41 +44,42 @@ struct SurfaceFacts {
   ChartSource chart = ChartSource::file;
   std::string chart_reason;      // why the engine made the chart
   std::uint64_t tiles = 0;       // of both sides
-  double cells_over_area = 1.0;  // area of the chart's cells over that of the surface: how much of the grid is waste
-  double seen_from_behind = std::numeric_limits<double>::quiet_NaN();  // share of the light that came from behind, 0 …
-                                                                       // 1; NaN where none fell on it
+  double cells_over_area = 1.0;  // area of the chart's cells / area of the surface: 1 if no cell is empty
+  double seen_from_behind = std::numeric_limits<double>::quiet_NaN();  // share of the impacts on the back face, 0 … 1;
+                                                                       // NaN without impacts
 };
 
-// Where light leaves the room: the side of the room's bounding box that it passes.
+// Light leaves the room through this side of the room's bounding box.
 struct Opening {
   std::string side;       // "-x", "+x", "-y" (below), "+y" (above), "-z" or "+z"
   double share = 0.0;     // of all flights that leave the room
-  glm::dvec3 place{0.0};  // m, where the first one passed
-  std::string from;       // the surface it came from; empty: straight from an emitter
+  glm::dvec3 place{0.0};  // m, point where the first of them crosses the bounding box
+  std::string from;       // the surface where that flight began; empty: an emitter
 };
 
 struct Inspection {
-  glm::dvec3 low{0.0};  // m, bounds of all surfaces
+  glm::dvec3 low{0.0};  // m, bounding box of all surfaces
   glm::dvec3 high{0.0};
   std::size_t triangles = 0;                 // with an area
   std::size_t triangles_without_area = 0;    // left out
-  std::size_t duplicate_triangles = 0;       // with the corners of another
-  std::size_t open_edges = 0;                // that one triangle alone has
-  std::vector<glm::dvec3> open_edge_places;  // m, the middle of the first few
+  std::size_t duplicate_triangles = 0;       // with the same corners as another triangle
+  std::size_t open_edges = 0;                // edges of only one triangle
+  std::vector<glm::dvec3> open_edge_places;  // m, midpoints of the first few
   bool cuboid = false;
   bool convex = false;
-  bool closed = false;  // light from inside cannot leave: all of it starts in closed shells
+  bool closed = false;  // every emitter is inside a watertight mesh: no light can leave the room
 
-  // Flights of light that is never absorbed, from the emitters; where there are none, from a place inside.
-  glm::dvec3 inside{0.0};  // m, a place inside with a wide view
+  // Flights of photons that are never absorbed, from the emitters of the room; if the room cannot be simulated, from an
+  // isotropic emitter at `inside`.
+  glm::dvec3 inside{0.0};  // m, a point inside the room, enclosed by surfaces
   std::uint64_t flights = 0;
   std::uint64_t flights_that_left = 0;
-  std::vector<Opening> openings;  // the widest first
+  std::vector<Opening> openings;  // in descending order of `share`
 
   std::uint64_t tiles = 0;
-  double memory_bytes = 0.0;     // about what a run with one thread takes for the tiles
-  double suggested_scale = 1.0;  // for ReadOptions::scale, beside what was given; 1 where the size is plausible
-  bool looks_z_up = false;
+  double memory_bytes = 0.0;     // estimate for the tiles of a run with one thread
+  double suggested_scale = 1.0;  // factor on ReadOptions::scale; 1 if the size is plausible
+  bool looks_z_up = false;       // the room is probably Z-up
 
   std::vector<SurfaceFacts> surfaces;
   std::vector<Finding> findings;  // faults first, then warnings, then notes
@@ -86,14 +87,14 @@ struct Inspection {
   std::size_t count(Severity severity) const;
 };
 
-// Looks over a room as run() would take it, with tiles of this edge. Shoots some hundred thousand rays; takes seconds
-// for rooms of 10⁵ triangles. Throws InputError where the room has no triangle with an area or its numbers do not fit
-// (check_room()); what else would stop a simulation is a finding.
+// Checks a room with tiles of this edge. Traces some 10⁵ rays; takes seconds for rooms of 10⁵ triangles. Throws
+// InputError if its surfaces or reflectance maps are invalid (check_room()) or no triangle has an area. Other reasons
+// why the room cannot be simulated are findings.
 Inspection inspect(const Room& room, double tile_edge_m = 0.1);
-// The same where make_tiling(room, tile_edge_m) is at hand: tiles may be more than memory holds twice.
+// The same with the result of make_tiling(room, tile_edge_m): avoids a second copy of the tiles in memory.
 Inspection inspect(const Room& room, const Tiling& tiling, double tile_edge_m);
 
-// Everything that an inspection found, with the room's emitters and receivers, as JSON.
+// All results of an inspection, with the emitters and receivers of the room, as JSON.
 std::string inspection_json(const Room& room, const Inspection& inspection);
 
 }  // namespace lichtmc

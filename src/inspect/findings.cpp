@@ -28,7 +28,7 @@ std::string size_text(const glm::dvec3& size) {
   return short_number(size.x) + " × " + short_number(size.y) + " × " + short_number(size.z) + " m";
 }
 
-// "'a', 'b', 'c' and 4 more": names of which a few are enough.
+// A list of names that shows the first few: "'a', 'b', 'c', 'd', 'e' and 4 more".
 class Names {
  public:
   void add(const std::string& text) {
@@ -45,9 +45,9 @@ class Names {
   std::string text_;
 };
 
-class ProgressReporter {
+class FindingsCollector {
  public:
-  ProgressReporter(const Room& room, Inspection& facts) : room_(room), facts_(facts) {}
+  FindingsCollector(const Room& room, Inspection& facts) : room_(room), facts_(facts) {}
 
   void report() {
     size();
@@ -90,40 +90,40 @@ class ProgressReporter {
   Inspection& facts_;
 };
 
-void ProgressReporter::size() {
+void FindingsCollector::size() {
   const glm::dvec3 size = facts_.high - facts_.low;
   const std::string is = "The room is " + size_text(size) + " (x, height y, z)";
   if (const auto unit = guess_unit(size)) {
     add(Severity::warning, "size",
-        is + ", which no room is. In " + unit->name + " it would be " + size_text(size * unit->metres) + ".",
-        "Give --scale " + to_text(unit->metres) + " where that is what it is, or export it in metres.");
+        is + ", which is not plausible. In " + unit->name + " it would be " + size_text(size * unit->metres) + ".",
+        "If that is right, give --scale " + to_text(unit->metres) + ", or export the room in metres.");
     return;
   }
   constexpr double smallest_room = 1.0;
   if (std::max({size.x, size.y, size.z}) < smallest_room) {
-    add(Severity::warning, "size", is + ", which is less than any room.",
-        "Where it is a model, give --scale the length of its unit in metres; the illuminance that lamps of a given "
-        "power make goes with 1/length².");
+    add(Severity::warning, "size", is + ", which is small for a room.",
+        "If the file is not in metres, give --scale the length of its unit in metres: for a given power of the "
+        "emitters, "
+        "the irradiance is proportional to 1/length².");
     return;
   }
-  add(Severity::note, "size", is + ".", "Where it is not, give --scale the length of the file's unit in metres.");
+  add(Severity::note, "size", is + ".", "If that is wrong, give --scale the length of the file's unit in metres.");
 }
 
-void ProgressReporter::up_axis() {
+void FindingsCollector::up_axis() {
   if (!facts_.looks_z_up) return;
-  add(Severity::warning, "up-axis",
-      "Most of what is flat lies across Z, not across Y: the room seems to lie on its side.",
-      "Give --up z where Z is up in the program it comes from, or export it with Y up.");
+  add(Severity::warning, "up-axis", "More area is perpendicular to Z than to Y: the room is probably Z-up.",
+      "If it is, give --up z, or export the room with Y up.");
 }
 
-void ProgressReporter::emitters() {
-  // What check_room() said of it, with a place for a lamp.
+void FindingsCollector::emitters() {
+  // Extends the advice of check_room() by a possible position.
   const auto fault = std::find_if(facts_.findings.begin(), facts_.findings.end(),
                                   [](const Finding& f) { return f.topic == "emitters"; });
   if (room_.emitters.empty() && fault != facts_.findings.end()) {
     fault->advice =
-        "Add a point or spot light or an emissive material to the room, or give one with --light, for example inside "
-        "it: --light point:" +
+        "Add a point or spot light or an emissive material to the room, or give --light, for example at a point inside "
+        "the room: --light point:" +
         short_number(facts_.inside.x) + "," + short_number(facts_.inside.y) + "," + short_number(facts_.inside.z) +
         ":1000lm.";
   }
@@ -134,72 +134,72 @@ void ProgressReporter::emitters() {
     if (emitter.power == 0.0) dark.add(in_quotes(emitter.name));
   }
   if (dark.count() > 0) {
-    add(Severity::warning, "emitters", to_text(dark.count(), "emitter") + " without power: " + dark.text() + ".",
-        "Set their strength, or the custom property 'power'; or remove them.");
+    add(Severity::warning, "emitters", to_text(dark.count(), "emitter") + " with power 0: " + dark.text() + ".",
+        "Set the intensity or strength, or the custom property 'power'; or remove the emitters.");
   }
   const glm::dvec3 size = facts_.high - facts_.low;
   const double power = total_power(room_);
   const double mean = power / (size.x * size.z);
   if (room_.quantity != Quantity::photometric || !(power > 0.0) || !std::isfinite(mean)) return;
-  // Night light to full daylight, over the floor; offices have some 10³.
+  // Luminous flux per floor area in lm/m²: a night light to full daylight; offices have some 10³.
   constexpr double least = 1.0;
   constexpr double most = 1e5;
   if (mean >= least && mean <= most) return;
   add(Severity::warning, "emitters",
-      "The emitters have " + short_number(power) + " lm together, " + short_number(mean) +
-          " lm for every square metre of floor; rooms have some hundreds.",
-      "Check the lamps' strengths: lights in glTF are in candela, emissive strength is in cd/m². The custom property "
-      "'power' says it in lm.");
+      "The total luminous flux of the emitters is " + short_number(power) + " lm, " + short_number(mean) +
+          " lm for every square metre of floor; rooms usually have some hundreds.",
+      "Check the emitters: glTF gives the intensity of lights in cd and the luminance of emissive materials in cd/m². "
+      "The custom property 'power' gives the luminous flux in lm.");
 }
 
-void ProgressReporter::receivers() {
+void FindingsCollector::receivers() {
   if (room_.receivers.empty()) return;
   add(Severity::note, "receivers",
-      to_text(room_.receivers.size(), "receiver") + ", the first " + in_quotes(room_.receivers.front().name) + ".",
-      "A run measures the tiles and at the receivers.");
+      to_text(room_.receivers.size(), "receiver") + ", the first is " + in_quotes(room_.receivers.front().name) + ".",
+      "A run computes the irradiance of the tiles and at the receivers.");
 }
 
-void ProgressReporter::not_modelled() {
+void FindingsCollector::not_modelled() {
   for (const Ignored& thing : room_.ignored) {
     const bool matters = thing.effect == Effect::figures;
     add(matters ? Severity::warning : Severity::note, "not-modelled", thing.what,
-        matters ? "Figures may differ for it: remove it from the room, or take it into account."
-                : "Nothing to do: figures are the same without it.");
+        matters ? "This may change the figures: remove it from the room, or take it into account."
+                : "Nothing to do: it has no influence on the figures.");
   }
 }
 
-void ProgressReporter::openings() {
+void FindingsCollector::openings() {
   if (facts_.flights == 0) return;
   if (facts_.flights_that_left == 0) {
     add(Severity::note, "openings", "None of " + std::to_string(facts_.flights) + " flights of light left the room.",
-        "Nothing to do; where it should have a window or a door, cut one.");
+        "Nothing to do. If the room has an open window or door, model the opening.");
     return;
   }
   const double share = static_cast<double>(facts_.flights_that_left) / static_cast<double>(facts_.flights);
   std::string where;
   for (const Opening& opening : facts_.openings) {
-    where += (where.empty() ? "" : "; ") + percent(opening.share) + " of it through the side " + opening.side +
-             ", first at " + text_of(opening.place) + " m";
+    where += (where.empty() ? "" : "; ") + percent(opening.share) + " of them through the side " + opening.side +
+             ", the first at " + text_of(opening.place) + " m";
     if (!opening.from.empty()) where += " from " + in_quotes(opening.from);
   }
   add(Severity::warning, "openings",
       percent(share) + " of " + std::to_string(facts_.flights) + " flights of light leave the room: " + where + ".",
-      "Light that leaves does not come back. Where that is no window, door or open side, close the room there.");
+      "Light that leaves does not return. If there is no window, door or open side, close the room there.");
 }
 
-void ProgressReporter::open_edges() {
+void FindingsCollector::open_edges() {
   if (facts_.open_edges == 0) return;
   Names places;
   for (const glm::dvec3& p : facts_.open_edge_places) places.add(text_of(p));
   const bool leaks = facts_.flights_that_left > 0;
   add(leaks ? Severity::warning : Severity::note, "open-edges",
-      to_text(facts_.open_edges, "edge") + " of the meshes belong to one triangle only, the first at " + places.text() +
-          " m: rims of sheets, holes, or edges that meet others in their middle.",
-      leaks ? "Where light should not leave, join the meshes there (in Blender: Merge by Distance, Fill)."
+      to_text(facts_.open_edges, "edge") + (facts_.open_edges == 1 ? " belongs" : " belong") +
+          " to only one triangle, the first at " + places.text() + " m: borders of open meshes, holes, or T-junctions.",
+      leaks ? "If light should not leave there, join the meshes (in Blender: Merge by Distance, Fill)."
             : "Nothing to do: no light left the room through them.");
 }
 
-void ProgressReporter::seen_from_behind() {
+void FindingsCollector::seen_from_behind() {
   constexpr double mostly = 0.5;
   Names away;
   for (const SurfaceFacts& surface : facts_.surfaces) {
@@ -209,9 +209,10 @@ void ProgressReporter::seen_from_behind() {
   if (away.count() > 0) {
     add(Severity::note, "behind",
         to_text(away.count(), "surface") + " of " + std::to_string(facts_.surfaces.size()) +
-            " get most of their light from behind, their faces look away from it: " + away.text() + ".",
-        "Nothing to do: surfaces reflect on the side that is hit. Renderers may not show them; recalculate their "
-        "normals there.");
+            " receive most of their light on the back face: " + away.text() + ".",
+        "Nothing to do: the side that is hit reflects. Other renderers may not show these faces; there, recalculate "
+        "the "
+        "normals.");
   }
   for (const Emitter& emitter : room_.emitters) {
     const std::optional<std::size_t> number = emitting_surface(emitter);
@@ -219,31 +220,33 @@ void ProgressReporter::seen_from_behind() {
     const SurfaceFacts& surface = facts_.surfaces[*number];
     if (surface.sides != Sides::one || !(surface.seen_from_behind > mostly)) continue;
     add(Severity::warning, "behind",
-        "The shining surface " + in_quotes(surface.name) +
-            " shines from its front, but light of the room falls on its back: it seems to shine away from the room.",
-        "Turn its faces over (in Blender: Mesh, Normals, Flip) where that is not meant.");
+        "The emissive surface " + in_quotes(surface.name) +
+            " emits from its front face, but receives the light of the room on its back face: it probably emits away "
+            "from the room.",
+        "If that is wrong, flip its faces (in Blender: Mesh, Normals, Flip).");
   }
 }
 
-void ProgressReporter::duplicates() {
+void FindingsCollector::duplicates() {
   if (facts_.duplicate_triangles == 0) return;
   add(Severity::warning, "duplicates",
-      to_text(facts_.duplicate_triangles, "triangle") +
-          " lie exactly on others. Light falls on either of the two, which one is left to rounding.",
-      "Their tiles share the light between them: remove the copies (in Blender: Merge by Distance on each mesh), above "
-      "all where they have different materials.");
+      to_text(facts_.duplicate_triangles, "triangle") + (facts_.duplicate_triangles == 1 ? " has" : " have") +
+          " the same corners as another. Rounding decides which of the two a photon hits.",
+      "The tiles of both share the light: remove the copies (in Blender: Merge by Distance on each mesh), especially "
+      "if "
+      "their materials differ.");
 }
 
-void ProgressReporter::zero_area() {
+void FindingsCollector::zero_area() {
   if (facts_.triangles_without_area == 0) return;
   add(Severity::note, "zero-area",
       to_text(facts_.triangles_without_area, "triangle") + " of " +
           std::to_string(facts_.triangles + facts_.triangles_without_area) + " have no area and are left out.",
-      "Nothing to do: no light can fall on them.");
+      "Nothing to do: they receive no light.");
 }
 
-void ProgressReporter::reflectances() {
-  constexpr double doubtful = 0.95;  // fresh snow; white paint has 0.85
+void FindingsCollector::reflectances() {
+  constexpr double doubtful = 0.95;  // reflectance of fresh snow; white paint has 0.85
   std::map<std::string, double> high;
   for (const SurfaceFacts& surface : facts_.surfaces) {
     if (!(surface.highest_reflectance > doubtful)) continue;
@@ -256,14 +259,15 @@ void ProgressReporter::reflectances() {
     names.add(in_quotes(material) + " (" + short_number(reflectance) + ")");
   add(Severity::warning, "reflectance",
       to_text(high.size(), "material") + (high.size() == 1 ? " reflects" : " reflect") +
-          " more than 95 % of the light, as a whole or in places, which hardly any real surface does: " + names.text() +
+          " more than 95 % of the light, everywhere or in some places; hardly any real surface does: " + names.text() +
           ".",
-      "Set the custom property 'reflectance', or give --reflectance MATERIAL=R or --max-reflectance 0.9. Light grows "
-      "with 1/(1 − ρ): from 0.9 to 0.99 tenfold.");
+      "Set the custom property 'reflectance', or give --reflectance MATERIAL=R or --max-reflectance 0.9. The "
+      "irradiance is proportional to 1/(1 − ρ) if all surfaces have the reflectance ρ: from 0.9 to 0.99 it increases "
+      "tenfold.");
 }
 
-void ProgressReporter::texture_coordinates() {
-  // By what is wrong with them: the first words of the reason.
+void FindingsCollector::texture_coordinates() {
+  // Grouped by the first words of the reason.
   std::map<std::string, Names> by_fault;
   for (const SurfaceFacts& surface : facts_.surfaces) {
     if (surface.chart != ChartSource::engine) continue;
@@ -272,53 +276,52 @@ void ProgressReporter::texture_coordinates() {
   }
   for (const auto& [fault, names] : by_fault) {
     add(Severity::note, "texture-coordinates",
-        to_text(names.count(), "surface") + ": " + fault + " (" + names.text() + "). Tiles are laid out anew there.",
-        "Nothing to do; for a layout of your own unwrap them without overlaps into a second UV map.");
+        to_text(names.count(), "surface") + ": " + fault + " (" + names.text() + "). lichtmc makes the charts there.",
+        "Nothing to do. For charts of your own, unwrap the meshes without overlaps into a second UV map.");
   }
 }
 
-void ProgressReporter::tiles() {
+void FindingsCollector::tiles() {
   if (facts_.tiles == 0) return;
   constexpr double large = 2e9;
   add(facts_.memory_bytes > large ? Severity::warning : Severity::note, "tiles",
       to_text(static_cast<std::size_t>(facts_.tiles), "tile") + ", about " + short_number(facts_.memory_bytes / 1e6) +
-          " MB of memory for each thread.",
-      facts_.memory_bytes > large ? "Give --tile a greater length, or fewer --threads."
-                                  : "Give --tile another length for more or fewer of them.");
+          " MB of memory per thread.",
+      facts_.memory_bytes > large ? "Give --tile a greater length, or use fewer --threads."
+                                  : "Nothing to do; --tile changes the edge of a tile.");
 }
 
-void ProgressReporter::shape() {
-  const std::string closed = facts_.closed ? "It is closed" : "It is not closed, or not all light starts inside";
+void FindingsCollector::shape() {
   if (facts_.cuboid) {
-    add(Severity::note, "shape", "The room is an empty cuboid.", "Nothing to do: flights have a closed form.");
-  } else {
-    add(Severity::note, "shape",
-        closed + "; it is " +
-            (facts_.convex ? "convex: nothing in it casts a shadow." : "not convex: it casts shadows."),
-        "Nothing to do.");
+    add(Severity::note, "shape", "The room is an empty cuboid.", "Nothing to do: impacts have a closed form.");
+    return;
   }
+  const std::string closed =
+      facts_.closed ? "The room is closed" : "The room is not closed, or not all emitters are inside";
+  add(Severity::note, "shape", closed + "; it is " + (facts_.convex ? "convex (no shadows)." : "not convex."),
+      "Nothing to do.");
 }
 
 }  // namespace
 
 void add_findings(const Room& room, Inspection& facts) {
-  ProgressReporter(room, facts).report();
+  FindingsCollector(room, facts).report();
 }
 
 void add_fault(const std::string& message, const std::string& topic, std::vector<Finding>& findings) {
-  // Messages read "what is wrong (the value; allowed: …). What to do."
+  // The form of a message: "what is wrong (the value; allowed: …). What to do."
   const std::size_t allowed = message.find("(allowed");
   const std::size_t end = message.find(". ", allowed == std::string::npos ? 0 : allowed);
   const bool two_parts = end != std::string::npos;
   findings.push_back({Severity::fault, topic, two_parts ? message.substr(0, end + 1) : message,
-                      two_parts ? message.substr(end + 2) : "Set it right."});
+                      two_parts ? message.substr(end + 2) : "Correct this."});
 }
 
-void add_trap(std::vector<Finding>& findings) {
-  findings.push_back({Severity::fault, "trapped-light",
-                      "Light is shut in by surfaces whose reflectance is 1: it would grow without end.",
-                      "Give materials a reflectance below 1, for example with --max-reflectance 0.9; or cut the walk "
-                      "off with --estimator weight --max-bounces N."});
+void add_non_absorbing_enclosure(std::vector<Finding>& findings) {
+  findings.push_back(
+      {Severity::fault, "trapped-light", "Light is enclosed by surfaces with reflectance 1: nothing absorbs it.",
+       "Set reflectances below 1, for example with --max-reflectance 0.9; or limit the number of flights "
+       "with --estimator weight --max-bounces N."});
 }
 
 }  // namespace lichtmc

@@ -1,4 +1,4 @@
-// What was found in a room, in words.
+// The findings of an inspection as text.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace lichtmc {
 
-// Adds everything that the facts and the room itself say to Inspection::findings.
+// Adds the findings that follow from the facts and from the room to Inspection::findings.
 void add_findings(const Room& room, Inspection& facts);
 
-// A fault that an error message says, with what to do in its last sentence.
+// Adds an error message as a fault; what follows its first sentence becomes the advice.
 void add_fault(const std::string& message, const std::string& topic, std::vector<Finding>& findings);
 
-// Light is shut in by surfaces that reflect all of it.
-void add_trap(std::vector<Finding>& findings);
+// Adds the fault: light is enclosed by surfaces with reflectance 1.
+void add_non_absorbing_enclosure(std::vector<Finding>& findings);
 
 }  // namespace lichtmc

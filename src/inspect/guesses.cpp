@@ -11,11 +11,11 @@ namespace lichtmc {
 
 namespace {
 
-// What rooms, halls and houses measure in metres, at their longest.
-constexpr double shortest = 1.0;
-constexpr double longest = 200.0;
+// Longest dimension of rooms, halls and houses, in m.
+constexpr double min_length = 1.0;
+constexpr double max_length = 200.0;
 
-// A storey is about this high; that is what a unit is judged by.
+// Height of a storey in m: the unit that comes closest to it is the most probable.
 constexpr double usual_height = 2.7;
 
 constexpr std::array<LengthUnit, 4> other_units{
@@ -25,15 +25,15 @@ constexpr std::array<LengthUnit, 4> other_units{
 
 std::optional<LengthUnit> guess_unit(const glm::dvec3& size) {
   const double length = std::max({size.x, size.y, size.z});
-  if (length >= shortest && length <= longest) return std::nullopt;
+  if (length >= min_length && length <= max_length) return std::nullopt;
   std::optional<LengthUnit> best;
-  double least = std::numeric_limits<double>::infinity();
+  double min_deviation = std::numeric_limits<double>::infinity();
   for (const LengthUnit& unit : other_units) {
     const double metres = length * unit.metres;
-    if (metres < shortest || metres > longest) continue;
-    const double miss = std::abs(std::log(std::max(size.y, 1e-3 * length) * unit.metres / usual_height));
-    if (miss >= least) continue;
-    least = miss;
+    if (metres < min_length || metres > max_length) continue;
+    const double deviation = std::abs(std::log(std::max(size.y, 1e-3 * length) * unit.metres / usual_height));
+    if (deviation >= min_deviation) continue;
+    min_deviation = deviation;
     best = unit;
   }
   return best;
@@ -43,18 +43,18 @@ bool looks_z_up(const Room& room, const glm::dvec3& size) {
   if (size.z > size.y) return false;
   constexpr double along = 0.99;  // cosine: within 8° of the axis
   constexpr double noticeable = 1.5;
-  double across_y = 0.0;
-  double across_z = 0.0;
+  double normal_y = 0.0;  // twice the area of triangles with a normal along ±y
+  double normal_z = 0.0;
   for (const Surface& surface : room.surfaces) {
     for (const glm::uvec3& t : surface.triangles) {
       const glm::dvec3& a = surface.positions[t.x];
       const glm::dvec3 cross = glm::cross(surface.positions[t.y] - a, surface.positions[t.z] - a);
       const double length = glm::length(cross);
-      if (std::abs(cross.y) > along * length) across_y += length;
-      if (std::abs(cross.z) > along * length) across_z += length;
+      if (std::abs(cross.y) > along * length) normal_y += length;
+      if (std::abs(cross.z) > along * length) normal_z += length;
     }
   }
-  return across_z > noticeable * across_y;
+  return normal_z > noticeable * normal_y;
 }
 
 }  // namespace lichtmc

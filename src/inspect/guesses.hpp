@@ -1,4 +1,4 @@
-// Guesses from a room's shape: in which unit it is, and which axis points up.
+// Estimates the unit of length and the vertical axis of a room from its shape.
 #pragma once
 
 #include <optional>
@@ -9,18 +9,18 @@
 
 namespace lichtmc {
 
-// A unit of length that files are written in.
+// A unit of length.
 struct LengthUnit {
   const char* name = "";  // "centimetres"
   double metres = 1.0;
 };
 
-// The unit that makes a room of this size (its height along Y) most like rooms that people build: none where metres do.
-// `size`: the bounds' edges, in the file's unit.
+// The unit for which a room of this size (height along Y) has the most plausible height; none if metres are plausible.
+// `size`: edges of the bounding box, in the file's unit.
 std::optional<LengthUnit> guess_unit(const glm::dvec3& size);
 
-// Whether a room rather stands on its Z axis than on Y: floors and ceilings are most of what lies flat, and rooms are
-// lower than they are long.
+// Whether a room is probably Z-up: its extent along Z does not exceed that along Y, and the area perpendicular to Z
+// exceeds the area perpendicular to Y. Floors and ceilings have the largest area, and rooms are lower than long.
 bool looks_z_up(const Room& room, const glm::dvec3& size);
 
 }  // namespace lichtmc

@@ -21,7 +21,7 @@ namespace lichtmc {
 
 namespace {
 
-void measure(const Room& room, Inspection& facts) {
+void count_triangles(const Room& room, Inspection& facts) {
   for (const Surface& surface : room.surfaces) {
     facts.triangles += surface.triangles.size();
     facts.triangles_without_area += surface.without_area;
@@ -31,7 +31,7 @@ void measure(const Room& room, Inspection& facts) {
   facts.high = bounds.high;
 }
 
-void look_at_mesh(const WeldedMesh& mesh, Inspection& facts) {
+void inspect_mesh(const WeldedMesh& mesh, Inspection& facts) {
   constexpr std::size_t places = 5;
   facts.duplicate_triangles = mesh.copies().size();
   for_each_edge(mesh.edges(), [&](std::size_t first, std::size_t end) {
@@ -43,7 +43,7 @@ void look_at_mesh(const WeldedMesh& mesh, Inspection& facts) {
   facts.convex = is_convex(mesh);
 }
 
-void look_at_surfaces(const Room& room, Inspection& facts) {
+void inspect_surfaces(const Room& room, Inspection& facts) {
   const HighestReflectance highest(room);
   for (const Surface& surface : room.surfaces) {
     SurfaceFacts& one = facts.surfaces.emplace_back();
@@ -58,12 +58,12 @@ void look_at_surfaces(const Room& room, Inspection& facts) {
   }
 }
 
-void look_at_tiles(const Tiling& tiling, double tile_edge_m, Inspection& facts) {
+void inspect_tiles(const Tiling& tiling, double tile_edge_m, Inspection& facts) {
   for (const TileMap& map : tiling.maps) {
     SurfaceFacts& surface = facts.surfaces[map.surface];
     surface.chart = map.chart;
     surface.chart_reason = map.chart_reason;
-    // Cells are about as large as asked for; what that is exactly depends on the chart.
+    // Approximate: the edge of a cell is close to tile_edge_m; the exact value depends on the chart.
     if (map.side == Side::front && surface.area_m2 > 0.0)
       surface.cells_over_area =
           static_cast<double>(map.tile_of_cell.size()) * tile_edge_m * tile_edge_m / surface.area_m2;
@@ -73,7 +73,7 @@ void look_at_tiles(const Tiling& tiling, double tile_edge_m, Inspection& facts) 
   facts.memory_bytes = memory_needed(tiling);
 }
 
-// The tiles as asked for; where they are more than memory holds that is a fault, and rays do with a tile for a surface.
+// The tiles with this edge. If they need too much memory, adds a fault and returns one tile per surface, for the rays.
 Tiling tiling_within_memory(const Room& room, double tile_edge_m, Inspection& facts) {
   try {
     return make_tiling(room, tile_edge_m);
@@ -84,16 +84,16 @@ Tiling tiling_within_memory(const Room& room, double tile_edge_m, Inspection& fa
   }
 }
 
-// The room with light in it: its own, where that is sound, else a lamp at a place inside.
-Room room_for_probe(const Room& room, bool lit, const glm::dvec3& inside) {
+// The room with its own emitters if these are valid, else with an isotropic emitter at `inside`.
+Room room_for_probe(const Room& room, bool own_emitters, const glm::dvec3& inside) {
   Room copy = room;
-  if (!lit) copy.emitters = {{"probe", 1.0, IsotropicEmitter{inside}}};
+  if (!own_emitters) copy.emitters = {{"probe", 1.0, IsotropicEmitter{inside}}};
   return copy;
 }
 
-void shoot_rays(const Room& room, const Tiling& tiling, bool own_light, Inspection& facts) {
+void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters, Inspection& facts) {
   facts.inside = find_inside(room, *make_embree_tracer(room, tiling), facts.low, facts.high);
-  const Room lit = room_for_probe(room, own_light, facts.inside);
+  const Room lit = room_for_probe(room, own_emitters, facts.inside);
   const Scene scene(lit, tiling, Engine::embree);
   facts.closed = scene.misses == Misses::retrace;
   const ProbeResult result = probe(lit, scene, facts.low, facts.high);
@@ -104,7 +104,7 @@ void shoot_rays(const Room& room, const Tiling& tiling, bool own_light, Inspecti
     if (result.impacts[k] == 0) continue;
     facts.surfaces[k].seen_from_behind = static_cast<double>(result.behind[k]) / static_cast<double>(result.impacts[k]);
   }
-  if (has_non_absorbing_enclosure(scene, 1)) add_trap(facts.findings);
+  if (has_non_absorbing_enclosure(scene, 1)) add_non_absorbing_enclosure(facts.findings);
 }
 
 }  // namespace
@@ -116,30 +116,30 @@ std::size_t Inspection::count(Severity severity) const {
 
 namespace {
 
-// tiling: null where it is still to be made.
+// tiling: null to make one.
 Inspection inspect_with(const Room& room, const Tiling* tiling, double tile_edge_m) {
   check_surfaces(room);
   Inspection facts;
-  bool own_light = true;
+  bool own_emitters = true;
   try {
     check_room(room);
   } catch (const InputError& fault) {
-    own_light = false;
+    own_emitters = false;
     add_fault(fault.what(), "emitters", facts.findings);
   }
-  measure(room, facts);
-  look_at_mesh(WeldedMesh(room), facts);
+  count_triangles(room, facts);
+  inspect_mesh(WeldedMesh(room), facts);
   facts.cuboid = recognise_cuboid(room).has_value();
   facts.looks_z_up = looks_z_up(room, facts.high - facts.low);
   if (const auto unit = guess_unit(facts.high - facts.low)) facts.suggested_scale = unit->metres;
-  look_at_surfaces(room, facts);
+  inspect_surfaces(room, facts);
   Tiling made;
   if (tiling == nullptr) {
     made = tiling_within_memory(room, tile_edge_m, facts);
     tiling = &made;
   }
-  look_at_tiles(*tiling, tile_edge_m, facts);
-  shoot_rays(room, *tiling, own_light, facts);
+  inspect_tiles(*tiling, tile_edge_m, facts);
+  trace_rays(room, *tiling, own_emitters, facts);
   add_findings(room, facts);
   std::stable_sort(facts.findings.begin(), facts.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
