@@ -12,10 +12,10 @@ namespace lichtmc {
 
 namespace {
 
-// MPI counts in int. Pieces of 2²⁴ words are long enough that another message costs nothing.
-constexpr std::size_t longest = std::size_t{1} << 24;
+// MPI counts elements in int. With 2²⁴ elements per message, the latency of further messages is negligible.
+constexpr std::size_t max_message_elements = std::size_t{1} << 24;
 
-// a + b of 128 bits: the carry of the low words goes into the high ones.
+// Sum of 128-bit numbers, low word first: adds the carry of the low words to the high words.
 void add_pairs(void* in, void* in_out, int* n, MPI_Datatype* /*type*/) {
   const auto* a = static_cast<const std::uint64_t*>(in);
   auto* b = static_cast<std::uint64_t*>(in_out);
@@ -27,10 +27,10 @@ void add_pairs(void* in, void* in_out, int* n, MPI_Datatype* /*type*/) {
   }
 }
 
-// Open MPI, and anything that starts processes by PMIx or PMI (srun, MPICH's mpiexec), say so in the environment.
+// Open MPI, and launchers that use PMIx or PMI (srun, mpiexec of MPICH), set an environment variable.
 bool started_by_mpi() {
-  const char* const signs[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
-  return std::any_of(std::begin(signs), std::end(signs), [](const char* name) { return std::getenv(name) != nullptr; });
+  const char* const names[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
+  return std::any_of(std::begin(names), std::end(names), [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
 class ConnectedMpi final : public MpiCommunicator {
@@ -40,7 +40,8 @@ class ConnectedMpi final : public MpiCommunicator {
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||
         provided < MPI_THREAD_FUNNELED) {
       throw RuntimeError(
-          "MPI cannot be started with threads (MPI_THREAD_FUNNELED). Check the installation of MPI, or "
+          "Cannot start MPI with support for threads (required: MPI_THREAD_FUNNELED). Check the installation of MPI, "
+          "or "
           "start lichtmc without mpirun.");
     }
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
@@ -83,8 +84,8 @@ class ConnectedMpi final : public MpiCommunicator {
  private:
   template <class Send>
   static void in_pieces(std::size_t all, const Send& send) {
-    for (std::size_t first = 0; first < all; first += longest)
-      send(first, static_cast<int>(std::min(longest, all - first)));
+    for (std::size_t first = 0; first < all; first += max_message_elements)
+      send(first, static_cast<int>(std::min(max_message_elements, all - first)));
   }
 
   int rank_ = 0;
