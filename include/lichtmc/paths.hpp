@@ -1,4 +1,4 @@
-// Paths of single photons, to look at.
+// Paths of single photons, for display.
 #pragma once
 
 #include <cstddef>
@@ -14,22 +14,22 @@
 
 namespace lichtmc {
 
-// In PathPoint::surface: the point lies on none.
+// Value of PathPoint::surface: the point is on no surface.
 inline constexpr std::size_t no_surface = std::numeric_limits<std::size_t>::max();
 
-// Where a flight began or ended.
+// Start or end of a flight.
 struct PathPoint {
-  glm::dvec3 place{0.0};             // m, to about a millionth of the room
-  std::size_t surface = no_surface;  // index into Room::surfaces; none at a point emitter and where light left the room
-  double weight = 1.0;               // that the photon came with; below 1 with the weight estimator only
+  glm::dvec3 place{0.0};             // m, accurate to about 10⁻⁶ of the room's size
+  std::size_t surface = no_surface;  // index into Room::surfaces; no_surface at a point emitter and after an escape
+  double weight = 1.0;               // of the photon on arrival; below 1 with the weight estimator only
 };
 
-// What became of a photon.
+// How a history ended.
 enum class PathEnd {
-  absorbed,  // by the surface of its last point; with the weight estimator: removed by the roulette
-  escaped,   // through an opening: its last point lies outside, where it left the box about the room
+  absorbed,  // by the surface of its last point; with the weight estimator: by Russian roulette
+  escaped,   // through an opening: its last point is where it left the bounding box of the room
   cut_off,   // by Settings::max_bounces, or after 10 000 flights
-  lost,      // to rounding, in a closed room: its last point is where it was last seen
+  lost,      // by rounding, in a closed room: its last point is the start of the lost flight
 };
 
 // "absorbed", "escaped", "cut off" or "lost".
@@ -42,8 +42,8 @@ struct PhotonPath {
 };
 
 // The paths of the first `count` (1 … 10⁶) photons of a run with these settings: the same random numbers, surfaces and
-// ends. Settings::estimator automatic is taken for collision; what says when a run stops or how it measures tiles does
-// not matter. Throws InputError as simulate() does, and for another count.
+// ends. Settings::estimator automatic means collision here; stop rules and the measurement of tiles have no influence.
+// Throws InputError as simulate() does, and for a count out of range.
 std::vector<PhotonPath> trace_paths(const Room& room, const Settings& settings, std::uint64_t count);
 
 }  // namespace lichtmc

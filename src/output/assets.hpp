@@ -1,4 +1,4 @@
-// Scripts and styles of report.html, from src/output/assets/.
+// Scripts and style sheets of report.html, from src/output/assets/.
 #pragma once
 
 #include <string_view>

@@ -15,17 +15,17 @@ namespace {
 constexpr double width = 980.0;
 constexpr double height = 560.0;
 constexpr double left = 80.0;
-constexpr double right = 600.0;  // the legend stands beyond
+constexpr double right = 600.0;  // the legend is to the right of it
 constexpr double top = 50.0;
 constexpr double bottom = 500.0;
 
-// Colours that people with any colour vision tell apart (M. Okabe, K. Ito, Color Universal Design, 2008); each comes
-// again with dashes.
+// Colours that can be distinguished with any colour vision (M. Okabe, K. Ito, Color Universal Design, 2008). Further
+// series repeat them with dashed lines.
 constexpr std::array<const char*, 7> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                              "#E69F00", "#56B4E9", "#999999"};
 constexpr std::array<const char*, 3> dashes{"", "6 4", "2 3"};
 
-// Values → places along an axis.
+// Maps values to coordinates along an axis.
 class Axis {
  public:
   Axis(Scale scale, double low, double high, double from, double to) : scale_(scale), from_(from), to_(to) {
@@ -38,7 +38,7 @@ class Axis {
       high_ = std::max(high, low_ + 1e-12);
     }
   }
-  bool shows(double value) const { return std::isfinite(value) && (scale_ == Scale::linear || value > 0.0); }
+  bool contains(double value) const { return std::isfinite(value) && (scale_ == Scale::linear || value > 0.0); }
   double at(double value) const {
     const double v = scale_ == Scale::logarithmic ? std::log10(value) : value;
     return from_ + (to_ - from_) * (v - low_) / (high_ - low_);
@@ -76,8 +76,8 @@ std::string style_of(std::size_t series) {
          (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\"");
 }
 
-// Least and greatest of what can be shown.
-void widen(double value, Scale scale, double& low, double& high) {
+// Extends a range by a value, unless the axis cannot show it.
+void extend(double value, Scale scale, double& low, double& high) {
   if (!std::isfinite(value) || (scale == Scale::logarithmic && !(value > 0.0))) return;
   low = std::min(low, value);
   high = std::max(high, value);
@@ -107,23 +107,23 @@ std::string to_svg(const LineChart& chart) {
   double x_low = infinity, x_high = -infinity, y_low = infinity, y_high = -infinity;
   for (const ChartSeries& series : chart.series) {
     for (const ChartPoint& point : series.points) {
-      widen(point.x, chart.x_scale, x_low, x_high);
-      widen(point.y, chart.y_scale, y_low, y_high);
+      extend(point.x, chart.x_scale, x_low, x_high);
+      extend(point.y, chart.y_scale, y_low, y_high);
     }
   }
   const Axis x(chart.x_scale, x_low, x_high, left, right);
   const Axis y(chart.y_scale, y_low, y_high, bottom, top);
   std::string svg = svg_head(width, height, chart.title, left) + grid(x, y, chart);
   for (std::size_t k = 0; k < chart.series.size(); ++k) {
-    std::string places;
+    std::string points;
     std::string dots;
     for (const ChartPoint& point : chart.series[k].points) {
-      if (!x.shows(point.x) || !y.shows(point.y)) continue;
-      places += fixed(x.at(point.x)) + "," + fixed(y.at(point.y)) + " ";
+      if (!x.contains(point.x) || !y.contains(point.y)) continue;
+      points += fixed(x.at(point.x)) + "," + fixed(y.at(point.y)) + " ";
       dots += "<circle cx=\"" + fixed(x.at(point.x)) + "\" cy=\"" + fixed(y.at(point.y)) + "\" r=\"3\" fill=\"" +
               colours.at(k % colours.size()) + "\"/>\n";
     }
-    svg += "<polyline points=\"" + places + "\" " + style_of(k) + "/>\n" + dots;
+    svg += "<polyline points=\"" + points + "\" " + style_of(k) + "/>\n" + dots;
     const double row = top + 12.0 + 20.0 * static_cast<double>(k);
     svg += svg_line(right + 14.0, row - 4.0, right + 44.0, row - 4.0, style_of(k));
     svg += svg_text(right + 50.0, row, chart.series[k].name, " font-size=\"12\"");
@@ -138,8 +138,8 @@ std::string bars_to_svg(const std::string& title, const std::string& label, std:
   std::stable_sort(bars.begin(), bars.end(), [](const Bar& a, const Bar& b) { return a.value > b.value; });
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  for (const Bar& bar : bars) widen(bar.value, Scale::logarithmic, low, high);
-  // The shortest bar is still a bar.
+  for (const Bar& bar : bars) extend(bar.value, Scale::logarithmic, low, high);
+  // The axis starts at half of the lowest value, so that the shortest bar is visible.
   const Axis axis(Scale::logarithmic, 0.5 * low, high, names_end, bars_end);
   const double end = top + row_height * static_cast<double>(bars.size());
   std::string svg = svg_head(width, end + 60.0, title, left);
@@ -148,7 +148,7 @@ std::string bars_to_svg(const std::string& title, const std::string& label, std:
     svg += svg_text(axis.at(tick), end + 18.0, short_number(tick), " text-anchor=\"middle\"");
   }
   for (std::size_t k = 0; k < bars.size(); ++k) {
-    if (!axis.shows(bars[k].value)) continue;
+    if (!axis.contains(bars[k].value)) continue;
     const double y = top + row_height * static_cast<double>(k);
     const double x = axis.at(bars[k].value);
     svg += svg_text(names_end - 8.0, y + 16.0, bars[k].name, " text-anchor=\"end\" font-size=\"12\"");

@@ -13,8 +13,8 @@ struct ChartPoint {
 
 struct ChartSeries {
   std::string name;
-  std::vector<ChartPoint> points;  // in order of x; points that are not finite, or not > 0 on a logarithmic axis, are
-                                   // left out
+  std::vector<ChartPoint> points;  // in ascending order of x; points that are not finite, or not > 0 on a logarithmic
+                                   // axis, are left out
 };
 
 enum class Scale { linear, logarithmic };
@@ -28,7 +28,7 @@ struct LineChart {
   std::vector<ChartSeries> series;
 };
 
-// A picture of its own, 980 × 560; text is escaped.
+// A complete SVG, 980 × 560; text is escaped.
 std::string to_svg(const LineChart& chart);
 
 struct Bar {

@@ -14,7 +14,7 @@ namespace lichtmc {
 
 namespace {
 
-// Collects what OpenEXR writes. It seeks back to fill in its table of offsets.
+// An output stream of OpenEXR in memory. OpenEXR seeks backwards to write its table of offsets.
 class ByteStream final : public Imf::OStream {
  public:
   ByteStream() : Imf::OStream("picture") {}
@@ -58,7 +58,7 @@ std::string exr_file(Imf::Header header, std::vector<ExrChannel> channels, const
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
-    throw RuntimeError("Cannot make " + what + " (" + error.what() + "). Use larger tiles, or free some memory.");
+    throw RuntimeError("Cannot create " + what + " (" + error.what() + "). Use larger tiles, or free some memory.");
   }
 }
 

@@ -1,4 +1,4 @@
-// OpenEXR files of named channels of floats.
+// Writes OpenEXR files with named channels of floats.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ struct ExrChannel {
   std::vector<float> values;
 };
 
-// The file's bytes. `header` may have attributes of its own; its channels are set here, its size is that of the
-// picture. Throws RuntimeError naming `what` where OpenEXR or the memory refuses.
+// The bytes of the file. `header` determines the size and may have attributes; its channels are set here. Throws
+// RuntimeError with the name `what` if OpenEXR or the allocation of memory fails.
 std::string exr_file(Imf::Header header, std::vector<ExrChannel> channels, const std::string& what);
 
 }  // namespace lichtmc

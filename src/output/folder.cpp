@@ -28,7 +28,7 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
-    throw RuntimeError("Cannot make the folder " + in_quotes(folder.string()) + " (" + reason_of(error) +
+    throw RuntimeError("Cannot create the folder " + in_quotes(folder.string()) + " (" + reason_of(error) +
                        "). Choose another folder with --output.");
 }
 
@@ -57,11 +57,11 @@ void remove_old_files(const fs::path& folder, const std::function<bool(const fs:
 namespace {
 
 constexpr std::string_view stage_prefix = ".lichtmc-";
-constexpr std::string_view temporary_state = "state.h5.tmp";  // as write_file_atomically() calls it
+constexpr std::string_view temporary_state = "state.h5.tmp";  // the prefix used by write_file_atomically()
 
-// Whether behind a name's beginning there is the number of a process that is not there any more.
-bool is_of_the_dead(std::string_view name, std::string_view beginning) {
-  const std::string_view digits = name.substr(beginning.size());
+// Whether a name is this prefix and the number of a process that does not exist.
+bool is_of_ended_process(std::string_view name, std::string_view prefix) {
+  const std::string_view digits = name.substr(prefix.size());
   pid_t process = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), process);
   if (error != std::errc() || end != digits.data() + digits.size() || process <= 0) return false;
@@ -70,14 +70,14 @@ bool is_of_the_dead(std::string_view name, std::string_view beginning) {
 
 }  // namespace
 
-// Numbers of processes come again: what another of the same number has left must not be taken for ours.
+// Process numbers are reused: removes the files of an earlier process with the same number.
 StagedFiles::StagedFiles(const fs::path& folder)
     : folder_(folder), stage_(folder / (std::string(stage_prefix) + std::to_string(::getpid()))) {
   std::error_code error;
   fs::remove_all(stage_, error);
   if (error)
     throw RuntimeError("Cannot remove the folder " + in_quotes(stage_.string()) + " (" + reason_of(error) +
-                       "), which an earlier run has left. Choose another folder with --output.");
+                       "), which an earlier run did not remove. Choose another folder with --output.");
   make_folder(stage_);
 }
 
@@ -99,7 +99,8 @@ void StagedFiles::publish(const fs::path& last) {
   std::sort(names.begin(), names.end(),
             [&](const fs::path& a, const fs::path& b) { return std::pair(a == last, a) < std::pair(b == last, b); });
   std::set<fs::path> folders{folder_};
-  // New names too must outlive a power cut, those that the last speaks for before it.
+  // Flushes the new names to disk before the last file is renamed: if it exists, even after a power failure, the others
+  // exist too.
   const auto flush_all = [&folders] { std::for_each(folders.begin(), folders.end(), flush_folder); };
   for (const fs::path& name : names) {
     if (name == last) flush_all();
@@ -116,14 +117,14 @@ void StagedFiles::publish(const fs::path& last) {
   flush_all();
 }
 
-// By their names alone: whatever else lies in the folder is somebody's.
+// Removes files by their names only: other files in the folder belong to the user.
 void StagedFiles::remove_leftovers(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> old;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    const bool stage = name.starts_with(stage_prefix) && is_of_the_dead(name, stage_prefix);
-    const bool state = name.starts_with(temporary_state) && is_of_the_dead(name, temporary_state);
+    const bool stage = name.starts_with(stage_prefix) && is_of_ended_process(name, stage_prefix);
+    const bool state = name.starts_with(temporary_state) && is_of_ended_process(name, temporary_state);
     if (stage || state) old.push_back(entry->path());
   }
   for (const fs::path& path : old) fs::remove_all(path, error);

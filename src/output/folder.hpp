@@ -1,4 +1,4 @@
-// The folder that results are written into.
+// The folder of the results.
 #pragma once
 
 #include <filesystem>
@@ -8,25 +8,25 @@
 
 namespace lichtmc {
 
-// Files that belong together: written into a folder within the folder, then moved to their places all at once. Until
-// then nothing of what was there is touched, so that a full disk costs nothing.
+// A set of files that is written completely or not at all: first into a temporary folder inside the folder, then
+// renamed. Until then, the existing files stay unchanged, also if the disk is full.
 class StagedFiles {
  public:
-  // Throws RuntimeError where the folder cannot be written to.
+  // Throws RuntimeError if the folder is not writable.
   explicit StagedFiles(const std::filesystem::path& folder);
-  // Removes what was not published.
+  // Removes the files that were not published.
   ~StagedFiles();
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  // Where to write the file that is to become folder/name, or folder/inner/name.
+  // The path to write the later file folder/name (or folder/inner/name) to.
   std::filesystem::path operator/(const std::filesystem::path& name) const;
 
-  // Moves every file to its place; `last`, if there is one of that name, as the last. Throws RuntimeError where one
-  // cannot be moved.
+  // Renames all files to their final names; the file named `last`, if there is one, after all others. Throws
+  // RuntimeError if a file cannot be renamed.
   void publish(const std::filesystem::path& last);
 
-  // Removes what programs that were killed have left in a folder.
+  // Removes the temporary files of killed processes from a folder.
   static void remove_leftovers(const std::filesystem::path& folder);
 
  private:
@@ -34,17 +34,17 @@ class StagedFiles {
   std::filesystem::path stage_;
 };
 
-// The system's words inside a sentence: "permission denied".
+// The message of the operating system in lower case, for use in a sentence: "permission denied".
 std::string reason_of(const std::error_code& error);
 
-// Makes a folder and its parents. Throws RuntimeError where that fails.
+// Creates a folder and its parents. Throws RuntimeError if that fails.
 void make_folder(const std::filesystem::path& folder);
 
-// Removes a file of an earlier run, if it is there. Throws RuntimeError where that fails.
+// Removes a file of an earlier run, if it exists. Throws RuntimeError if that fails.
 void remove_old(const std::filesystem::path& file);
 
-// Removes the files of a folder that `is_old` picks by their names; none where there is no folder. Throws RuntimeError
-// where that fails.
+// Removes the files of a folder for which `is_old` returns true; the folder may be missing. Throws RuntimeError if that
+// fails.
 void remove_old_files(const std::filesystem::path& folder,
                       const std::function<bool(const std::filesystem::path&)>& is_old);
 

@@ -1,4 +1,4 @@
-// Pieces of HTML: what the page of a report is put together from.
+// HTML elements of the report.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@ namespace lichtmc {
 // <tag attributes>content</tag>. `content` is HTML; `attributes` begin with a space.
 std::string element(std::string_view tag, std::string_view content, std::string_view attributes = "");
 
-// The same around text, which is escaped; so is what all functions below take.
+// The same for text, which is escaped. All functions below escape their text.
 std::string text_element(std::string_view tag, std::string_view text, std::string_view attributes = "");
 
-// Of a section.
+// The heading of a section.
 std::string heading(std::string_view text);
 
 std::string list_of(const std::vector<std::string>& sentences);
 
-// A table's first row.
+// The header row of a table.
 std::string table_head(std::initializer_list<std::string> names);
 
-// A cell with a number that can be sorted by; "–" where there is none.
+// A cell with a number, sortable; "–" if the number is not finite.
 std::string number_cell(double value);
 std::string count_cell(std::uint64_t value);
 std::string text_cell(std::string_view text);

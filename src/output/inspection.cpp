@@ -67,9 +67,7 @@ Json receivers_of(const Room& room) {
   return receivers;
 }
 
-}  // namespace
-
-std::string inspection_json(const Room& room, const Inspection& inspection) {
+Json findings_of(const Inspection& inspection) {
   Json findings = Json::array();
   for (const Finding& finding : inspection.findings) {
     findings.push_back({{"severity", word_for(finding.severity)},
@@ -77,8 +75,19 @@ std::string inspection_json(const Room& room, const Inspection& inspection) {
                         {"text", finding.text},
                         {"advice", finding.advice}});
   }
-  Json places = Json::array();
-  for (const glm::dvec3& p : inspection.open_edge_places) places.push_back(point(p));
+  return findings;
+}
+
+Json points_of(const std::vector<glm::dvec3>& list) {
+  Json points = Json::array();
+  for (const glm::dvec3& p : list) points.push_back(point(p));
+  return points;
+}
+
+}  // namespace
+
+// One table of keys and values, in the order of the file.
+std::string inspection_json(const Room& room, const Inspection& inspection) {
   const Json json{{"version", std::string(version())},
                   {"room", room.source},
                   {"unit", std::string(power_unit(room.quantity))},
@@ -93,7 +102,7 @@ std::string inspection_json(const Room& room, const Inspection& inspection) {
                   {"triangles_without_area", inspection.triangles_without_area},
                   {"duplicate_triangles", inspection.duplicate_triangles},
                   {"open_edges", inspection.open_edges},
-                  {"open_edge_places", places},
+                  {"open_edge_places", points_of(inspection.open_edge_places)},
                   {"cuboid", inspection.cuboid},
                   {"convex", inspection.convex},
                   {"closed", inspection.closed},
@@ -107,7 +116,7 @@ std::string inspection_json(const Room& room, const Inspection& inspection) {
                   {"emitters", emitters_of(room)},
                   {"receivers", receivers_of(room)},
                   {"mended", room.mended},
-                  {"findings", findings}};
+                  {"findings", findings_of(inspection)}};
   return json_text(json);
 }
 

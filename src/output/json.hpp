@@ -1,4 +1,4 @@
-// What JSON files have in common.
+// Functions shared by all JSON output.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace lichtmc {
 
 using Json = nlohmann::ordered_json;
 
-// A number, or null: JSON has no word for what is not a number.
+// A number; null if it is not finite, because JSON cannot represent NaN and infinity.
 Json number(double value);
 
 // "isotropic", "lambert", "spot" or "surface".
@@ -21,7 +21,8 @@ std::string_view kind_of(const Emitter& emitter);
 // Name, kind and power of every emitter.
 Json emitters_of(const Room& room);
 
-// The text of a file. Names may hold bytes that are no UTF-8; they are replaced, not refused at the end of a long run.
+// The text of a file. Bytes of names that are not UTF-8 are replaced: an error at the end of a long run would lose the
+// results.
 std::string json_text(const Json& json);
 
 }  // namespace lichtmc

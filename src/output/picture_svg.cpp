@@ -35,7 +35,7 @@ std::string image_of(const std::string& png, double x, double y, double width, d
          " href=\"data:image/png;base64," + base64(png) + "\"/>\n";
 }
 
-// Round values along a scale.
+// Round values on a scale.
 std::vector<double> ticks_of(const ColourScale& scale) {
   std::vector<double> ticks;
   if (scale.logarithmic) {
@@ -56,7 +56,7 @@ std::vector<double> ticks_of(const ColourScale& scale) {
   return ticks;
 }
 
-// A bar of all colours with values beside it.
+// A bar with all colours and their values.
 std::string legend(const ColourScale& scale, Quantity quantity, double x, double y, double height) {
   constexpr std::size_t steps = 256;
   constexpr double bar_width = 18.0;
@@ -97,7 +97,8 @@ std::string circle(const glm::dvec2& at, double radius, const std::string& attri
          "><title>" + escaped(title) + "</title></circle>\n";
 }
 
-// Lamps as suns, at the middle of their surface where that shines, with their powers where they are few.
+// Marks of emitters and receivers. An area light has its mark at the middle of its surface. The powers are shown if
+// there are few emitters.
 class Overlay {
  public:
   Overlay(const Picture& picture, double unit, double x, double y) : picture_(&picture), unit_(unit), origin_(x, y) {}
@@ -105,11 +106,11 @@ class Overlay {
   glm::dvec2 at(const glm::dvec3& place) const { return origin_ + unit_ * pixel_of(picture_->to_pixel, place); }
 
   std::string emitters(const Room& room) const {
-    constexpr std::size_t most = 200;
-    constexpr std::size_t most_names = 8;
+    constexpr std::size_t max_marks = 200;
+    constexpr std::size_t max_labels = 8;
     const std::size_t n = room.emitters.size();
     std::string svg;
-    for (std::size_t k = 0; k < std::min(n, most); ++k) {
+    for (std::size_t k = 0; k < std::min(n, max_marks); ++k) {
       const Emitter& emitter = room.emitters[k];
       const glm::dvec2 p = at(place_of(room, emitter));
       const std::string power = short_number(emitter.power) + " " + std::string(power_unit(room.quantity));
@@ -120,17 +121,17 @@ class Overlay {
         svg += svg_line(p.x + 7.0 * direction.x, p.y + 7.0 * direction.y, p.x + 11.0 * direction.x,
                         p.y + 11.0 * direction.y, "stroke=\"#000\" stroke-width=\"1.5\"");
       }
-      if (n <= most_names) svg += svg_text(p.x + 14.0, p.y + 4.0, power, " class=\"halo\" font-size=\"12\"");
+      if (n <= max_labels) svg += svg_text(p.x + 14.0, p.y + 4.0, power, " class=\"halo\" font-size=\"12\"");
     }
     return svg;
   }
 
   std::string receivers(const Result& result, const ColourScale& scale) const {
-    constexpr std::size_t most = 3000;
+    constexpr std::size_t max_marks = 3000;
     std::string svg;
     const std::size_t n = result.receiver_results.size();
     const double radius = n > 300 ? 3.0 : 5.0;
-    for (std::size_t k = 0; k < std::min(n, most); ++k) {
+    for (std::size_t k = 0; k < std::min(n, max_marks); ++k) {
       const double value = result.receiver_results[k].irradiance;
       svg += circle(
           at(result.receivers[k].position), radius,
@@ -146,7 +147,7 @@ class Overlay {
   glm::dvec2 origin_;
 };
 
-// A bar of a round length in metres, for pictures to scale.
+// A scale bar with a round length in metres.
 std::string scale_bar(double units_per_metre, double width, double x, double y) {
   double length = std::pow(10.0, std::floor(std::log10(0.25 * width / units_per_metre)));
   for (const double step : {5.0, 2.0}) {
@@ -169,19 +170,19 @@ std::string polyline(const std::vector<glm::dvec2>& points, double unit, double 
   return svg + "\"/>\n";
 }
 
-// Lines twice, bright under dark, so that they are seen on every colour; then numbers, not too close to each other.
+// Isolines: dark over a wider bright line, visible on every colour; then their labels, with a minimum distance.
 std::string isolines_svg(const SurfacePlan& plan, double unit, double x, double y) {
   std::string svg;
   for (const Isoline& line : plan.isolines) {
     svg += polyline(line.points, unit, x, y, "stroke=\"#fff\" stroke-opacity=\"0.55\" stroke-width=\"2.6\"");
     svg += polyline(line.points, unit, x, y, "stroke=\"#000\" stroke-width=\"1\"");
   }
-  constexpr double apart = 44.0;
-  std::vector<glm::dvec2> taken;
+  constexpr double min_distance = 44.0;
+  std::vector<glm::dvec2> labels;
   const double width = unit * static_cast<double>(plan.picture.width);
   const double height = unit * static_cast<double>(plan.picture.height);
   for (const Isoline& line : plan.isolines) {
-    // The place along the line that has room: from its middle outwards.
+    // The first free position along the line, from its middle outwards.
     const std::size_t n = line.points.size();
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t from_middle = (k + 1) / 2;
@@ -189,10 +190,10 @@ std::string isolines_svg(const SurfacePlan& plan, double unit, double x, double 
       if (at >= n) continue;
       const glm::dvec2 p = unit * line.points[at];
       if (p.x < 16.0 || p.y < 10.0 || p.x > width - 16.0 || p.y > height - 8.0) continue;
-      const bool free = std::none_of(taken.begin(), taken.end(),
-                                     [&](const glm::dvec2& other) { return glm::length(other - p) < apart; });
+      const bool free = std::none_of(labels.begin(), labels.end(),
+                                     [&](const glm::dvec2& other) { return glm::length(other - p) < min_distance; });
       if (!free) continue;
-      taken.push_back(p);
+      labels.push_back(p);
       svg += svg_text(x + p.x, y + p.y + 4.0, short_number(line.level),
                       " class=\"halo\" text-anchor=\"middle\" font-size=\"13\"");
       break;
@@ -201,10 +202,11 @@ std::string isolines_svg(const SurfacePlan& plan, double unit, double x, double 
   return svg;
 }
 
-// Edges of a room that its shape is known by: where it ends, and where it bends by more than 20°. Of many the longest.
+// The visible edges of a room: edges that are not shared by exactly two triangles, and edges between planes that differ
+// by more than 20°. At most 3000, the longest.
 std::vector<std::array<glm::dvec3, 2>> edges_of(const Room& room) {
-  constexpr std::size_t most = 3000;
-  constexpr double bend = 0.94;
+  constexpr std::size_t max_edges = 3000;
+  constexpr double crease_cosine = 0.94;  // cos 20°
   const WeldedMesh mesh(room);
   const auto normal = [&](std::size_t triangle) {
     const WeldedMesh::Corners& c = mesh.corners(triangle);
@@ -214,14 +216,15 @@ std::vector<std::array<glm::dvec3, 2>> edges_of(const Room& room) {
   };
   std::vector<std::array<glm::dvec3, 2>> edges;
   for_each_edge(mesh.edges(), [&](std::size_t first, std::size_t end) {
-    bool bends = end - first != 2;
-    if (!bends)
-      bends = std::abs(glm::dot(normal(mesh.edges()[first].triangle), normal(mesh.edges()[first + 1].triangle))) < bend;
-    if (bends) edges.push_back({mesh.places()[mesh.edges()[first].from], mesh.places()[mesh.edges()[first].to]});
+    bool visible = end - first != 2;
+    if (!visible)
+      visible = std::abs(glm::dot(normal(mesh.edges()[first].triangle), normal(mesh.edges()[first + 1].triangle))) <
+                crease_cosine;
+    if (visible) edges.push_back({mesh.places()[mesh.edges()[first].from], mesh.places()[mesh.edges()[first].to]});
   });
   const auto longer = [](const auto& a, const auto& b) { return glm::length(a[1] - a[0]) > glm::length(b[1] - b[0]); };
   std::stable_sort(edges.begin(), edges.end(), longer);
-  if (edges.size() > most) edges.resize(most);
+  if (edges.size() > max_edges) edges.resize(max_edges);
   return edges;
 }
 
@@ -233,7 +236,7 @@ std::string png_of(const Picture& picture) {
   const auto byte = [](double value) {
     return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
   };
-  // Most pixels are as the one before.
+  // Most pixels equal the previous one: their bytes are reused.
   glm::vec4 last(0.0F);
   std::array<std::uint8_t, 4> bytes{};
   for (const glm::vec4& colour : picture.colour) {
@@ -253,9 +256,9 @@ std::string exr_of(const Picture& picture, const Result& result) {
   Imf::Header header(static_cast<int>(picture.width), static_cast<int>(picture.height));
   header.insert("unit", Imf::StringAttribute(std::string(irradiance_unit(result.quantity))));
   header.insert("software", Imf::StringAttribute("lichtmc " + std::string(version())));
-  header.insert("comments",
-                Imf::StringAttribute("R, G, B: false colour, linear, times A; A: share of the pixel that is "
-                                     "covered; Y: irradiance in the unit named, NaN where nothing is seen"));
+  header.insert("comments", Imf::StringAttribute(
+                                "R, G, B: false colour, linear, premultiplied by A; A: covered share of the "
+                                "pixel; Y: irradiance in the unit of the attribute 'unit', NaN without a surface"));
   std::vector<ExrChannel> channels{{"R", {}}, {"G", {}}, {"B", {}}, {"A", {}}, {"Y", picture.irradiance}};
   for (std::size_t c = 0; c < 4; ++c) {
     channels[c].values.reserve(picture.colour.size());
@@ -270,14 +273,14 @@ std::string room_svg(const Room& room, const Result& result, const Picture& pict
   const double unit = width / static_cast<double>(picture.width);
   const double height = unit * static_cast<double>(picture.height);
   const std::string title = std::string(result.quantity == Quantity::photometric ? "Illuminance" : "Irradiance") +
-                            (view == View::corner ? ", the room seen from outside" : ", the room seen from above");
+                            (view == View::corner ? ", oblique view" : ", view from above");
   std::string svg = svg_head(side + width + legend_width, top + height + 34.0, title, side);
   svg += image_of(png, side, top, width, height, false);
   const Overlay overlay(picture, unit, side, top);
   svg += overlay.receivers(result, scale);
   svg += overlay.emitters(room);
   svg += legend(scale, result.quantity, side + width + 16.0, top + 20.0, height - 40.0);
-  const std::string words = scale_words(scale) + "sides of walls and ceilings that get no light are left out";
+  const std::string words = scale_words(scale) + "sides of surfaces without light are not drawn";
   if (view == View::above) {
     const double metre = unit * glm::length(glm::dvec2(picture.to_pixel * glm::dvec4(1.0, 0.0, 0.0, 0.0)));
     svg += scale_bar(metre, width, side, top + height + 14.0);
@@ -308,7 +311,10 @@ std::string plan_svg(const Result& result, const SurfacePlan& plan, const std::s
   svg += isolines_svg(plan, unit, side, y);
   svg += legend(scale, result.quantity, side + width + 16.0, y + 10.0, legend_height - 20.0);
   std::string note = plan.why_no_isolines;
-  if (note.empty()) note = "Isolines of the irradiance averaged over " + short_number(plan.smoothing_m) + " m.";
+  if (note.empty()) {
+    note = "Isolines of the " + std::string(irradiance_word(result.quantity)) +
+           ", smoothed by a Gaussian (standard deviation " + short_number(plan.smoothing_m) + " m).";
+  }
   if (plan.flat) {
     svg += scale_bar(unit / glm::length(plan.across), width, side, y + legend_height + 14.0);
   }
@@ -349,7 +355,7 @@ std::string paths_svg(const Room& room, const std::vector<PhotonPath>& paths) {
     svg += svg_line(x, y - 4.0, x + 26.0, y - 4.0, "stroke-width=\"4\" stroke=\"" + css(colour_of_flight(k)) + "\"");
     svg += svg_text(x + 34.0, y, k < 10 ? std::to_string(k) : "10 …");
   }
-  svg += svg_text(side + width, top + height + 18.5, "filled dots: absorbed; open dots: left the room, or cut off",
+  svg += svg_text(side + width, top + height + 18.5, "filled dots: absorbed; open dots: escaped, cut off or lost",
                   " class=\"muted\" text-anchor=\"end\" font-size=\"12\"");
   return svg + "</svg>\n";
 }

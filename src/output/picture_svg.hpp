@@ -1,4 +1,4 @@
-// Pictures with what explains them: title, legend with unit, names, isolines; text is text.
+// SVG pictures with title, legend with unit, labels and isolines. Text is stored as text, not as outlines.
 #pragma once
 
 #include <string>
@@ -14,23 +14,23 @@ namespace lichtmc {
 // The pixels as a PNG file with transparency.
 std::string png_of(const Picture& picture);
 
-// The pixels as an OpenEXR file of floats: R, G, B, A as Picture::colour, Y the irradiance (NaN where nothing is to be
-// seen). Throws RuntimeError where OpenEXR or the memory refuses.
+// The pixels as an OpenEXR file of floats: R, G, B, A as in Picture::colour; Y is the irradiance (NaN without a
+// surface). Throws RuntimeError if OpenEXR or the allocation of memory fails.
 std::string exr_of(const Picture& picture, const Result& result);
 
-// The room with lamps marked and receivers as dots of their colour.
-// `png`: png_of(picture), as in plan_svg().
+// The room with marks for the emitters, and dots in false colour for the receivers. `png`: png_of(picture), as in
+// plan_svg().
 std::string room_svg(const Room& room, const Result& result, const Picture& picture, const std::string& png,
                      const ColourScale& scale, View view);
 
-// A plan with its isolines; `name`: what it is of.
+// A plan with its isolines; `name`: its title.
 std::string plan_svg(const Result& result, const SurfacePlan& plan, const std::string& png, const ColourScale& scale,
                      const std::string& name);
 
-// Photon paths with the room's edges, coloured by the number of the flight.
+// Photon paths, coloured by the number of the flight, and the edges of the room.
 std::string paths_svg(const Room& room, const std::vector<PhotonPath>& paths);
 
-// The names of plans for people and for files: the surface's, with a number where it has several. No two alike.
+// Titles of plans, also used for file names: the name of the tile map, with a number if it has several plans. Unique.
 std::vector<std::string> plan_names(const Result& result, const std::vector<SurfacePlan>& plans);
 
 }  // namespace lichtmc

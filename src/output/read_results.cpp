@@ -4,7 +4,7 @@
 #include <fstream>
 #include <system_error>
 
-// Read without threads. gcc warns of the library's handling of long file names, which is as it means it.
+// Read without threads. gcc warns about the truncation of long file names by the library, which is intended there.
 #define CSV_IO_NO_THREAD
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wstringop-truncation"
@@ -24,14 +24,14 @@ namespace {
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& fault) {
   throw InputError("Cannot read " + in_quotes(file.string()) + " (" + fault +
-                   "). Give the folder that 'lichtmc run' has written, or run it again.");
+                   "). Give an output folder of 'lichtmc run', or run it again.");
 }
 
 template <class Number>
 Number parse(const fs::path& file, const std::string& text) {
   Number value{};
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (fault != std::errc() || end != text.data() + text.size()) refuse(file, in_quotes(text) + " is no number");
+  if (fault != std::errc() || end != text.data() + text.size()) refuse(file, in_quotes(text) + " is not a number");
   return value;
 }
 
@@ -82,13 +82,14 @@ std::vector<StoredReceiver> read_receivers(const fs::path& file) {
 
 nlohmann::json read_summary(const fs::path& file) {
   std::ifstream in(file);
-  if (!in) refuse(file, "there is no such file, which a finished run leaves");
+  if (!in) refuse(file, "the file does not exist; a complete run writes it");
   nlohmann::json summary = nlohmann::json::parse(in, nullptr, false);
-  if (!summary.is_object()) refuse(file, "it is no JSON");
+  if (!summary.is_object()) refuse(file, "it is not a JSON object");
   return summary;
 }
 
-// Errors come from differences between batches of photons, or rounds of walks.
+// Degrees of freedom of the standard errors: they are computed from batches of photons (forward) or rounds of walks
+// (backward).
 double tile_freedom(const nlohmann::json& summary) {
   const auto histories = summary.at("histories").get<std::uint64_t>();
   if (summary.value("tiles_by", "forward") == "forward") return static_cast<double>(batches_of(histories)) - 1.0;

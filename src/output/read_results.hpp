@@ -1,4 +1,4 @@
-// Reads back what write_results() has written.
+// Reads the files of write_results().
 #pragma once
 
 #include <cstdint>
@@ -29,14 +29,14 @@ struct StoredReceiver {
 
 struct StoredResult {
   std::string folder;
-  std::string unit;           // of power, "W" or "lm"
-  double tile_freedom = 0.0;  // degrees of freedom of the tiles' errors
+  std::string unit;           // of power: "W" or "lm"
+  double tile_freedom = 0.0;  // degrees of freedom of the standard errors of the tiles
   double receiver_freedom = 0.0;
   std::vector<StoredTile> tiles;
   std::vector<StoredReceiver> receivers;
 };
 
-// Throws InputError where the folder holds no result or a file of it is damaged.
+// Throws InputError if the folder contains no result, or if a file is damaged.
 StoredResult read_results(const std::filesystem::path& folder);
 
 }  // namespace lichtmc

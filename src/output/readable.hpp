@@ -1,4 +1,4 @@
-// Numbers and units as people read them, in pages and pictures.
+// Numbers and units in the form for readers of the report and the pictures.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@ namespace lichtmc {
 // "150k", "1.5 million".
 std::string short_count(std::uint64_t count);
 
-// A share of 1 in percent; "unknown" where it is not finite.
+// A share (0 … 1) in percent; "unknown" if it is not finite.
 std::string percent(double share);
 
-// "lx" or "W/m²"; files for programs have irradiance_unit().
+// "lx" or "W/m²". Files for programs use irradiance_unit() (ASCII).
 std::string written_irradiance_unit(Quantity quantity);
 
 }  // namespace lichtmc

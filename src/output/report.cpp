@@ -16,13 +16,13 @@ namespace lichtmc {
 
 namespace {
 
-constexpr std::size_t most_embedded = std::size_t{24} << 20;  // bytes of room_lit.glb
+constexpr std::size_t max_embedded_bytes = std::size_t{24} << 20;  // of room_lit.glb
 
 bool embeds_room(const ReportContent& content) {
-  return !content.lit_room.empty() && content.lit_room.size() <= most_embedded;
+  return !content.lit_room.empty() && content.lit_room.size() <= max_embedded_bytes;
 }
 
-std::string opening(const Room& room, const Result& result) {
+std::string key_figures(const Room& room, const Result& result) {
   const std::string irradiance = written_irradiance_unit(result.quantity);
   const auto figure = [](const std::string& value, const std::string& what) {
     return element("div", text_element("b", value) + escaped(what));
@@ -44,20 +44,21 @@ std::string opening(const Room& room, const Result& result) {
     double sum = 0.0;
     for (const ReceiverResult& receiver : result.receiver_results) sum += receiver.irradiance;
     figures += figure(short_number(sum / static_cast<double>(result.receiver_results.size())) + " " + irradiance,
-                      "mean of " + to_text(result.receiver_results.size(), "receiver") + ", ± " +
-                          percent(result.backward.rms_relative_error) + " each (rms)");
+                      "mean of " + to_text(result.receiver_results.size(), "receiver") + ", standard error of each ± " +
+                          percent(result.backward.rms_relative_error) + " (rms)");
   }
-  return text_element("p",
-                      "The " + std::string(irradiance_word(result.quantity)) +
-                          " of the room's surfaces, simulated by following light packets (photons) from the lamps. All "
-                          "surfaces reflect diffusely. A standard error of ± 2 % says: the true value lies within 2 % "
-                          "with a probability of 68 %, within 4 % with 95 %.",
-                      " class=\"muted\"") +
+  return text_element(
+             "p",
+             "The " + std::string(irradiance_word(result.quantity)) +
+                 " in the room, computed by a Monte Carlo simulation of photons. All surfaces reflect "
+                 "diffusely (Lambert's law). A standard error of ± 2 % means: the true value lies within ± 2 % "
+                 "with a probability of 68 %, within ± 4 % with 95 %.",
+             " class=\"muted\"") +
          element("div", figures, " class=\"figures\"");
 }
 
-// What may make the figures mean something else than is thought comes before them.
-std::string attention(const ReportContent& content) {
+// Warnings and faults: everything that changes the meaning of the figures.
+std::string warnings_section(const ReportContent& content) {
   const Result& result = *content.result;
   std::vector<std::string> sentences = result.warnings;
   for (const Finding& finding : content.inspection.findings) {
@@ -67,16 +68,16 @@ std::string attention(const ReportContent& content) {
   std::size_t ignored = 0;
   for (const Ignored& thing : result.ignored) ignored += thing.effect == Effect::figures ? 1 : 0;
   if (ignored > 0)
-    sentences.push_back(to_text(ignored, "thing") +
-                        " in the file may change figures and was not modelled: see the list below.");
+    sentences.push_back(to_text(ignored, "item") + " of the file " + (ignored == 1 ? "was" : "were") +
+                        " not modelled and may change the figures: see the list below.");
   if (result.stopped_by == StopReason::interrupt)
-    sentences.emplace_back("The run was interrupted; the figures are those of what was simulated until then.");
+    sentences.emplace_back("The run was interrupted: the figures are from the histories simulated until then.");
   if (sentences.empty()) return {};
   return element("section", text_element("h2", "Before you use these figures") + list_of(sentences),
                  " class=\"attention\"");
 }
 
-std::string pictures(const ReportContent& content) {
+std::string pictures_section(const ReportContent& content) {
   if (content.room_picture.empty()) return {};
   std::string html = heading("The room") + element("figure", content.room_picture, " id=\"picture-room\"") +
                      element("figure", content.above_picture, " id=\"picture-above\"");
@@ -84,22 +85,22 @@ std::string pictures(const ReportContent& content) {
   return html;
 }
 
-std::string view(const ReportContent& content) {
+std::string view_section(const ReportContent& content) {
   if (content.lit_room.empty()) return {};
   if (!embeds_room(content)) {
-    return heading("In three dimensions") +
-           text_element("p", "room_lit.glb, beside this page, has " +
+    return heading("3-D view") +
+           text_element("p", "The file room_lit.glb, in the folder of this page, has " +
                                  short_number(static_cast<double>(content.lit_room.size()) / 1e6) +
-                                 " MB: too much for a page. Open it in a glTF viewer.");
+                                 " MB (limit for this page: 25 MB). Open it in a glTF viewer.");
   }
   return element(
       "section",
-      heading("In three dimensions") +
+      heading("3-D view") +
           text_element(
               "p",
-              "Drag to turn, wheel or pinch to come closer, shift and drag to move. Point at a surface to read its " +
+              "Drag to rotate, use the wheel or pinch to zoom, shift and drag to pan. Point at a surface to read its " +
                   std::string(irradiance_word(content.result->quantity)) +
-                  ". The same room is in room_lit.glb, for any glTF viewer.",
+                  ". The file room_lit.glb contains the same room for any glTF viewer.",
               " class=\"muted\"") +
           element("div", "", " id=\"view3d\" tabindex=\"0\""),
       " class=\"screen-only\"");
@@ -110,7 +111,7 @@ std::string scripts(const ReportContent& content) {
   if (!embeds_room(content)) return html;
   html += element("script", base64(content.lit_room), " type=\"application/octet-stream\" id=\"room-lit\"");
   html += element("script", viewer_js);
-  // After the page is there to be read.
+  // Starts after the page has loaded, so that it does not delay the text.
   return html + element("script", R"(
 addEventListener("load", () => {
   const bytes = Uint8Array.from(atob(document.getElementById("room-lit").textContent), c => c.charCodeAt(0));
@@ -127,10 +128,12 @@ std::string report_html(const ReportContent& content) {
   std::string head = "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n";
   head += text_element("title", "lichtmc: " + result.room);
   head += element("style", std::string(report_css) + std::string(viewer_css));
-  const std::string body = text_element("h1", "Light in " + result.room) + opening(room, result) + attention(content) +
-                           pictures(content) + view(content) + surfaces_section(content) + receivers_section(result) +
-                           balance_section(result) + convergence_section(result) + settings_section(room, result) +
-                           left_out_section(result) + reproduction_section(result, content.command);
+  const std::string body =
+      text_element("h1",
+                   (result.quantity == Quantity::photometric ? "Illuminance in " : "Irradiance in ") + result.room) +
+      key_figures(room, result) + warnings_section(content) + pictures_section(content) + view_section(content) +
+      surfaces_section(content) + receivers_section(result) + balance_section(result) + convergence_section(result) +
+      settings_section(room, result) + left_out_section(result) + reproduction_section(result, content.command);
   return "<!DOCTYPE html>\n<html lang=\"en\">\n" + element("head", head) +
          element("body", element("main", body) + scripts(content)) + "</html>\n";
 }

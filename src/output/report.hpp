@@ -1,4 +1,4 @@
-// The report as a web page.
+// The report as an HTML page.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace lichtmc {
 
-// What the page shows, made before. Pictures are SVG; those that are empty are left out.
+// The content of the page. Pictures are SVG; empty pictures are left out.
 struct ReportContent {
   const Room* room = nullptr;
   const Result* result = nullptr;
@@ -26,7 +26,7 @@ struct ReportContent {
   std::string lit_room;  // room_lit.glb
 };
 
-// One file with everything in it: styles, scripts, pictures, the room for its 3-D view.
+// One self-contained file: style sheets, scripts, pictures, and the room for the 3-D view.
 std::string report_html(const ReportContent& content);
 
 }  // namespace lichtmc

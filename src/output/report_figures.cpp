@@ -16,7 +16,7 @@ namespace lichtmc {
 
 namespace {
 
-constexpr std::size_t most_receiver_rows = 2000;  // a page that still opens at once
+constexpr std::size_t max_receiver_rows = 2000;  // browsers open a page of this size without delay
 
 std::string attribute(std::string_view name, const std::string& value) {
   return " data-" + std::string(name) + "=\"" + escaped(value) + "\"";
@@ -26,7 +26,7 @@ std::string vector_text(const glm::dvec3& v) {
   return to_text(v.x) + "," + to_text(v.y) + "," + to_text(v.z);
 }
 
-// What a script needs to find a tile in the picture.
+// A plan with the attributes that a script needs to find a tile in the picture.
 std::string plan_figure(const ReportContent& content, std::size_t k) {
   const SurfacePlan& plan = content.plans[k];
   const ColourScale& scale = content.scale;
@@ -42,7 +42,7 @@ std::string plan_figure(const ReportContent& content, std::size_t k) {
   return element("figure", content.plan_pictures[k], attributes);
 }
 
-// A row of the balance: what became of so much power.
+// A row of the power balance.
 struct Share {
   std::string name;
   double power = 0.0;
@@ -53,8 +53,7 @@ std::string shares_svg(const std::vector<Share>& shares, double emitted, const s
   constexpr double row = 26.0;
   constexpr double names_end = 300.0;
   constexpr double bar_width = 520.0;
-  std::string svg =
-      svg_head(1080.0, 44.0 + row * static_cast<double>(shares.size()) + 10.0, "Where the light went", 14.0);
+  std::string svg = svg_head(1080.0, 44.0 + row * static_cast<double>(shares.size()) + 10.0, "Power balance", 14.0);
   for (std::size_t k = 0; k < shares.size(); ++k) {
     const double y = 44.0 + row * static_cast<double>(k);
     const double width = bar_width * std::clamp(shares[k].power / emitted, 0.0, 1.0);
@@ -90,25 +89,26 @@ std::string surfaces_section(const ReportContent& content) {
   }
   std::string html = heading("Surfaces");
   html += text_element("p",
-                       "Click a heading to sort. Lowest and highest are those of single tiles and have their chance in "
-                       "them. tiles.csv has every tile.",
+                       "Click a heading to sort. Lowest and highest are values of single tiles and include their "
+                       "statistical errors. tiles.csv contains all tiles.",
                        " class=\"muted\"");
   html += element("div",
                   element("table",
                           table_head({"surface", "material", "reflectance", "area, m²", "mean, " + irradiance,
                                       "standard error, " + irradiance, "lowest, " + irradiance,
-                                      "highest, " + irradiance, "arriving, " + power, "from behind, %", "tiles"}) +
+                                      "highest, " + irradiance, "incident, " + power, "on the back, %", "tiles"}) +
                               element("tbody", rows),
                           " class=\"sortable\" id=\"surfaces\""),
                   " class=\"scroll\"");
   if (content.plans.empty()) return html;
   std::string figures;
   for (std::size_t k = 0; k < content.plans.size(); ++k) figures += plan_figure(content, k);
-  html += heading("Surfaces laid flat");
-  html += text_element("p",
-                       "Walls as seen from where the light is, floors and ceilings as seen from above. The largest "
-                       "pieces that are at least 2 % of all surface.",
-                       " class=\"muted\"");
+  html += heading("Plans of the surfaces");
+  html +=
+      text_element("p",
+                   "Walls are shown from their lit side, floors and ceilings from above. The largest flat parts with "
+                   "at least 2 % of the total surface area are shown.",
+                   " class=\"muted\"");
   return html + element("div", figures, " class=\"plans\"");
 }
 
@@ -118,7 +118,7 @@ std::string receivers_section(const Result& result) {
   const std::string irradiance = written_irradiance_unit(result.quantity);
   const std::string word(irradiance_word(result.quantity));
   std::string rows;
-  for (std::size_t k = 0; k < std::min(n, most_receiver_rows); ++k) {
+  for (std::size_t k = 0; k < std::min(n, max_receiver_rows); ++k) {
     const Receiver& receiver = result.receivers[k];
     const ReceiverResult& one = result.receiver_results[k];
     rows += "<tr>" + text_cell(receiver.name) + number_cell(receiver.position.x) + number_cell(receiver.position.y) +
@@ -126,14 +126,14 @@ std::string receivers_section(const Result& result) {
             number_cell(one.direct) + number_cell(one.indirect) + number_cell(10.0 * std::log10(one.gain)) + "</tr>\n";
   }
   std::string html = heading("Receivers");
-  if (n > most_receiver_rows)
-    html += text_element("p", "The first " + std::to_string(most_receiver_rows) + " of " + std::to_string(n) +
-                                  "; receivers.csv has them all.");
+  if (n > max_receiver_rows)
+    html += text_element("p", "The first " + std::to_string(max_receiver_rows) + " of " + std::to_string(n) +
+                                  " receivers. receivers.csv contains all of them.");
   return html + element("div",
                         element("table",
                                 table_head({"receiver", "x, m", "y, m", "z, m", word + ", " + irradiance,
                                             "standard error, " + irradiance, "direct, " + irradiance,
-                                            "reflected, " + irradiance, "gain, dB"}) +
+                                            "indirect, " + irradiance, "gain, dB"}) +
                                     element("tbody", rows),
                                 " class=\"sortable\" id=\"receivers\""),
                         " class=\"scroll\"");
@@ -143,36 +143,37 @@ std::string balance_section(const Result& result) {
   if (result.tiles.empty()) return {};
   const std::string power(power_unit(result.quantity));
   const Balance& b = result.balance;
-  constexpr std::size_t most_surfaces = 8;
+  constexpr std::size_t max_surfaces = 8;
   constexpr const char* absorbed = "#0072B2";
   std::vector<Share> shares;
   for (const SurfaceResult& s : result.surfaces)
     shares.push_back({"absorbed by " + s.name, s.power * (1.0 - s.reflectance), absorbed});
   std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& c) { return a.power > c.power; });
-  if (shares.size() > most_surfaces) {
-    Share others{"absorbed by " + to_text(shares.size() - most_surfaces + 1, "other surface"), 0.0, "#56B4E9"};
-    for (std::size_t k = most_surfaces - 1; k < shares.size(); ++k) others.power += shares[k].power;
-    shares.resize(most_surfaces - 1);
+  if (shares.size() > max_surfaces) {
+    Share others{"absorbed by " + to_text(shares.size() - max_surfaces + 1, "other surface"), 0.0, "#56B4E9"};
+    for (std::size_t k = max_surfaces - 1; k < shares.size(); ++k) others.power += shares[k].power;
+    shares.resize(max_surfaces - 1);
     shares.push_back(others);
   }
   std::string note =
-      "What surfaces absorb is what arrives there times 1 − reflectance, with the errors of the surfaces' table.";
+      "The power that a surface absorbs is its incident power times (1 − reflectance); its relative standard error is "
+      "that of the mean in the table of the surfaces.";
   if (std::isfinite(b.absorbed)) {
-    if (b.escaped > 0.0) shares.push_back({"left the room through openings", b.escaped, "#E69F00"});
-    if (b.residual != 0.0) shares.push_back({"cut off, or taken and given by chance", b.residual, "#CC79A7"});
-    if (b.lost > 0.0) shares.push_back({"lost to numerical faults", b.lost, "#D55E00"});
-    note += " Counted photon by photon: emitted " + short_number(b.emitted) + " " + power + " = absorbed " +
-            short_number(b.absorbed) + " + left the room " + short_number(b.escaped) + " + residual " +
+    if (b.escaped > 0.0) shares.push_back({"escaped through openings", b.escaped, "#E69F00"});
+    if (b.residual != 0.0) shares.push_back({"cut off, or net effect of roulette", b.residual, "#CC79A7"});
+    if (b.lost > 0.0) shares.push_back({"lost by numerical errors", b.lost, "#D55E00"});
+    note += " Sum over all photons: emitted " + short_number(b.emitted) + " " + power + " = absorbed " +
+            short_number(b.absorbed) + " + escaped " + short_number(b.escaped) + " + residual " +
             short_number(b.residual) + " + lost " + short_number(b.lost) + ".";
   }
-  return heading("Balance of power") + element("figure", shares_svg(shares, b.emitted, power)) +
+  return heading("Power balance") + element("figure", shares_svg(shares, b.emitted, power)) +
          text_element("p", note, " class=\"muted\"");
 }
 
 std::string convergence_section(const Result& result) {
   LineChart chart;
-  chart.title = "How the error falls";
-  chart.x_label = "photons, or walks of all receivers together";
+  chart.title = "Standard error over the number of histories";
+  chart.x_label = "photons (tiles), or walks from all receivers (receivers)";
   chart.y_label = "relative standard error (rms), %";
   if (!result.tiles.empty()) chart.series.push_back(series_of("tiles", result.convergence));
   if (!result.receiver_results.empty()) chart.series.push_back(series_of("receivers", result.backward.convergence));
@@ -181,11 +182,13 @@ std::string convergence_section(const Result& result) {
                        [](const ChartPoint& p) { return std::isfinite(p.y) && p.y > 0.0; });
   });
   if (!known) return {};
-  std::string sentence = "Four times the photons halve the error";
-  sentence += result.tiles_without_hits > 0
-                  ? ", once all tiles are hit; until then it falls more slowly, as tiles with few hits join. " +
-                        to_text(result.tiles_without_hits, "tile") + " got no light yet."
-                  : ".";
+  std::string sentence = "Four times the number of histories halves the standard error";
+  sentence +=
+      result.tiles_without_hits > 0
+          ? ", after all tiles have been hit. Before, it decreases more slowly, because tiles with few hits are "
+            "added. Without a hit: " +
+                to_text(result.tiles_without_hits, "tile") + "."
+          : ".";
   return heading("Convergence") + element("figure", to_svg(chart)) + text_element("p", sentence, " class=\"muted\"");
 }
 

@@ -1,4 +1,4 @@
-// What was found, as sections of the page: each a piece of HTML, empty where the run has nothing of the kind.
+// The results as sections of the page. Each function returns HTML; empty if the result has no such data.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace lichtmc {
 
-// A table of the surfaces, and those that were drawn laid flat.
+// A table of the surfaces, and the plans.
 std::string surfaces_section(const ReportContent& content);
 
-// A table of the receivers, as many as a page can hold.
+// A table of the first receivers.
 std::string receivers_section(const Result& result);
 
-// What became of the emitters' power.
+// The power balance: absorbed, escaped, residual and lost power.
 std::string balance_section(const Result& result);
 
-// The error as it fell during the run.
+// The relative standard error as a function of the number of histories.
 std::string convergence_section(const Result& result);
 
 }  // namespace lichtmc

@@ -1,4 +1,4 @@
-// Where the figures come from, as sections of the page: each a piece of HTML, empty where there is nothing to say.
+// The origin of the figures as sections of the page. Each function returns HTML; empty without content.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace lichtmc {
 
-// Tables of the settings and the emitters; what was chosen for the user, and changed in the room.
+// Tables of the settings and the emitters; automatic choices, and input overrides.
 std::string settings_section(const Room& room, const Result& result);
 
-// What the room's file holds and the simulation has not.
+// The content of the room file that is not modelled.
 std::string left_out_section(const Result& result);
 
-// How to get the same digits again. `command`: that made them, may be empty.
+// How to reproduce the result bit by bit. `command`: the command of the run; may be empty.
 std::string reproduction_section(const Result& result, const std::string& command);
 
 }  // namespace lichtmc

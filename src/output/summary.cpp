@@ -64,7 +64,7 @@ void write_receivers(const Result& result, const Sink& sink) {
   if (!result.receiver_results.empty()) sink("\n  ");
 }
 
-// How the receivers' results were got; null without any.
+// Facts of the backward walk for the receivers; null without receivers.
 Json backward_of(const Result& result) {
   if (result.receiver_results.empty()) return nullptr;
   const BackwardResult& b = result.backward;
@@ -119,36 +119,45 @@ Json units_of(const Result& result) {
           {"behind_share", "1"}};
 }
 
-}  // namespace
+// What was simulated, and how long it took.
+void add_run(const Result& result, Json& summary) {
+  summary["version"] = std::string(version());
+  summary["room"] = result.room;
+  summary["unit"] = std::string(power_unit(result.quantity));
+  summary["engine"] = std::string(to_string(result.engine));
+  summary["estimator"] = std::string(to_string(result.tiles.empty() ? result.backward.estimator : result.estimator));
+  summary["seed"] = result.settings.seed;
+  summary["threads"] = result.threads;
+  summary["histories"] = result.histories;
+  summary["impacts"] = result.impacts;
+  summary["rays"] = result.rays + result.backward.rays;
+  summary["seconds"] = number(result.seconds);
+  summary["impacts_per_second"] = number(static_cast<double>(result.impacts) / result.seconds);
+}
 
-void write_summary(const Room& room, const Result& result, const Sink& sink) {
+void add_balance(const Result& result, Json& summary) {
   const Balance& balance = result.balance;
-  Json summary{
-      {"version", std::string(version())},
-      {"room", result.room},
-      {"unit", std::string(power_unit(result.quantity))},
-      {"engine", std::string(to_string(result.engine))},
-      {"estimator", std::string(to_string(result.tiles.empty() ? result.backward.estimator : result.estimator))},
-      {"seed", result.settings.seed},
-      {"threads", result.threads},
-      {"histories", result.histories},
-      {"impacts", result.impacts},
-      {"rays", result.rays + result.backward.rays},
-      {"seconds", number(result.seconds)},
-      {"impacts_per_second", number(static_cast<double>(result.impacts) / result.seconds)},
-      {"emitted", number(balance.emitted)},
-      {"absorbed", number(balance.absorbed)},
-      {"escaped", number(balance.escaped)},
-      {"residual", number(balance.residual)},
-      {"lost", number(balance.lost)},
-      {"incident", number(result.incident)},
-      {"incident_standard_error", number(result.incident_standard_error)},
-      {"rms_relative_error", number(result.rms_relative_error)},
-      {"figure_of_merit", number(result.figure_of_merit)},
-      {"stopped_by", std::string(to_string(result.stopped_by))},
-      {"surfaces", surfaces_of(result)},
-      {"receivers", Json::array()},
-      {"ignored", texts_of(result.ignored)}};
+  summary["emitted"] = number(balance.emitted);
+  summary["absorbed"] = number(balance.absorbed);
+  summary["escaped"] = number(balance.escaped);
+  summary["residual"] = number(balance.residual);
+  summary["lost"] = number(balance.lost);
+  summary["incident"] = number(result.incident);
+  summary["incident_standard_error"] = number(result.incident_standard_error);
+}
+
+// `receivers` stays empty here: see write_receivers().
+void add_results(const Result& result, Json& summary) {
+  summary["rms_relative_error"] = number(result.rms_relative_error);
+  summary["figure_of_merit"] = number(result.figure_of_merit);
+  summary["stopped_by"] = std::string(to_string(result.stopped_by));
+  summary["surfaces"] = surfaces_of(result);
+  summary["receivers"] = Json::array();
+  summary["ignored"] = texts_of(result.ignored);
+}
+
+// Details added to the format later, after the keys above.
+void add_details(const Room& room, const Result& result, Json& summary) {
   summary["processes"] = result.processes;
   summary["checkpoint_seconds"] = number(result.checkpoint_seconds);
   summary["tiles_by"] = std::string(to_string(result.settings.tile_walk));
@@ -166,7 +175,17 @@ void write_summary(const Room& room, const Result& result, const Sink& sink) {
   summary["retraced"] = result.retraced;
   summary["lost_histories"] = result.lost_histories;
   summary["units"] = units_of(result);
-  // Receivers go where the empty array stands.
+}
+
+}  // namespace
+
+void write_summary(const Room& room, const Result& result, const Sink& sink) {
+  Json summary;
+  add_run(result, summary);
+  add_balance(result, summary);
+  add_results(result, summary);
+  add_details(room, result, summary);
+  // The receivers replace the empty array.
   const std::string text = json_text(summary);
   const std::string_view place = "\n  \"receivers\": [";
   const std::size_t cut = text.find(place) + place.size();

@@ -1,4 +1,4 @@
-// A run's summary as JSON.
+// The summary of a run as JSON.
 #pragma once
 
 #include "base/atomic_file.hpp"
@@ -7,7 +7,7 @@
 
 namespace lichtmc {
 
-// What summary.json holds, receivers one by one: there may be very many.
+// Writes the content of summary.json; the receivers one by one, because there may be very many.
 void write_summary(const Room& room, const Result& result, const Sink& sink);
 
 }  // namespace lichtmc

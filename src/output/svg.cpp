@@ -33,7 +33,7 @@ std::string escaped(std::string_view text) {
         out += "&quot;";
         break;
       default:
-        // Of the control characters XML 1.0 allows tab and line ends only.
+        // The only control characters that XML 1.0 allows are tab and line ends.
         out += static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r' ? '?' : c;
     }
   }

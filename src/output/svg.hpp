@@ -1,7 +1,7 @@
-// Pieces of SVG: what charts and pictures are put together from.
+// SVG elements of charts and pictures.
 //
-// Pictures follow the reader's choice of light or dark: text and lines take their colour from the classes of
-// svg_style(), which the root element's class "lichtmc" limits to these pictures.
+// Pictures follow the light or dark colour scheme of the browser: text and lines get their colours from the classes in
+// the style element of svg_head(). The class "lichtmc" of the root element limits them to these pictures.
 #pragma once
 
 #include <string>
@@ -9,18 +9,17 @@
 
 namespace lichtmc {
 
-// Text with the characters that XML and HTML take for their own escaped; characters that XML does not allow are
-// replaced.
+// Escapes the characters with a meaning in XML and HTML; replaces characters that XML does not allow.
 std::string escaped(std::string_view text);
 
-// A length in the picture's units, to a tenth.
+// A length in units of the picture, with one decimal.
 std::string fixed(double value);
 
 // `more`: further attributes, beginning with a space.
 std::string svg_text(double x, double y, std::string_view text, std::string_view more = "");
 std::string svg_line(double x1, double y1, double x2, double y2, std::string_view attributes);
 
-// The root element's beginning: size in units, style, background and title.
+// The start of the root element: size in units, style, background and title.
 std::string svg_head(double width, double height, std::string_view title, double title_x = 0.0);
 
 }  // namespace lichtmc

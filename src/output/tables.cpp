@@ -8,7 +8,7 @@ namespace lichtmc {
 
 namespace {
 
-// Appends fields with commas between, and a line end.
+// Appends fields separated by commas, and a line end.
 template <class... Fields>
 void append_row(std::string& table, const Fields&... fields) {
   bool first = true;
@@ -32,15 +32,15 @@ std::string csv_field(std::string_view text) {
 
 namespace {
 
-// Hands on what there is of a table.
-void pass_on(std::string& table, const Sink& sink) {
+// Writes the rows collected so far.
+void flush(std::string& table, const Sink& sink) {
   sink(table);
   table.clear();
 }
 
 constexpr const char* parts = ",direct,indirect";
 
-// The unit, and the parts of an irradiance where they are known apart.
+// The unit; and the direct and indirect parts of an irradiance, if computed separately.
 std::string unit_and_parts(const std::string& unit, double irradiance, double direct) {
   return std::isnan(direct) ? unit : unit + ',' + to_text(direct) + ',' + to_text(irradiance - direct);
 }
@@ -61,7 +61,7 @@ void write_tiles_csv(const Result& result, const Sink& sink) {
                to_text(tile.point.x), to_text(tile.point.y), to_text(tile.point.z), to_text(tile.area_m2),
                to_text(figures.power), to_text(figures.irradiance), to_text(figures.standard_error),
                std::to_string(figures.hits), unit_and_parts(unit, figures.irradiance, figures.direct));
-    pass_on(table, sink);
+    flush(table, sink);
   }
   sink(table);
 }
@@ -76,7 +76,7 @@ void write_receivers_csv(const Result& result, const Sink& sink) {
                to_text(r.position.z), to_text(r.normal.x), to_text(r.normal.y), to_text(r.normal.z),
                to_text(one.irradiance), to_text(one.direct), to_text(one.indirect), to_text(one.standard_error),
                to_text(one.gain), one.gain > 0.0 ? to_text(10.0 * std::log10(one.gain)) : std::string(), unit);
-    pass_on(table, sink);
+    flush(table, sink);
   }
   sink(table);
 }

@@ -54,8 +54,9 @@ Imf::Header header_of(const Result& result, std::size_t m) {
   text("lichtmc_version", version());
   text("software", "lichtmc " + std::string(version()));
   text("comments",
-       "Y and standard_error in the unit named, area in m^2; the top line is row 0, at the smallest v; cells without "
-       "surface have the area 0, and 0 for the others");
+       "Y and standard_error in the unit of the attribute 'unit', area in m^2; the top line is row 0, at the smallest "
+       "v; "
+       "cells without surface have 0 in all channels");
   header.insert("uv_min", Imf::V2dAttribute({map.uv_min.x, map.uv_min.y}));
   header.insert("uv_max", Imf::V2dAttribute({map.uv_max.x, map.uv_max.y}));
   header.insert("tile_count", Imf::IntAttribute(static_cast<int>(result.surfaces[m].tiles)));
@@ -63,8 +64,8 @@ Imf::Header header_of(const Result& result, std::size_t m) {
   return header;
 }
 
-// Bytes of the UTF-8 character at the beginning of a text: 2 to 4 outside ASCII, 1 within, 0 where it is none (RFC
-// 3629; without a look at overlong forms and surrogates, which are strange but do no harm in a name).
+// Number of bytes of the UTF-8 character at the start of a text: 1 for ASCII, else 2 to 4; 0 if it is invalid (RFC
+// 3629). Overlong forms and surrogates are accepted: they are harmless in a file name.
 std::size_t character_length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text.front());
   const std::size_t length = lead < 0x80   ? 1
@@ -81,14 +82,14 @@ std::size_t character_length(std::string_view text) {
 }
 
 std::string safe_stem(std::string_view name) {
-  constexpr std::size_t longest = 120;  // bytes; file systems allow 255 and the temporary name needs some
+  constexpr std::size_t max_bytes = 120;  // file systems allow 255; the temporary name adds a suffix
   std::string stem;
   while (!name.empty()) {
     const auto c = static_cast<unsigned char>(name.front());
     const std::size_t length = character_length(name);
     const bool plain = length > 1 || (length == 1 && (std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'));
     const std::string_view piece = plain ? name.substr(0, length) : std::string_view("_");
-    if (stem.size() + piece.size() > longest) break;
+    if (stem.size() + piece.size() > max_bytes) break;
     stem += piece;
     name.remove_prefix(std::max<std::size_t>(length, 1));
   }

@@ -1,4 +1,4 @@
-// A surface's tile map as an image of numbers.
+// Tile maps as OpenEXR images.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,17 @@
 namespace lichtmc {
 
 // An OpenEXR file of one tile map, as bytes. One pixel per cell, row 0 (the top scan line) at the smallest v, column 0
-// at the smallest u. Channels, all 32-bit float: Y (irradiance), standard_error (NaN where unknown), area (m²);
-// and direct, the part of Y that came straight from the emitters, where that was found apart. Cells without surface
-// have 0 in all of them. Header attributes: unit, quantity, surface, material, side, uv_min, uv_max, tile_count,
-// tile_edge_m, lichtmc_version, software, comments. Throws RuntimeError where OpenEXR or the memory refuses.
+// at the smallest u. Channels, all 32-bit float: Y (irradiance), standard_error (NaN if unknown), area (m²); and
+// direct, the direct part of Y, if computed separately. Cells without surface have 0 in all channels. Header
+// attributes: unit, quantity, surface, material, side, uv_min, uv_max, tile_count, tile_edge_m, lichtmc_version,
+// software, comments. Throws RuntimeError if OpenEXR or the allocation of memory fails.
 std::string tile_image(const Result& result, std::size_t map);
 
-// Names as parts of file names, in UTF-8: what file systems dislike turned into '_', cut to 120 bytes; no two alike,
-// whatever the case of their ASCII letters.
+// Converts names to unique parts of file names, in UTF-8: characters that file systems may reject become '_', and the
+// length is limited to 120 bytes. Unique also without regard to the case of ASCII letters.
 std::vector<std::string> file_stems(const std::vector<std::string>& names);
 
-// File names for the tile maps of a result: the maps' names as file_stems() gives them, with ".exr".
+// File names of the tile maps of a result: file_stems() of their names, with ".exr".
 std::vector<std::string> tile_image_names(const Tiling& tiling);
 
 }  // namespace lichtmc

@@ -1,4 +1,4 @@
-// A report: pictures, the lit room and the page that shows them.
+// Writes the report: pictures, room_lit.glb and report.html.
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -24,13 +24,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t picture_width = 1200;  // pixels: sharp on a page, and on paper at 18 cm
+constexpr std::size_t picture_width = 1200;  // pixels: sufficient for the page, and for 18 cm in print
 constexpr std::size_t picture_height = 820;
-constexpr std::uint64_t most_paths = 10'000;
+constexpr std::uint64_t max_paths = 10'000;
 
-class Reporting {
+class ReportWriter {
  public:
-  Reporting(const Room& room, const Result& result, const fs::path& folder, const ReportOptions& options)
+  ReportWriter(const Room& room, const Result& result, const fs::path& folder, const ReportOptions& options)
       : room_(&room), result_(&result), folder_(folder), options_(&options) {
     content_.room = &room;
     content_.result = &result;
@@ -42,19 +42,19 @@ class Reporting {
       content_.scale = choose_scale(*result_, options_->scale);
       draw();
     }
-    tell("Looking the room over");
+    announce("Checking the room");
     content_.inspection = inspect(*room_, result_->tiling, result_->settings.tile_edge_m);
-    tell("Writing report.html");
+    announce("Writing report.html");
     write_file_atomically(folder_ / "report.html", report_html(content_));
     folder_.publish("report.html");
   }
 
  private:
-  void tell(std::string_view what) const {
-    if (options_->progress) options_->progress(what);
+  void announce(std::string_view step) const {
+    if (options_->progress) options_->progress(step);
   }
 
-  // A picture with its pixels as a file, encoded once.
+  // A picture with its PNG file, encoded once.
   struct Drawn {
     std::string name;
     const Picture* picture = nullptr;
@@ -77,19 +77,19 @@ class Reporting {
   }
 
   void draw() {
-    tell("Drawing the room");
+    announce("Drawing the room");
     const RoomPainter painter(*room_, *result_, options_->threads);
     const Picture room = painter.draw(View::corner, content_.scale, picture_width, picture_height);
     const Picture above = painter.draw(View::above, content_.scale, picture_width, picture_height);
-    // The room's own pictures come first, so that a surface called "room" gets another file.
+    // The pictures of the room come first: a surface with the name "room" then gets another file name.
     std::vector<Drawn> all{room_picture("room", room, View::corner), room_picture("above", above, View::above)};
     content_.room_picture = all[0].svg;
     content_.above_picture = all[1].svg;
 
-    tell("Drawing its surfaces");
+    announce("Drawing plans of the surfaces");
     content_.plans = draw_plans(*room_, *result_, painter.lit_sides(), content_.scale);
     const std::vector<std::string> names = plan_names(*result_, content_.plans);
-    // Encoding takes longer than drawing: each on a thread of its own, a dozen at most.
+    // Encoding takes longer than drawing: one thread per plan, at most 12.
     std::vector<std::future<Drawn>> drawings;
     for (std::size_t k = 0; k < names.size(); ++k) {
       drawings.push_back(std::async(std::launch::async, [this, &names, k] {
@@ -105,7 +105,7 @@ class Reporting {
     }
     const std::vector<PhotonPath> paths = trace();
 
-    tell("Writing pictures");
+    announce("Writing pictures");
     std::vector<std::string> stems{"paths"};
     for (const Drawn& drawn : all) stems.push_back(drawn.name);
     stems = file_stems(stems);
@@ -116,7 +116,7 @@ class Reporting {
     write_file_atomically(folder_ / "room_lit.glb", content_.lit_room);
   }
 
-  // The first photons of the run, if they are to be seen.
+  // The paths of the first photons of the run, if requested.
   std::vector<PhotonPath> trace() {
     if (options_->paths == 0) return {};
     Settings settings = result_->settings;
@@ -135,7 +135,7 @@ class Reporting {
 
 }  // namespace
 
-// Pictures are known by their SVG's first line; what else lies in the folder is not ours.
+// A picture of lichtmc is recognised by the first line of its SVG; other files belong to the user.
 void remove_report(const fs::path& folder) {
   remove_old(folder / "report.html");
   remove_old(folder / "room_lit.glb");
@@ -155,11 +155,11 @@ void write_paths(const Room& room, const std::vector<PhotonPath>& paths, const f
 }
 
 void write_report(const Room& room, const Result& result, const fs::path& folder, const ReportOptions& options) {
-  if (options.paths > most_paths)
+  if (options.paths > max_paths)
     throw InputError("The number of photon paths is " + std::to_string(options.paths) +
                      " (allowed: 0 to 10000). Give --paths a smaller number.");
   remove_report(folder);
-  Reporting(room, result, folder, options).write();
+  ReportWriter(room, result, folder, options).write();
 }
 
 }  // namespace lichtmc

@@ -26,8 +26,8 @@ namespace {
                    "). Choose another folder with --output.");
 }
 
-// Whether a file can be made, filled and removed there, or why not. Permissions alone do not tell: disks are full, or
-// mounted for reading only.
+// Creates, writes and removes a file; returns the error if that fails. A check of permissions is not sufficient: the
+// disk may be full or mounted read-only.
 std::error_code try_to_write(const fs::path& folder) {
   const fs::path probe = folder / ".lichtmc_probe";
   errno = 0;
@@ -52,7 +52,7 @@ void prepare_output(const fs::path& folder) {
   for (const char* name : {"tiles", "pictures"}) {
     const fs::path inner = folder / name;
     if (!fs::exists(inner, error)) continue;
-    if (!fs::is_directory(inner, error)) refuse_folder(folder, in_quotes(name) + " in it is no folder");
+    if (!fs::is_directory(inner, error)) refuse_folder(folder, in_quotes(name) + " in it is not a folder");
     if (const std::error_code fault = try_to_write(inner)) refuse_folder(inner, reason_of(fault));
   }
 }
@@ -72,14 +72,15 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
     write_file_atomically(staged / "receivers.csv", [&](const Sink& sink) { write_receivers_csv(result, sink); });
   write_file_atomically(staged / "summary.json", [&](const Sink& sink) { write_summary(room, result, sink); });
 
-  // All is on the disk: now what was there may go. A summary speaks for all files beside it: none while they change.
+  // All new files are on the disk: the old files can be replaced. The old summary is removed first, because a folder
+  // with a summary.json is complete.
   remove_old(folder / "summary.json");
   flush_folder(folder);
   remove_report(folder);
-  // What this run has not computed is not left over from another. Other files are left alone.
-  const std::set<std::string> ours(maps.begin(), maps.end());
+  // Removes results of an earlier run that this run does not replace. Other files stay.
+  const std::set<std::string> new_maps(maps.begin(), maps.end());
   remove_old_files(folder / "tiles", [&](const fs::path& file) {
-    return file.extension() == ".exr" && ours.count(file.filename().string()) == 0;
+    return file.extension() == ".exr" && new_maps.count(file.filename().string()) == 0;
   });
   if (result.tiles.empty()) {
     remove_old(folder / "tiles.csv");

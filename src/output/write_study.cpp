@@ -1,4 +1,4 @@
-// A study as files: a table, three pictures, and advice in words.
+// Writes a study to files: a table, three charts, and advice as text.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -39,7 +39,7 @@ double main_edge(const Study& study) {
   return study.references.front().tile_edge_m;
 }
 
-// Rows of the main tile size that are not cut off, by setting.
+// Rows of the main tile size without a limit of flights, by setting.
 std::map<std::string, std::vector<StudyRow>> ladders_of(const Study& study) {
   std::map<std::string, std::vector<StudyRow>> ladders;
   for (const StudyRow& row : study.rows) {
@@ -50,7 +50,7 @@ std::map<std::string, std::vector<StudyRow>> ladders_of(const Study& study) {
 
 std::string error_over_time(const Study& study) {
   LineChart chart;
-  chart.title = "Error over time, tiles of " + short_number(main_edge(study)) + " m";
+  chart.title = "Error over time, tile edge " + short_number(main_edge(study)) + " m";
   chart.x_label = "time, s (" + to_text(study.threads, "thread") + ")";
   chart.y_label = "rms relative error of the tiles, %";
   for (const auto& [name, rows] : ladders_of(study)) {
@@ -63,13 +63,13 @@ std::string error_over_time(const Study& study) {
 
 std::string bias_over_bounces(const Study& study) {
   LineChart chart;
-  chart.title = "What is missed when walks are cut off";
-  chart.x_label = "flights after which the weight estimator is cut off";
+  chart.title = "Bias of walks with a limited number of flights";
+  chart.x_label = "number of flights (--max-bounces), weight estimator";
   chart.y_label = "relative error, %";
   chart.x_scale = Scale::linear;
-  ChartSeries bias{"bias of all tiles together", {}};
+  ChartSeries bias{"bias of the sum over all tiles", {}};
   ChartSeries error{"rms relative error of the tiles", {}};
-  ChartSeries stated{"stated standard error, rms", {}};
+  ChartSeries stated{"reported standard error, rms", {}};
   for (const StudyRow& row : study.rows) {
     if (!row.max_bounces) continue;
     const double flights = *row.max_bounces;
@@ -84,8 +84,9 @@ std::string bias_over_bounces(const Study& study) {
 std::string figures_of_merit(const Study& study) {
   std::vector<Bar> bars;
   for (const auto& [name, rows] : ladders_of(study)) bars.push_back({name, rows.back().figure_of_merit});
-  return bars_to_svg("Figure of merit, tiles of " + short_number(main_edge(study)) + " m",
-                     "1 / (rms relative error² · time), 1/s: twice as much is the same error in half the time", bars);
+  return bars_to_svg("Figure of merit, tile edge " + short_number(main_edge(study)) + " m",
+                     "1 / (rms relative error² · time), 1/s: twice the value means the same error in half the time",
+                     bars);
 }
 
 }  // namespace
@@ -93,14 +94,15 @@ std::string figures_of_merit(const Study& study) {
 std::string advice_text(const Study& study) {
   std::string text = "Room " + study.room + ", " + to_text(study.threads, "thread") + ".\n";
   for (const StudyReference& reference : study.references) {
-    text += "Reference for tiles of " + short_number(reference.tile_edge_m) +
+    text += "Reference for a tile edge of " + short_number(reference.tile_edge_m) +
             " m: " + to_text(reference.tiles, "tile") + ", " + short_number(static_cast<double>(reference.histories)) +
-            " photons, known to " + short_number(100.0 * reference.standard_error) + " % (rms), " +
-            short_number(100.0 * reference.area_share) + " % of the lit area to 10 % or better: errors are of these.\n";
+            " photons, standard error " + short_number(100.0 * reference.standard_error) +
+            " % (rms). Tiles with a standard error of 10 % or less have " + short_number(100.0 * reference.area_share) +
+            " % of the lit area; the errors below are those of these tiles.\n";
   }
-  text += "\nThe cheapest settings for the tiles (area-weighted rms relative error):\n";
+  text += "\nThe fastest settings for the tiles (area-weighted rms relative error):\n";
   for (const Advice& advice : study.advice) text += advice.sentence + "\n";
-  if (study.advice.empty()) text += "None: no run told its error. Give --max-time more.\n";
+  if (study.advice.empty()) text += "None: no run has a known error. Increase --max-time.\n";
   if (!study.left_out.empty()) text += "\nLeft out:\n";
   for (const std::string& sentence : study.left_out) text += sentence + "\n";
   return text;

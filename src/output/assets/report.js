@@ -1,5 +1,5 @@
 "use strict";
-// Tables sort by a click on a heading, or Enter or Space while it has the focus; a second one turns the order round.
+// Sorts a table on a click on a heading, or on Enter or Space while it has the focus; the second time in reverse order.
 for (const table of document.querySelectorAll("table.sortable")) {
   const headings = [...table.tHead.rows[0].cells];
   const sort = column => {
@@ -12,12 +12,12 @@ for (const table of document.querySelectorAll("table.sortable")) {
       return cell.dataset.value === undefined ? cell.textContent : Number(cell.dataset.value);
     };
     const rows = [...table.tBodies[0].rows].map(row => [value(row), row]);
-    const turn = ascending ? 1 : -1;
-    // Numbers before what has none ("–"), either way round.
+    const sign = ascending ? 1 : -1;
+    // In both orders, rows with a number come before rows without one ("–").
     rows.sort(([a], [b]) => {
       const numbers = (typeof b === "number") - (typeof a === "number");
       if (numbers !== 0) return numbers;
-      return turn * (typeof a === "number" ? a - b : a.localeCompare(b, undefined, { numeric: true }));
+      return sign * (typeof a === "number" ? a - b : a.localeCompare(b, undefined, { numeric: true }));
     });
     table.tBodies[0].append(...rows.map(([, row]) => row));
   };

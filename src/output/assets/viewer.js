@@ -1,13 +1,13 @@
 "use strict";
-// The room in three dimensions: draws room_lit.glb with WebGL 2 and tells the number behind each tile.
+// 3-D view: draws room_lit.glb with WebGL 2 and shows the irradiance of the tile under the pointer.
 //
-// It reads the one kind of file that lichtmc writes, not glTF at large: no transforms, one buffer, triangles with a
-// picture of their tiles or lines with colours. That keeps the page small and free of other people's code.
+// Reads only the subset of glTF that lichtmc writes: no transforms, one buffer, triangles with a tile map as texture, or
+// lines with colours. This keeps the page small and without third-party code.
 function lichtmcView(container, glb) {
   const canvas = container.appendChild(document.createElement("canvas"));
   const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
   if (!gl) {
-    container.textContent = "This browser cannot draw in three dimensions (WebGL 2). The pictures above show the same.";
+    container.textContent = "This browser does not support WebGL 2. The pictures above show the same results.";
     container.dataset.state = "unavailable";
     return;
   }
@@ -28,28 +28,28 @@ function lichtmcView(container, glb) {
     return new Uint32Array(glb, start, length / 4);
   };
   const parts = [];
-  const lamps = [];
+  const emitters = [];
   for (const node of gltf.nodes) {
-    if (node.extras?.lichtmc?.kind === "emitter") lamps.push({ ...node.extras.lichtmc, place: node.translation });
+    if (node.extras?.lichtmc?.kind === "emitter") emitters.push({ ...node.extras.lichtmc, place: node.translation });
     if (node.mesh === undefined) continue;
     for (const primitive of gltf.meshes[node.mesh].primitives) {
       const material = gltf.materials[primitive.material];
       parts.push({
         lines: primitive.mode === 1,
-        glass: material.alphaMode === "BLEND",
+        transparent: material.alphaMode === "BLEND",
         twoSided: material.doubleSided === true,
         tint: material.pbrMetallicRoughness.baseColorFactor || [1, 1, 1, 1],
         texture: material.pbrMetallicRoughness.baseColorTexture?.index,
         numbers: material.extras?.lichtmc,
         positions: accessor(primitive.attributes.POSITION),
-        places: primitive.attributes.TEXCOORD_0 === undefined ? null : accessor(primitive.attributes.TEXCOORD_0),
+        uvs: primitive.attributes.TEXCOORD_0 === undefined ? null : accessor(primitive.attributes.TEXCOORD_0),
         colours: primitive.attributes.COLOR_0 === undefined ? null : accessor(primitive.attributes.COLOR_0),
         indices: primitive.indices === undefined ? null : indices(primitive.indices),
       });
     }
   }
 
-  // ---- what the graphics processor gets
+  // ---- shaders, buffers and textures
   const program = gl.createProgram();
   const shader = (kind, source) => {
     const one = gl.createShader(kind);
@@ -63,7 +63,7 @@ function lichtmcView(container, glb) {
   shader(gl.FRAGMENT_SHADER, `
     uniform sampler2D picture; uniform int kind; uniform vec4 tint; in vec2 at; in vec3 light; out vec4 pixel;
     void main() {
-      // Pictures are colours for the screen as they are; the colours of lines are light.
+      // Textures are in sRGB already; the colours of lines are linear.
       if (kind == 0) pixel = vec4(texture(picture, at).rgb, 1.0);
       else if (kind == 1) pixel = vec4(pow(light, vec3(1.0 / 2.2)), 1.0);
       else pixel = tint;
@@ -85,13 +85,13 @@ function lichtmcView(container, glb) {
     part.vertices = gl.createVertexArray();
     gl.bindVertexArray(part.vertices);
     attribute(0, 3, part.positions);
-    attribute(1, 2, part.places);
+    attribute(1, 2, part.uvs);
     attribute(2, 3, part.colours);
     if (part.indices) {
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
       gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, part.indices, gl.STATIC_DRAW);
     }
-    if (part.lines || part.glass) continue;
+    if (part.lines || part.transparent) continue;
     for (let k = 0; k < part.positions.length; ++k) {
       low[k % 3] = Math.min(low[k % 3], part.positions[k]);
       high[k % 3] = Math.max(high[k % 3], part.positions[k]);
@@ -106,7 +106,7 @@ function lichtmcView(container, glb) {
       gl.bindTexture(gl.TEXTURE_2D, texture);
       gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB8, gl.RGB, gl.UNSIGNED_BYTE, image);
       gl.generateMipmap(gl.TEXTURE_2D);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);  // a tile has one colour
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);  // a tile has one uniform colour
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
@@ -114,9 +114,9 @@ function lichtmcView(container, glb) {
     return { texture, ready };
   });
 
-  // ---- the eye: on a sphere about a target
+  // ---- the camera: on a sphere about a target
   const size = Math.hypot(...high.map((h, k) => h - low[k])) || 1;
-  const field = 0.6;  // rad, of view, up and down
+  const field = 0.6;  // rad, vertical field of view
   const start = () => ({ yaw: 0.5, pitch: 0.7, distance: 0.54 * size / Math.tan(field / 2), target: low.map((l, k) => (l + high[k]) / 2) });
   let eye = start();
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -142,7 +142,7 @@ function lichtmcView(container, glb) {
     return [0, 1, 2, 3].flatMap(column => rows.map(r => r[column]));
   };
 
-  // ---- drawing, only when something has changed
+  // ---- drawing, only after a change
   const bar = container.appendChild(document.createElement("div"));
   bar.className = "bar";
   const reset = bar.appendChild(document.createElement("button"));
@@ -160,9 +160,9 @@ function lichtmcView(container, glb) {
   }
   const readout = container.appendChild(document.createElement("div"));
   readout.className = "readout";
-  for (const lamp of lamps) {
-    lamp.mark = container.appendChild(document.createElement("div"));
-    lamp.mark.className = "lamp";
+  for (const emitter of emitters) {
+    emitter.mark = container.appendChild(document.createElement("div"));
+    emitter.mark.className = "emitter";
   }
   let background = [1, 1, 1];
   const readBackground = () => {
@@ -178,14 +178,14 @@ function lichtmcView(container, glb) {
     gl.enable(gl.DEPTH_TEST);
     gl.uniformMatrix4fv(uniform("view"), false, matrix);
     gl.cullFace(gl.BACK);
-    // What can be looked through comes last.
-    for (const part of [...parts.filter(p => !p.glass), ...parts.filter(p => p.glass)]) {
+    // Transparent parts come last.
+    for (const part of [...parts.filter(p => !p.transparent), ...parts.filter(p => p.transparent)]) {
       if (part.lines && !showPaths) continue;
       gl.bindVertexArray(part.vertices);
       (part.twoSided || part.lines ? gl.disable : gl.enable).call(gl, gl.CULL_FACE);
-      (part.glass ? gl.enable : gl.disable).call(gl, gl.BLEND);
+      (part.transparent ? gl.enable : gl.disable).call(gl, gl.BLEND);
       gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-      gl.depthMask(!part.glass);
+      gl.depthMask(!part.transparent);
       gl.uniform1i(uniform("kind"), part.lines ? 1 : part.texture === undefined ? 2 : 0);
       gl.uniform4fv(uniform("tint"), part.tint);
       if (part.texture !== undefined) gl.bindTexture(gl.TEXTURE_2D, textures[part.texture].texture);
@@ -193,12 +193,12 @@ function lichtmcView(container, glb) {
       else gl.drawArrays(part.lines ? gl.LINES : gl.TRIANGLES, 0, part.positions.length / 3);
     }
     gl.depthMask(true);
-    for (const lamp of lamps) {
-      const p = [...lamp.place, 1];
+    for (const emitter of emitters) {
+      const p = [...emitter.place, 1];
       const [x, y, , w] = [0, 1, 2, 3].map(r => p.reduce((sum, c, k) => sum + matrix[4 * k + r] * c, 0));
-      lamp.mark.style.display = w > 0 ? "" : "none";
-      lamp.mark.style.left = `${(50 + 50 * x / w).toFixed(2)}%`;
-      lamp.mark.style.top = `${(50 - 50 * y / w).toFixed(2)}%`;
+      emitter.mark.style.display = w > 0 ? "" : "none";
+      emitter.mark.style.left = `${(50 + 50 * x / w).toFixed(2)}%`;
+      emitter.mark.style.top = `${(50 - 50 * y / w).toFixed(2)}%`;
     }
   };
   let waiting = false;
@@ -208,31 +208,31 @@ function lichtmcView(container, glb) {
     requestAnimationFrame(() => { waiting = false; draw(); });
   };
 
-  // ---- the number under the pointer: the nearest triangle that is drawn (T. Möller, B. Trumbore, Fast, Minimum
-  // Storage Ray/Triangle Intersection, 1997)
+  // ---- the tile under the pointer: intersection with the nearest visible triangle (T. Möller, B. Trumbore, Fast,
+  // Minimum Storage Ray/Triangle Intersection, 1997)
   const find = (x, y) => {
     const { back, right, up, place } = frame();
     const scale = Math.tan(field / 2);
     const across = (2 * x / canvas.clientWidth - 1) * scale * canvas.clientWidth / canvas.clientHeight;
     const along = (1 - 2 * y / canvas.clientHeight) * scale;
-    const way = back.map((b, k) => -b + across * right[k] + along * up[k]);
+    const ray = back.map((b, k) => -b + across * right[k] + along * up[k]);
     let nearest = Infinity;
     let found = null;
     for (const part of parts) {
-      if (part.lines || part.glass) continue;
+      if (part.lines || part.transparent) continue;
       const p = part.positions;
       for (let k = 0; k < part.indices.length; k += 3) {
         const [i, j, l] = [3 * part.indices[k], 3 * part.indices[k + 1], 3 * part.indices[k + 2]];
         const e1x = p[j] - p[i], e1y = p[j + 1] - p[i + 1], e1z = p[j + 2] - p[i + 2];
         const e2x = p[l] - p[i], e2y = p[l + 1] - p[i + 1], e2z = p[l + 2] - p[i + 2];
-        const hx = way[1] * e2z - way[2] * e2y, hy = way[2] * e2x - way[0] * e2z, hz = way[0] * e2y - way[1] * e2x;
+        const hx = ray[1] * e2z - ray[2] * e2y, hy = ray[2] * e2x - ray[0] * e2z, hz = ray[0] * e2y - ray[1] * e2x;
         const area = e1x * hx + e1y * hy + e1z * hz;
         if (area === 0 || (area < 0 && !part.twoSided)) continue;
         const sx = place[0] - p[i], sy = place[1] - p[i + 1], sz = place[2] - p[i + 2];
         const u = (sx * hx + sy * hy + sz * hz) / area;
         if (u < 0 || u > 1) continue;
         const qx = sy * e1z - sz * e1y, qy = sz * e1x - sx * e1z, qz = sx * e1y - sy * e1x;
-        const v = (way[0] * qx + way[1] * qy + way[2] * qz) / area;
+        const v = (ray[0] * qx + ray[1] * qy + ray[2] * qz) / area;
         const distance = (e2x * qx + e2y * qy + e2z * qz) / area;
         if (v < 0 || u + v > 1 || distance <= 0 || distance >= nearest) continue;
         nearest = distance;
@@ -242,10 +242,10 @@ function lichtmcView(container, glb) {
     return found;
   };
   const digits = value => Number(value.toPrecision(3)).toString();
-  const tell = ({ part, k, u, v }) => {
+  const describe = ({ part, k, u, v }) => {
     const { surface, unit, columns, rows, irradiance, standard_error } = part.numbers;
     const at = axis => {
-      const [a, b, c] = [0, 1, 2].map(n => part.places[2 * part.indices[k + n] + axis]);
+      const [a, b, c] = [0, 1, 2].map(n => part.uvs[2 * part.indices[k + n] + axis]);
       return a + u * (b - a) + v * (c - a);
     };
     const column = Math.min(columns - 1, Math.max(0, Math.floor(at(0) * columns)));
@@ -254,22 +254,22 @@ function lichtmcView(container, glb) {
     const error = floats(standard_error)[row * columns + column];
     if (Number.isNaN(value)) return `${surface}: no tile here`;
     const name = unit === "W/m^2" ? "W/m²" : unit;
-    const sure = Number.isNaN(error) ? "error unknown" : `± ${digits(error)} ${name}`;
-    return `${surface}: ${digits(value)} ${name} ${sure} (column ${column}, row ${row})`;
+    const accuracy = Number.isNaN(error) ? "error unknown" : `± ${digits(error)} ${name}`;
+    return `${surface}: ${digits(value)} ${name} ${accuracy} (column ${column}, row ${row})`;
   };
-  let asked = null;
+  let pointer = null;
   const read = event => {
     const box = canvas.getBoundingClientRect();
-    if (asked === null) requestAnimationFrame(() => {
-      const found = find(...asked);
-      asked = null;
-      readout.textContent = found ? tell(found) : "";
+    if (pointer === null) requestAnimationFrame(() => {
+      const found = find(...pointer);
+      pointer = null;
+      readout.textContent = found ? describe(found) : "";
     });
-    asked = [event.clientX - box.left, event.clientY - box.top];
+    pointer = [event.clientX - box.left, event.clientY - box.top];
   };
 
-  // ---- hands
-  const turn = (x, y) => {
+  // ---- input
+  const rotate = (x, y) => {
     eye.yaw -= 0.008 * x;
     eye.pitch = Math.min(1.55, Math.max(-1.55, eye.pitch + 0.008 * y));
   };
@@ -278,42 +278,42 @@ function lichtmcView(container, glb) {
     const metres = 2 * eye.distance * Math.tan(field / 2) / canvas.clientHeight;
     eye.target = eye.target.map((t, k) => t + metres * (y * up[k] - x * right[k]));
   };
-  const come = factor => { eye.distance = Math.min(20 * size, Math.max(0.01 * size, eye.distance * factor)); };
-  const fingers = new Map();
+  const zoom = factor => { eye.distance = Math.min(20 * size, Math.max(0.01 * size, eye.distance * factor)); };
+  const pointers = new Map();
   canvas.addEventListener("pointerdown", event => {
     canvas.setPointerCapture(event.pointerId);
-    fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    pointers.set(event.pointerId, [event.clientX, event.clientY]);
   });
   for (const kind of ["pointerup", "pointercancel"])
-    canvas.addEventListener(kind, event => fingers.delete(event.pointerId));
+    canvas.addEventListener(kind, event => pointers.delete(event.pointerId));
   canvas.addEventListener("pointermove", event => {
-    const before = fingers.get(event.pointerId);
+    const before = pointers.get(event.pointerId);
     if (!before) return read(event);
     const [x, y] = [event.clientX - before[0], event.clientY - before[1]];
-    const other = [...fingers].find(([id]) => id !== event.pointerId)?.[1];
+    const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
     if (other) {
-      const apart = point => Math.hypot(point[0] - other[0], point[1] - other[1]) || 1;
-      come(apart(before) / apart([event.clientX, event.clientY]));
+      const distance = point => Math.hypot(point[0] - other[0], point[1] - other[1]) || 1;
+      zoom(distance(before) / distance([event.clientX, event.clientY]));
       move(x / 2, y / 2);
     } else if (event.shiftKey || event.buttons & 2) {
       move(x, y);
     } else {
-      turn(x, y);
+      rotate(x, y);
     }
-    fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    pointers.set(event.pointerId, [event.clientX, event.clientY]);
     redraw();
   });
   canvas.addEventListener("pointerleave", () => { readout.textContent = ""; });
   canvas.addEventListener("contextmenu", event => event.preventDefault());
   canvas.addEventListener("wheel", event => {
     event.preventDefault();
-    come(Math.exp(0.001 * event.deltaY));
+    zoom(Math.exp(0.001 * event.deltaY));
     redraw();
   }, { passive: false });
   container.addEventListener("keydown", event => {
     const keys = {
-      ArrowLeft: () => turn(12, 0), ArrowRight: () => turn(-12, 0), ArrowUp: () => turn(0, 12), ArrowDown: () => turn(0, -12),
-      "+": () => come(0.9), "-": () => come(1.1), Home: () => { eye = start(); },
+      ArrowLeft: () => rotate(12, 0), ArrowRight: () => rotate(-12, 0), ArrowUp: () => rotate(0, 12), ArrowDown: () => rotate(0, -12),
+      "+": () => zoom(0.9), "-": () => zoom(1.1), Home: () => { eye = start(); },
     };
     if (!keys[event.key]) return;
     event.preventDefault();
