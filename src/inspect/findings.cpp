@@ -276,7 +276,8 @@ void FindingsCollector::texture_coordinates() {
   }
   for (const auto& [fault, names] : by_fault) {
     add(Severity::note, "texture-coordinates",
-        to_text(names.count(), "surface") + ": " + fault + " (" + names.text() + "). lichtmc makes the charts there.",
+        "Charts made by lichtmc for " + to_text(names.count(), "surface") + ": " + names.text() +
+            ". Reason for each surface: " + fault + ".",
         "Nothing to do. For charts of your own, unwrap the meshes without overlaps into a second UV map.");
   }
 }

@@ -54,9 +54,8 @@ Imf::Header header_of(const Result& result, std::size_t m) {
   text("lichtmc_version", version());
   text("software", "lichtmc " + std::string(version()));
   text("comments",
-       "Y and standard_error in the unit of the attribute 'unit', area in m^2; the top line is row 0, at the smallest "
-       "v; "
-       "cells without surface have 0 in all channels");
+       "Y and standard_error in the unit named, area in m^2; the top line is row 0, at the smallest v; cells without "
+       "surface have the area 0, and 0 for the others");
   header.insert("uv_min", Imf::V2dAttribute({map.uv_min.x, map.uv_min.y}));
   header.insert("uv_max", Imf::V2dAttribute({map.uv_max.x, map.uv_max.y}));
   header.insert("tile_count", Imf::IntAttribute(static_cast<int>(result.surfaces[m].tiles)));
