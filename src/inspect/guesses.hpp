@@ -20,7 +20,8 @@ struct LengthUnit {
 std::optional<LengthUnit> guess_unit(const glm::dvec3& size);
 
 // Whether a room is probably Z-up: its extent along Z does not exceed that along Y, and the area perpendicular to Z
-// exceeds the area perpendicular to Y. Floors and ceilings have the largest area, and rooms are lower than long.
+// exceeds 1.5 times the area perpendicular to Y. Floors and ceilings have the largest area, and rooms are lower than
+// long.
 bool looks_z_up(const Room& room, const glm::dvec3& size);
 
 }  // namespace lichtmc
