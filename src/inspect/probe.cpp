@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "chance/directions.hpp"
 #include "chance/stream.hpp"
-#include "walk/wave.hpp"
+#include "walk/kernel.hpp"
+#include "walk/never_absorbed.hpp"
 
 namespace lichtmc {
 
@@ -43,10 +43,10 @@ Exit exit_of(const glm::dvec3& start, const glm::dvec3& direction, const glm::dv
   return exit;
 }
 
-// The flights that left, by the side that they passed.
-class Leavers {
+// The flights that escaped, by the side of the bounding box that they passed.
+class EscapedFlights {
  public:
-  Leavers(const Room& room, const Tracer& tracer, const glm::dvec3& low, const glm::dvec3& high)
+  EscapedFlights(const Room& room, const Tracer& tracer, const glm::dvec3& low, const glm::dvec3& high)
       : room_(&room), tracer_(&tracer), to_world_(glm::inverse(tracer.directions())), low_(low), high_(high) {}
 
   // Flight i of the rays met nothing; `from` is the facet it started from, or no_facet.
@@ -106,50 +106,65 @@ glm::dvec3 hit_point(const Room& room, const RoomTriangle& triangle, const Rays&
 
 }  // namespace
 
-ProbeResult probe(const Room& room, const Scene& scene, const glm::dvec3& low, const glm::dvec3& high) {
-  const Stream stream(seed);
-  const std::vector<Facet>& facets = scene.tracer->facets();
-  ProbeResult result;
-  result.impacts.resize(room.surfaces.size());
-  result.behind.resize(room.surfaces.size());
-  Leavers leavers(room, *scene.tracer, low, high);
-  Wave wave;
-  Rays& rays = wave.rays;
-  TraceCount count;
-  std::vector<std::uint32_t> from(batch_histories);
-  for (std::uint64_t w = 0; w < waves; ++w) {
-    for (std::uint32_t i = 0; i < batch_histories; ++i) {
-      wave.photon[i] = i;
-      scene.launcher->launch(stream, w * batch_histories + i, rays, i);
-    }
-    rays.size = batch_histories;
-    for (std::uint32_t flight = 1; flight <= flights_each && rays.size > 0; ++flight) {
-      for (std::size_t i = 0; i < rays.size; ++i) from[i] = rays.facet[i];
-      scene.tracer->depart(rays);
-      scene.tracer->trace(rays, Misses::escape, count);
-      result.flights += rays.size;
-      std::size_t kept = 0;
-      for (std::size_t i = 0; i < rays.size; ++i) {
-        if (rays.facet[i] == no_facet) {
-          leavers.add(rays, i, from[i]);
-          ++result.left;
-          continue;
-        }
-        const std::uint32_t surface = facets[rays.facet[i]].surface;
-        ++result.impacts[surface];
-        result.behind[surface] += rays.behind[i];
-        wave.move(i, kept++);
-      }
-      rays.size = kept;
-      for (std::size_t i = 0; i < rays.size; ++i) {
-        const Words words = stream.draw(w * batch_histories + wave.photon[i], flight, Purpose::flight);
-        rays.set_direction(
-            i, direction_from(facets[rays.facet[i]], rays.behind[i] != 0, sample_lambert(words[0], words[1])));
-      }
+namespace {
+
+// Goal: impacts on surfaces, flights that escape.
+class ProbeGoal : public GoalBase {
+ public:
+  ProbeGoal(const Room& room, const Scene& scene, const Stream& stream, const glm::dvec3& low, const glm::dvec3& high)
+      : scene_(scene), stream_(stream), escaped_(room, *scene.tracer, low, high), from_(batch_histories) {
+    result_.impacts.resize(room.surfaces.size());
+    result_.behind.resize(room.surfaces.size());
+  }
+
+  void begin(std::uint64_t first_history) { first_history_ = first_history; }
+  void start(Wave& wave, std::uint32_t n) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      scene_.launcher->launch(stream_, first_history_ + i, wave.rays, i);
+      from_[i] = wave.rays.facet[i];
     }
   }
-  result.openings = leavers.openings(result.left);
-  return result;
+  void escape(const Wave& wave, std::size_t i) {
+    escaped_.add(wave.rays, i, from_[wave.photon[i]]);
+    ++result_.flights;
+    ++result_.left;
+  }
+  void land(const Wave& wave) {
+    result_.flights += wave.rays.size;
+    for (std::size_t i = 0; i < wave.rays.size; ++i) {
+      const std::uint32_t facet = wave.rays.facet[i];
+      const std::uint32_t surface = scene_.surface_of[facet];
+      ++result_.impacts[surface];
+      result_.behind[surface] += wave.rays.behind[i];
+      from_[wave.photon[i]] = facet;
+    }
+  }
+  [[maybe_unused]] static constexpr bool in_lanes = true;
+
+  ProbeResult result() {
+    result_.openings = escaped_.openings(result_.left);
+    return result_;
+  }
+
+ private:
+  const Scene& scene_;
+  const Stream& stream_;
+  EscapedFlights escaped_;
+  std::vector<std::uint32_t> from_;  // facet that a photon left last, or no_facet
+  ProbeResult result_;
+};
+
+}  // namespace
+
+ProbeResult probe(const Room& room, const Scene& scene, const glm::dvec3& low, const glm::dvec3& high) {
+  const Stream stream(seed);
+  ProbeGoal goal(room, scene, stream, low, high);
+  Kernel<NeverAbsorbedPolicy, SurfaceReflectance, ProbeGoal> kernel(scene, stream, flights_each);
+  for (std::uint64_t w = 0; w < waves; ++w) {
+    goal.begin(w * batch_histories);
+    kernel.fly(batch_histories, goal, [] { return false; });
+  }
+  return goal.result();
 }
 
 glm::dvec3 find_inside(const Room& room, const Tracer& tracer, const glm::dvec3& low, const glm::dvec3& high) {

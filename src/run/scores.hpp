@@ -10,7 +10,7 @@
 #include "lichtmc/tiles.hpp"
 #include "run/tile_light.hpp"
 #include "walk/tally.hpp"
-#include "walk/walk.hpp"
+#include "walk/choose_policy.hpp"
 
 namespace lichtmc {
 

@@ -10,7 +10,7 @@
 #include "lichtmc/error.hpp"
 #include "lichtmc/result.hpp"
 #include "room/reflectance.hpp"
-#include "walk/walk.hpp"
+#include "walk/choose_policy.hpp"
 
 namespace lichtmc {
 

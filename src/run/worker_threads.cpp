@@ -5,6 +5,7 @@
 
 #include "chance/moments.hpp"
 #include "run/collectives.hpp"
+#include "walk/choose_policy.hpp"
 
 namespace lichtmc {
 

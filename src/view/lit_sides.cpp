@@ -7,11 +7,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "chance/draw_many.hpp"
 #include "chance/stream.hpp"
 #include "room/mesh_links.hpp"
 #include "room/triangle_shapes.hpp"
-#include "walk/wave.hpp"
+#include "walk/kernel.hpp"
+#include "walk/never_absorbed.hpp"
 
 namespace lichtmc {
 
@@ -38,34 +38,40 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
-// Impacts of photons that are never absorbed, on side 2·facet + behind.
+// Goal: impacts on side 2·facet + behind.
+class ImpactsOfSides : public GoalBase {
+ public:
+  ImpactsOfSides(const Scene& scene, const Stream& stream)
+      : scene_(scene), stream_(stream), impacts_(2 * scene.tracer->facets().size()) {}
+
+  void begin(std::uint64_t first_history) { first_history_ = first_history; }
+  void start(Wave& wave, std::uint32_t n) {
+    scene_.launcher->launch_all(stream_, first_history_, n, wave.rays, wave.photon.data());
+  }
+  Misses misses() const { return scene_.misses; }
+  void land(const Wave& wave) {
+    for (std::size_t i = 0; i < wave.rays.size; ++i)
+      ++impacts_[2 * std::size_t{wave.rays.facet[i]} + wave.rays.behind[i]];
+  }
+  [[maybe_unused]] static constexpr bool in_lanes = true;
+
+  const std::vector<std::uint32_t>& impacts() const { return impacts_; }
+
+ private:
+  const Scene& scene_;
+  const Stream& stream_;
+  std::vector<std::uint32_t> impacts_;
+};
+
 std::vector<std::uint32_t> impacts_of_sides(const Scene& scene) {
   const Stream stream(seed);
-  std::vector<std::uint32_t> impacts(2 * scene.tracer->facets().size());
-  Wave wave;
-  Rays& rays = wave.rays;
-  TraceCount count;
+  ImpactsOfSides goal(scene, stream);
+  Kernel<NeverAbsorbedPolicy, SurfaceReflectance, ImpactsOfSides> kernel(scene, stream, flights_each);
   for (std::uint64_t w = 0; w < waves; ++w) {
-    rays.size = batch_histories;
-    scene.launcher->launch_all(stream, w * batch_histories, batch_histories, rays, wave.photon.data());
-    scene.tracer->depart(rays);
-    for (std::uint32_t flight = 1; flight <= flights_each && rays.size > 0; ++flight) {
-      scene.tracer->trace(rays, scene.misses, count);
-      std::size_t kept = 0;
-      for (std::size_t i = 0; i < rays.size; ++i) {
-        if (rays.facet[i] == no_facet) continue;
-        ++impacts[2 * std::size_t{rays.facet[i]} + rays.behind[i]];
-        wave.move(i, kept++);
-      }
-      rays.size = kept;
-      for (std::size_t i = 0; i < kept; ++i) wave.history[i] = w * batch_histories + wave.photon[i];
-      for (std::size_t i = kept; i < whole_lanes(kept); ++i) rays.facet[i] = 0;
-      draw_many(stream, kept, wave.history.data(), flight, Purpose::flight, wave.polar.data(), wave.azimuth.data(),
-                wave.chance.data());
-      scene.tracer->scatter(rays, wave.polar.data(), wave.azimuth.data(), nullptr);
-    }
+    goal.begin(w * batch_histories);
+    kernel.fly(batch_histories, goal, [] { return false; });
   }
-  return impacts;
+  return goal.impacts();
 }
 
 // Joins sides of neighbours that face the same way. `first`: number of the surface's first triangle in the room.

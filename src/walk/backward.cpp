@@ -8,15 +8,15 @@
 
 #include "base/frame.hpp"
 #include "chance/places.hpp"
-#include "walk/estimators.hpp"
+#include "walk/choose_policy.hpp"
 
 namespace lichtmc {
 
 namespace {
 
-// What backward photons are for, see kernel.hpp.
+// Goal of the backward walk: photons collect direct light at every surface.
 template <class Policy, class Origins>
-class BackwardGoal {
+class BackwardGoal : public GoalBase {
  public:
   BackwardGoal(const Scene& scene, const DirectLight& light, const Origins& origins, const BackwardScale& scale,
                const Stream& stream)
@@ -66,20 +66,16 @@ class BackwardGoal {
       direct_[i] = 0.0;
     }
   }
-  void histories(Wave& wave) const {
+  void number_histories(Wave& wave) const {
     for (std::size_t i = 0; i < wave.rays.size; ++i) wave.history[i] = ids_[wave.photon[i]];
   }
-  // Leaving through an opening is being absorbed by ρ = 0, also where rounding made the opening.
-  Misses misses() const { return Misses::escape; }
   TraceCount& traced() { return count_->traced; }
-  Ends& ends() { return ends_; }
 
+  // Escaping through an opening is absorption by ρ = 0, also where rounding made the opening.
   void escape(const Wave& wave, std::size_t i) {
     if constexpr (!Policy::scores_every_impact) found_[i] += direct_[i];
     finish(wave, i);
   }
-
-  static void part(Wave& /*wave*/) {}
 
   // A flight that meets a shining surface has found some of the direct light of the surface that it left. The
   // receiver's own direct light is known already.
@@ -103,10 +99,7 @@ class BackwardGoal {
     }
   }
 
-  void score(const Wave& /*wave*/) {}
-
   static constexpr bool watches_absorption = true;
-  static constexpr bool in_lanes = false;
   // Variant 3: only the direct light of the last surface survived scores.
   void absorb(const Wave& wave, std::size_t i, double reflectance) {
     if constexpr (!Policy::scores_every_impact) found_[i] += direct_[i] / (1.0 - reflectance);
@@ -194,7 +187,6 @@ class BackwardGoal {
   ShadowRays shadow_rays_;
   std::uint32_t flight_ = 0;
   BackwardCount* count_ = nullptr;
-  Ends ends_;
 };
 
 template <class Policy, class Reflectance, class Origins>
@@ -232,26 +224,12 @@ class PolicyBackwardWalk final : public BackwardWalk {
 template <class Origins>
 std::unique_ptr<BackwardWalk> walk_from(const Scene& scene, const DirectLight& light, const Origins& origins,
                                         const BackwardScale& scale, const Settings& settings) {
-  const auto with = [&]<class Policy>(Policy /*policy*/, std::uint32_t max_flights) -> std::unique_ptr<BackwardWalk> {
-    if (scene.has_reflectance_maps()) {
-      return std::make_unique<PolicyBackwardWalk<Policy, MappedReflectance, Origins>>(scene, light, origins, scale,
-                                                                                      settings.seed, max_flights);
-    }
-    return std::make_unique<PolicyBackwardWalk<Policy, SurfaceReflectance, Origins>>(scene, light, origins, scale,
-                                                                                     settings.seed, max_flights);
-  };
-  switch (settings.estimator) {
-    case Estimator::collision:
-      return with(CollisionPolicy{}, 0);
-    case Estimator::absorption:
-      return with(AbsorptionPolicy{}, 0);
-    case Estimator::weight:
-    case Estimator::automatic:  // resolved before, see run/pilot.hpp
-      break;
-  }
-  assert(settings.estimator == Estimator::weight);
-  if (settings.max_bounces) return with(TruncatedWeightPolicy{}, *settings.max_bounces);
-  return with(RouletteWeightPolicy{}, 0);
+  return choose_policy(
+      settings.estimator, settings.max_bounces, scene.has_reflectance_maps(),
+      [&]<class Policy, class Reflectance>(std::uint32_t max_flights) -> std::unique_ptr<BackwardWalk> {
+        return std::make_unique<PolicyBackwardWalk<Policy, Reflectance, Origins>>(scene, light, origins, scale,
+                                                                                  settings.seed, max_flights);
+      });
 }
 
 }  // namespace

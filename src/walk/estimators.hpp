@@ -20,10 +20,19 @@
 
 namespace lichtmc {
 
+// How the integers that a policy scores are to be read.
+struct ScoreLaw {
+  Hits hits = Hits::are_the_score;
+  double unit = 1.0;                     // photons that a unit of the score stands for
+  bool at_absorption = false;            // an absorption scores 1/(1 − ρ), an impact nothing
+  bool at_most_one_per_history = false;  // the score of a history is 0 or 1: its error follows the binomial law
+  bool per_absorption = false;           // a unit stands for 1/(1 − ρ) impacts on its surface
+};
+
 // Variant 2: the photon survives with probability ρ; every impact scores 1.
 struct CollisionPolicy {
   static constexpr bool chooses_in_lanes = true;  // has choose()
-  static constexpr Hits hits = Hits::are_the_score;
+  static constexpr ScoreLaw law{.hits = Hits::are_the_score, .unit = 1.0};
   static constexpr bool scores_every_impact = true;
   static constexpr bool carries_weight = false;
 
@@ -42,6 +51,11 @@ struct CollisionPolicy {
 // Variant 3: as variant 2, but only the last impact counts. It stands for 1/(1 − ρ) impacts, a factor that belongs to
 // the surface: the tally counts photons, the factor comes in at the end.
 struct AbsorptionPolicy : CollisionPolicy {
+  static constexpr ScoreLaw law{.hits = Hits::are_the_score,
+                                .unit = 1.0,
+                                .at_absorption = true,
+                                .at_most_one_per_history = true,
+                                .per_absorption = true};
   static constexpr bool scores_every_impact = false;
 };
 
@@ -49,7 +63,7 @@ struct AbsorptionPolicy : CollisionPolicy {
 // ends stays that of a photon.
 struct MappedAbsorptionPolicy {
   static constexpr bool chooses_in_lanes = false;
-  static constexpr Hits hits = Hits::apart;
+  static constexpr ScoreLaw law{.hits = Hits::apart, .unit = 1.0 / weight_units, .at_absorption = true};
   static constexpr bool scores_every_impact = false;
   static constexpr bool carries_weight = true;
 
@@ -66,7 +80,7 @@ struct MappedAbsorptionPolicy {
 // have been absorbed; rounding the weight itself, not what is gone, keeps the balance exact.
 struct WeightPolicy {
   static constexpr bool chooses_in_lanes = true;
-  static constexpr Hits hits = Hits::apart;
+  static constexpr ScoreLaw law{.hits = Hits::apart, .unit = 1.0 / weight_units};
   static constexpr bool scores_every_impact = true;
   static constexpr bool carries_weight = true;
 

@@ -1,25 +1,11 @@
-// The kernel: a wave of photons flies from surface to surface until the last has ended.
+// The kernel: a wave of photons flies from surface to surface until the last one has ended.
 //
-// One kernel for all estimators, both tracers and both ways. What differs is passed in as policies and resolved at
-// compile time: what becomes of a photon at a surface (Policy, see estimators.hpp), where ρ comes from (Reflectance),
-// and what it is all for (Goal): where photons start and what is scored. A Goal has
+//   launch → fly (tracer) → lose what escaped → score on the tiles → survive or be absorbed → scatter → fly …
 //
-//   start(wave, n)            sets how the first n photons start; may put them into another order
-//   histories(wave)           sets the numbers of the photons' histories, which select their random words
-//   misses(), traced(), ends()
-//   escape(wave, i)           photon i met no surface
-//   part(wave)                the flight is over; a photon may become several that go on from where it ended
-//   land(wave)                all photons have landed
-//   score(wave)               all photons score; what land() asked of memory has had time to come
-//   watches_absorption        constant: whether absorb() is to be called
-//   absorb(wave, i, ρ)        photon i ends on its surface
-//   in_lanes                  constant: photons have nothing that move() must move, and absorb_all() may take the
-//                             place of absorb()
-//   absorb_all(wave, at, n)   n photons, at the places `at`, end on their surfaces
-//   reflect(wave, flight)     all photons left have been reflected and are about to fly on
-//   cut_off(wave, i)          the walk ends for photon i
-//   cosines()                 where to put the cosines of the angles to the normals that photons fly off at, or null
-//   move(wave, from, to)      photon `from` takes place `to` of the wave, which itself has moved what flying on needs
+// One kernel for all estimators, both tracers and both directions of a walk, and for everything else that follows
+// photons through a room. What differs is passed in as policies and resolved at compile time: what becomes of a photon
+// at a surface (Policy, see estimators.hpp), where ρ comes from (Reflectance), and what the walk is for (Goal, see
+// goal.hpp).
 #pragma once
 
 #include <cstddef>
@@ -29,14 +15,15 @@
 #include "base/lanes.hpp"
 #include "chance/draw_many.hpp"
 #include "chance/stream.hpp"
+#include "walk/goal.hpp"
 #include "walk/scene.hpp"
 #include "walk/survivors.hpp"
 #include "walk/wave.hpp"
 
 namespace lichtmc {
 
-// Asked every thousand flights of a wave. When it says true and the wave has flown 10⁵ times, the wave ends and
-// what still flies is cut off: only a room that keeps its light for ever, or nearly so, gets there.
+// Asked every 1024 flights of a wave. When it returns true and the wave has made more than 10⁵ flights, the wave ends
+// and the photons that still fly are cut off: that happens only in rooms that absorb next to nothing.
 using Abandon = std::function<bool()>;
 
 // ρ where a flight ended: of the surface as a whole,
@@ -51,21 +38,22 @@ struct MappedReflectance {
   static double at(const Scene& scene, const Rays& rays, std::size_t i) { return scene.reflectance(rays, i); }
 };
 
-template <class Policy, class Reflectance, class Goal>
+template <class Policy, class Reflectance, WalkGoal Goal>
 class Kernel {
  public:
   // max_flights 0: no limit. The scene must outlive the kernel.
   Kernel(const Scene& scene, const Stream& stream, std::uint32_t max_flights)
       : scene_(&scene), stream_(stream), max_flights_(max_flights) {}
 
-  // n photons (1 … batch_histories) start and fly. Whether all came to their own end: false where they were abandoned.
+  // n photons (1 … batch_histories) start and fly. Returns whether each ended by itself: false where they were
+  // abandoned.
   bool fly(std::uint32_t n, Goal& goal, const Abandon& abandon) {
     launch(n, goal);
     bool ended = true;
     for (std::uint32_t flight = 1; wave_.rays.size > 0; ++flight) {
       scene_->tracer->trace(wave_.rays, goal.misses(), goal.traced());
       lose_what_escaped(goal);
-      goal.part(wave_);
+      goal.split(wave_);
       fill_up_lanes();
       goal.land(wave_);
       draw(flight, goal);
@@ -81,8 +69,8 @@ class Kernel {
   }
 
  private:
-  static constexpr std::uint32_t abandon_interval = 1024;  // flights between two questions whether to go on
-  static constexpr std::uint32_t patience = 100'000;       // flights after which the answer counts
+  static constexpr std::uint32_t abandon_interval = 1024;  // flights between two calls
+  static constexpr std::uint32_t patience = 100'000;       // flights after which its result counts
 
   // Photons start, each with weight 1.
   void launch(std::uint32_t n, Goal& goal) {
@@ -117,18 +105,18 @@ class Kernel {
     return escaped == 0;
   }
 
-  // Loops that run in lanes look at some elements beyond the last: on a facet that there is.
+  // Loops in lanes read some elements beyond the last: they get a facet that exists.
   void fill_up_lanes() {
     for (std::size_t i = wave_.rays.size; i < whole_lanes(wave_.rays.size); ++i) wave_.rays.facet[i] = 0;
   }
 
   void draw(std::uint32_t flight, Goal& goal) {
-    goal.histories(wave_);
+    goal.number_histories(wave_);
     draw_many(stream_, wave_.rays.size, wave_.history.data(), flight, Purpose::flight, wave_.polar.data(),
               wave_.azimuth.data(), wave_.chance.data());
   }
 
-  // The surface that was hit decides what becomes of the photon; survivors close ranks.
+  // The surface that was hit decides what becomes of the photon; the survivors form a compact wave again.
   void survive_or_be_absorbed(Goal& goal) {
     if constexpr (Goal::in_lanes && Reflectance::of_facet) {
       survive_together(goal);

@@ -1,44 +1,62 @@
 #include "walk/non_absorbing_enclosure.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
-#include "chance/directions.hpp"
-#include "walk/wave.hpp"
+#include "walk/kernel.hpp"
 
 namespace lichtmc {
 
+namespace {
+
+constexpr std::uint32_t max_flights = 1'000'000;
+constexpr std::uint32_t flights_of_all = 1000;  // after these, a few photons represent all that still fly
+constexpr std::size_t few = 8;
+
+// A photon survives where nothing is absorbed, and ends at any other surface.
+struct PerfectReflectionPolicy {
+  static bool survive(double reflectance, double /*chance*/, double& /*weight*/, Ends& /*ends*/) {
+    return reflectance == 1.0;
+  }
+};
+
+// Goal: whether a photon still flies after the last flight.
+class LastingFlight : public GoalBase {
+ public:
+  LastingFlight(const Scene& scene, const Stream& stream) : scene_(scene), stream_(stream) {}
+
+  void start(Wave& wave, std::uint32_t n) {
+    for (std::uint32_t i = 0; i < n; ++i) scene_.launcher->launch(stream_, i, wave.rays, i);
+  }
+  Misses misses() const { return scene_.misses; }
+  void reflect(Wave& wave, std::uint32_t flight) {
+    if (flight > flights_of_all) wave.rays.size = std::min(wave.rays.size, few);
+  }
+  void cut_off(const Wave& /*wave*/, std::size_t /*i*/) { found_ = true; }
+
+  bool found() const { return found_; }
+
+ private:
+  const Scene& scene_;
+  const Stream& stream_;
+  bool found_ = false;
+};
+
+}  // namespace
+
 bool has_non_absorbing_enclosure(const Scene& scene, std::uint64_t seed) {
   if (!scene.reflects_all_somewhere) return false;
-
-  constexpr std::uint32_t flights = 1'000'000;
-  constexpr std::uint32_t flights_of_all = 1000;  // then a few stand for all that still fly
-  constexpr std::size_t few = 8;
   const Stream stream(seed);
-  const std::vector<Facet>& facets = scene.tracer->facets();
-  Wave wave;
-  Rays& rays = wave.rays;
-  for (std::uint32_t i = 0; i < batch_histories; ++i) {
-    wave.photon[i] = i;
-    scene.launcher->launch(stream, i, rays, i);
+  LastingFlight goal(scene, stream);
+  const auto go_on = [] { return false; };
+  if (scene.has_reflectance_maps()) {
+    Kernel<PerfectReflectionPolicy, MappedReflectance, LastingFlight>(scene, stream, max_flights)
+        .fly(batch_histories, goal, go_on);
+  } else {
+    Kernel<PerfectReflectionPolicy, SurfaceReflectance, LastingFlight>(scene, stream, max_flights)
+        .fly(batch_histories, goal, go_on);
   }
-  rays.size = batch_histories;
-  TraceCount count;
-  for (std::uint32_t flight = 0; flight < flights && rays.size > 0; ++flight) {
-    scene.tracer->depart(rays);
-    scene.tracer->trace(rays, scene.misses, count);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < rays.size; ++i) {
-      if (rays.facet[i] == no_facet || scene.reflectance(rays, i) < 1.0) continue;
-      wave.move(i, kept++);
-    }
-    rays.size = flight < flights_of_all ? kept : std::min(kept, few);
-    for (std::size_t i = 0; i < rays.size; ++i) {
-      const Words words = stream.draw(wave.photon[i], flight + 1, Purpose::flight);
-      rays.set_direction(
-          i, direction_from(facets[rays.facet[i]], rays.behind[i] != 0, sample_lambert(words[0], words[1])));
-    }
-  }
-  return rays.size > 0;
+  return goal.found();
 }
 
 }  // namespace lichtmc

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "room/bounds.hpp"
-#include "walk/estimators.hpp"
+#include "walk/choose_policy.hpp"
 #include "walk/kernel.hpp"
 
 namespace lichtmc {
@@ -24,34 +24,29 @@ glm::dvec3 exit_from(const Bounds& box, const glm::dvec3& start, const glm::dvec
   return start + (nearest < std::numeric_limits<double>::infinity() ? nearest : 0.0) * direction;
 }
 
-// What photons are for whose ways are to be seen, see kernel.hpp.
-class PathGoal {
+// Goal of `paths`: every flight is written down.
+class PathGoal : public GoalBase {
  public:
   PathGoal(const Room& room, const Scene& scene, const Stream& stream, std::uint64_t first)
-      : scene_(&scene), stream_(stream), first_(first), box_(bounds_of(room)) {}
+      : GoalBase(first), scene_(&scene), stream_(stream), box_(bounds_of(room)) {}
 
   std::vector<PhotonPath> take() { return std::move(paths_); }
 
   void start(Wave& wave, std::uint32_t n) {
     paths_.resize(n);
     wave.rays.size = n;
-    scene_->launcher->launch_all(stream_, first_, n, wave.rays, wave.photon.data());
+    scene_->launcher->launch_all(stream_, first_history_, n, wave.rays, wave.photon.data());
     scene_->tracer->depart(wave.rays);
     for (std::size_t i = 0; i < n; ++i) {
       PhotonPath& path = paths_[wave.photon[i]];
-      path.history = first_ + wave.photon[i];
+      path.history = first_history_ + wave.photon[i];
       PathPoint& point = path.points.emplace_back();
       point.place = scene_->tracer->world_point(glm::dvec3(wave.rays.start(i)));
       const std::uint32_t facet = wave.rays.facet[i];
       if (facet != no_facet) point.surface = scene_->surface_of[facet];
     }
   }
-  void histories(Wave& wave) const {
-    for (std::size_t i = 0; i < wave.rays.size; ++i) wave.history[i] = first_ + wave.photon[i];
-  }
   Misses misses() const { return scene_->misses; }
-  TraceCount& traced() { return traced_; }
-  Ends& ends() { return ends_; }
 
   void escape(const Wave& wave, std::size_t i) {
     PhotonPath& path = paths_[wave.photon[i]];
@@ -64,7 +59,6 @@ class PathGoal {
     const glm::dvec3 direction = scene_->tracer->world_vector(glm::dvec3(wave.rays.direction(i)));
     path.points.push_back({exit_from(box_, start, direction), no_surface, wave.weight[i]});
   }
-  void part(const Wave& /*wave*/) const {}
   void land(const Wave& wave) {
     const Rays& rays = wave.rays;
     for (std::size_t i = 0; i < rays.size; ++i) {
@@ -73,18 +67,13 @@ class PathGoal {
           {scene_->tracer->world_point(end), scene_->surface_of[rays.facet[i]], wave.weight[i]});
     }
   }
-  void score(const Wave& /*wave*/) const {}
-
-  // Asked for in constant expressions only, which clang 14 does not count as use.
+  // Used in constant expressions only, which clang 14 does not count as use.
   [[maybe_unused]] static constexpr bool watches_absorption = true;
-  static constexpr bool in_lanes = false;
   void absorb(const Wave& wave, std::size_t i, double /*reflectance*/) {
     paths_[wave.photon[i]].end = PathEnd::absorbed;
   }
-  void reflect(const Wave& /*wave*/, std::uint32_t /*flight*/) const {}
   void cut_off(const Wave& wave, std::size_t i) { paths_[wave.photon[i]].end = PathEnd::cut_off; }
-  static float* cosines() { return nullptr; }
-  // land() asks for the flight that is over, which flying on does not need.
+  // land() reads the flight that is over, which the next flight does not need.
   static void move(Wave& wave, std::size_t from, std::size_t to) {
     Rays& rays = wave.rays;
     rays.set_start(to, rays.start(from));
@@ -95,22 +84,9 @@ class PathGoal {
  private:
   const Scene* scene_;
   Stream stream_;
-  std::uint64_t first_;
   Bounds box_;
   std::vector<PhotonPath> paths_;
-  TraceCount traced_;
-  Ends ends_;
 };
-
-template <class Policy>
-void fly(const Scene& scene, const Stream& stream, std::uint32_t most_flights, std::uint32_t n, PathGoal& goal) {
-  const auto go_on = [] { return false; };
-  if (scene.has_reflectance_maps()) {
-    Kernel<Policy, MappedReflectance, PathGoal>(scene, stream, most_flights).fly(n, goal, go_on);
-  } else {
-    Kernel<Policy, SurfaceReflectance, PathGoal>(scene, stream, most_flights).fly(n, goal, go_on);
-  }
-}
 
 }  // namespace
 
@@ -118,14 +94,13 @@ std::vector<PhotonPath> walk_paths(const Room& room, const Scene& scene, const S
                                    std::uint32_t most_flights, std::uint64_t first, std::uint32_t n) {
   const Stream stream(settings.seed);
   PathGoal goal(room, scene, stream, first);
-  if (settings.estimator != Estimator::weight) {
-    // Collision and absorption differ in what they score, not in how photons fly.
-    fly<CollisionPolicy>(scene, stream, most_flights, n, goal);
-  } else if (settings.max_bounces) {
-    fly<TruncatedWeightPolicy>(scene, stream, most_flights, n, goal);
-  } else {
-    fly<RouletteWeightPolicy>(scene, stream, most_flights, n, goal);
-  }
+  // Settings::estimator automatic is taken for collision: estimators differ in what they score, not in the paths.
+  const Estimator estimator = settings.estimator == Estimator::automatic ? Estimator::collision : settings.estimator;
+  choose_policy(estimator, settings.max_bounces, scene.has_reflectance_maps(),
+                [&]<class Policy, class Reflectance>(std::uint32_t /*max_flights*/) {
+                  const auto go_on = [] { return false; };
+                  return Kernel<Policy, Reflectance, PathGoal>(scene, stream, most_flights).fly(n, goal, go_on);
+                });
   return goal.take();
 }
 

@@ -4,54 +4,52 @@
 #include <algorithm>
 #include <cassert>
 
+#include "walk/choose_policy.hpp"
 #include "walk/kernel.hpp"
 
 namespace lichtmc {
 
 namespace {
 
-// Where direct light is integrated, the first flight of a photon scores nothing: it only brings the photon to where it
-// is reflected first. So many histories share it, and cost a walk only its other flights. More would save little, and
-// their scores grow more alike (docs/trade-off.md has the figures).
+// Where direct light is integrated, the first flight of a photon scores nothing: it only leads to the place of the
+// first reflection. There the photon is split into this number of histories, each of which costs a walk only its other
+// flights. More would save little, because their scores are correlated (docs/trade-off.md has the figures).
 constexpr std::uint32_t splitting_factor = 8;
 
-// What forward photons are for, see kernel.hpp.
+// Goal of the forward walk: photons score on the tiles.
 template <class Policy>
-class TileGoal {
+class TileGoal : public GoalBase {
  public:
   TileGoal(const Scene& scene, const Stream& stream, Direct direct)
       : scene_(&scene),
         stream_(stream),
         first_scored_(direct == Direct::analytic ? 2 : 1),
-        family_(direct == Direct::analytic ? splitting_factor : 1),
+        splitting_(direct == Direct::analytic ? splitting_factor : 1),
         tile_(batch_histories),
-        map_(batch_histories),
+        tile_map_(batch_histories),
         units_(batch_histories),
         ended_tile_(batch_histories),
-        ended_map_(batch_histories) {}
+        ended_tile_map_(batch_histories) {}
 
   void begin(std::uint64_t first, Tally& tally) {
-    first_ = first;
+    first_history_ = first;
     tally_ = &tally;
   }
 
-  // Photons start at the emitters, one for each family.
+  // Photons start at the emitters, one for each `splitting_` histories.
   void start(Wave& wave, std::uint32_t n) {
     flight_ = 0;
     n_ = n;
-    const std::uint32_t families = (n + family_ - 1) / family_;
-    wave.rays.size = families;
-    scene_->launcher->launch_all(stream_, first_, families, wave.rays, wave.photon.data());
-  }
-  void histories(Wave& wave) const {
-    for (std::size_t i = 0; i < wave.rays.size; ++i) wave.history[i] = first_ + wave.photon[i];
+    const std::uint32_t photons = (n + splitting_ - 1) / splitting_;
+    wave.rays.size = photons;
+    scene_->launcher->launch_all(stream_, first_history_, photons, wave.rays, wave.photon.data());
   }
   Misses misses() const { return scene_->misses; }
   TraceCount& traced() { return tally_->counts().traced; }
   Ends& ends() { return tally_->counts().ends; }
 
   void escape(const Wave& wave, std::size_t i) {
-    const std::uint32_t photons = flight_ == 0 ? members(wave.photon[i]) : 1;
+    const std::uint32_t photons = flight_ == 0 ? histories_of(wave.photon[i]) : 1;
     const int128 units = static_cast<int128>(Policy::units(wave.weight[i])) * photons;
     if (scene_->misses == Misses::escape) {
       ends().escaped += units;
@@ -61,19 +59,19 @@ class TileGoal {
     }
   }
 
-  // After the first flight photons of a family go ways of their own.
-  void part(Wave& wave) const {
-    if (flight_ > 0 || family_ == 1) return;
+  // After the first flight the photon is split: its histories continue independently.
+  void split(Wave& wave) const {
+    if (flight_ > 0 || splitting_ == 1) return;
     Rays& rays = wave.rays;
     std::size_t all = 0;
-    for (std::size_t i = 0; i < rays.size; ++i) all += members(wave.photon[i]);
-    // From the last on: a family's place is read before it is written to.
+    for (std::size_t i = 0; i < rays.size; ++i) all += histories_of(wave.photon[i]);
+    // From the last on: a photon's place is read before it is written to.
     std::size_t to = all;
     for (std::size_t i = rays.size; i-- > 0;) {
-      const std::uint32_t family = wave.photon[i];
-      for (std::uint32_t k = members(family); k-- > 0;) {
+      const std::uint32_t photon = wave.photon[i];
+      for (std::uint32_t k = histories_of(photon); k-- > 0;) {
         rays.move_landing(i, --to);
-        wave.photon[to] = family * family_ + k;
+        wave.photon[to] = photon * splitting_ + k;
       }
     }
     rays.size = all;
@@ -83,7 +81,7 @@ class TileGoal {
   void land(Wave& wave) {
     ++flight_;
     tally_->counts().impacts += wave.rays.size;
-    scene_->tile_of_each(wave.rays, tile_.data(), map_.data(), wave.surface.data());
+    scene_->tile_of_each(wave.rays, tile_.data(), tile_map_.data(), wave.surface.data());
     tally_->expect(tile_.data(), wave.rays.size);
   }
 
@@ -92,11 +90,11 @@ class TileGoal {
     if constexpr (Policy::scores_every_impact) {
       if (flight_ < first_scored_) return;
       const std::size_t n = wave.rays.size;
-      if constexpr (Policy::hits == Hits::are_the_score) {
-        tally_->score_each(tile_.data(), map_.data(), n);
+      if constexpr (Policy::law.hits == Hits::are_the_score) {
+        tally_->score_each(tile_.data(), tile_map_.data(), n);
       } else {
         units_of_each(n, wave.weight.data(), units_.data());
-        tally_->score_each(tile_.data(), map_.data(), units_.data(), n);
+        tally_->score_each(tile_.data(), tile_map_.data(), units_.data(), n);
       }
       score_from_behind(wave);
     }
@@ -108,54 +106,50 @@ class TileGoal {
     if constexpr (!Policy::scores_every_impact) {
       if (flight_ < first_scored_) return;
       const std::uint64_t units = Policy::units(wave.weight[i]);
-      tally_->score(tile_[i], map_[i], units);
-      if (wave.rays.behind[i] != 0) tally_->score_behind(map_[i], units);
+      tally_->score(tile_[i], tile_map_[i], units);
+      if (wave.rays.behind[i] != 0) tally_->score_behind(tile_map_[i], units);
     }
   }
   void absorb_all(const Wave& wave, const std::uint32_t* at, std::size_t n) {
     if (flight_ < first_scored_) return;
     for (std::size_t k = 0; k < n; ++k) {
       ended_tile_[k] = tile_[at[k]];
-      ended_map_[k] = map_[at[k]];
-      if (wave.rays.behind[at[k]] != 0) tally_->score_behind(map_[at[k]], 1);
+      ended_tile_map_[k] = tile_map_[at[k]];
+      if (wave.rays.behind[at[k]] != 0) tally_->score_behind(tile_map_[at[k]], 1);
     }
-    tally_->score_each(ended_tile_.data(), ended_map_.data(), n);
+    tally_->score_each(ended_tile_.data(), ended_tile_map_.data(), n);
   }
-  void reflect(const Wave& /*wave*/, std::uint32_t /*flight*/) {}
-
-  // What is cut off is reported, not forgotten.
+  // The weight that is cut off is the residual of the balance.
   void cut_off(const Wave& wave, std::size_t i) {
     ends().residual += static_cast<int128>(Policy::units(wave.weight[i]));
   }
-  static float* cosines() { return nullptr; }
-  void move(const Wave& /*wave*/, std::size_t /*from*/, std::size_t /*to*/) {}
 
  private:
-  std::uint32_t members(std::uint32_t family) const { return std::min(family_, n_ - family * family_); }
+  // The number of histories that a photon stands for until it is split.
+  std::uint32_t histories_of(std::uint32_t photon) const { return std::min(splitting_, n_ - photon * splitting_); }
 
-  // Most rooms are hit on their fronts alone.
+  // In most rooms no photon lands on a back.
   void score_from_behind(const Wave& wave) {
     const Rays& rays = wave.rays;
     std::uint32_t any = 0;
     for (std::size_t i = 0; i < rays.size; ++i) any |= rays.behind[i];
     if (any == 0) return;
     for (std::size_t i = 0; i < rays.size; ++i) {
-      if (rays.behind[i] != 0) tally_->score_behind(map_[i], Policy::units(wave.weight[i]));
+      if (rays.behind[i] != 0) tally_->score_behind(tile_map_[i], Policy::units(wave.weight[i]));
     }
   }
 
   const Scene* scene_;
   Stream stream_;
   std::uint32_t first_scored_;  // number of the first flight whose end scores
-  std::uint32_t family_;        // histories that share their first flight
+  std::uint32_t splitting_;     // histories that share their first flight
   std::uint32_t flight_ = 0;
-  std::uint32_t n_ = 0;              // histories of the batch
-  std::vector<std::uint32_t> tile_;  // where the flight ended
-  std::vector<std::uint32_t> map_;   // the tile's map
+  std::uint32_t n_ = 0;                  // histories of the batch
+  std::vector<std::uint32_t> tile_;      // where the flight ended
+  std::vector<std::uint32_t> tile_map_;  // of that tile
   std::vector<std::uint32_t> units_;
   std::vector<std::uint32_t> ended_tile_;
-  std::vector<std::uint32_t> ended_map_;
-  std::uint64_t first_ = 0;
+  std::vector<std::uint32_t> ended_tile_map_;
   Tally* tally_ = nullptr;
 };
 
@@ -186,45 +180,13 @@ class ForwardWalk final : public Walk {
   Kernel<Policy, Reflectance, TileGoal<Policy>> kernel_;
 };
 
-template <class Policy>
-std::unique_ptr<Walk> walk_with(const Scene& scene, const Settings& settings, std::uint32_t max_flights) {
-  if (scene.has_reflectance_maps())
-    return std::make_unique<ForwardWalk<Policy, MappedReflectance>>(scene, settings, max_flights);
-  return std::make_unique<ForwardWalk<Policy, SurfaceReflectance>>(scene, settings, max_flights);
-}
-
 }  // namespace
 
 std::unique_ptr<Walk> make_walk(const Scene& scene, const Settings& settings) {
-  switch (settings.estimator) {
-    case Estimator::collision:
-      return walk_with<CollisionPolicy>(scene, settings, 0);
-    case Estimator::absorption:
-      if (scene.has_reflectance_maps())
-        return std::make_unique<ForwardWalk<MappedAbsorptionPolicy, MappedReflectance>>(scene, settings, 0);
-      return std::make_unique<ForwardWalk<AbsorptionPolicy, SurfaceReflectance>>(scene, settings, 0);
-    case Estimator::weight:
-    case Estimator::automatic:  // resolved before, see run/pilot.hpp
-      break;
-  }
-  assert(settings.estimator == Estimator::weight);
-  if (settings.max_bounces) return walk_with<TruncatedWeightPolicy>(scene, settings, *settings.max_bounces);
-  return walk_with<RouletteWeightPolicy>(scene, settings, 0);
-}
-
-ScoreLaw score_law(Estimator estimator, bool has_reflectance_maps) {
-  switch (estimator) {
-    case Estimator::collision:
-      return {CollisionPolicy::hits, 1.0, false, false, false};
-    case Estimator::absorption:
-      if (has_reflectance_maps) return {MappedAbsorptionPolicy::hits, 1.0 / weight_units, true, false, false};
-      return {AbsorptionPolicy::hits, 1.0, true, true, true};
-    case Estimator::weight:
-    case Estimator::automatic:
-      break;
-  }
-  assert(estimator == Estimator::weight);
-  return {WeightPolicy::hits, 1.0 / weight_units, false, false, false};
+  return choose_policy(settings.estimator, settings.max_bounces, scene.has_reflectance_maps(),
+                       [&]<class Policy, class Reflectance>(std::uint32_t max_flights) -> std::unique_ptr<Walk> {
+                         return std::make_unique<ForwardWalk<Policy, Reflectance>>(scene, settings, max_flights);
+                       });
 }
 
 }  // namespace lichtmc

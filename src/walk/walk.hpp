@@ -7,7 +7,6 @@
 
 #include "chance/stream.hpp"
 #include "lichtmc/settings.hpp"
-#include "walk/estimators.hpp"
 #include "walk/kernel.hpp"
 #include "walk/scene.hpp"
 #include "walk/tally.hpp"
@@ -30,15 +29,5 @@ class Walk {
 
 // A walk for one thread; the scene must outlive it.
 std::unique_ptr<Walk> make_walk(const Scene& scene, const Settings& settings);
-
-// How the integers that a walk scores are to be read.
-struct ScoreLaw {
-  Hits hits = Hits::are_the_score;
-  double unit = 1.0;                     // photons that a unit of the score stands for
-  bool at_absorption = false;            // an absorption scores 1/(1 − ρ), an impact nothing
-  bool per_absorption = false;           // a unit is an absorption: the surface's 1/(1 − ρ) is still to come
-  bool at_most_one_per_history = false;  // so that errors follow from the binomial law
-};
-ScoreLaw score_law(Estimator estimator, bool has_reflectance_maps);
 
 }  // namespace lichtmc

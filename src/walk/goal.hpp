@@ -1,0 +1,85 @@
+// Goals: what the photons of a wave are for. The kernel moves them; a goal says where they start and what is recorded.
+//
+// A goal is a class derived from GoalBase that redefines the steps it needs; the others do nothing. The kernel is a
+// template over it, so that a step that does nothing costs nothing.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+#include "tracer/tracer.hpp"
+#include "walk/totals.hpp"
+#include "walk/wave.hpp"
+
+namespace lichtmc {
+
+class GoalBase {
+ public:
+  // The history of photon k of the batch is number first_history + k: it selects the photon's random words.
+  explicit GoalBase(std::uint64_t first_history = 0) : first_history_(first_history) {}
+
+  // What happens to a flight that meets no surface, and where rays are counted.
+  static Misses misses() { return Misses::escape; }
+  TraceCount& traced() { return traced_; }
+  // Where photons ended, in units of the score.
+  Ends& ends() { return ends_; }
+
+  // Sets the histories' numbers of all photons.
+  void number_histories(Wave& wave) const {
+    for (std::size_t i = 0; i < wave.rays.size; ++i) wave.history[i] = first_history_ + wave.photon[i];
+  }
+
+  // The steps of a flight, in the order in which the kernel calls them.
+  void escape(const Wave& /*wave*/, std::size_t /*i*/) {}  // photon i met no surface
+  void split(Wave& /*wave*/) {}        // the flight is over: photons may be split into several, or dropped from the end
+  void land(Wave& /*wave*/) {}         // all photons have landed
+  void score(const Wave& /*wave*/) {}  // all score; the memory that land() has prefetched has had time to arrive
+  void absorb(const Wave& /*wave*/, std::size_t /*i*/, double /*reflectance*/) {}  // photon i ends on its surface
+  // The same for n photons at the places `at`.
+  void absorb_all(const Wave& /*wave*/, const std::uint32_t* /*at*/, std::size_t /*n*/) {}
+  void reflect(const Wave& /*wave*/, std::uint32_t /*flight*/) {}  // all photons left have been reflected
+  void cut_off(const Wave& /*wave*/, std::size_t /*i*/) {}         // the walk ends for photon i
+
+  // Photon `from` takes place `to` of the wave, which itself has moved what the next flight needs.
+  void move(Wave& /*wave*/, std::size_t /*from*/, std::size_t /*to*/) {}
+  // Where the kernel stores the cosines of the angles to the normals at which photons leave, or null.
+  float* cosines() { return nullptr; }
+
+  // Whether absorb() is to be called, and whether photons may survive in lanes: then move() does nothing and
+  // absorb_all() is called in place of absorb().
+  static constexpr bool watches_absorption = false;
+  static constexpr bool in_lanes = false;
+
+ protected:
+  std::uint64_t first_history_;
+
+ private:
+  TraceCount traced_;
+  Ends ends_;
+};
+
+// start(wave, n) sets how the first n photons start: direction, and start point or the place on a facet. It may change
+// their order (Wave::photon) and their number.
+template <class Goal>
+concept WalkGoal = std::derived_from<Goal, GoalBase> && requires(Goal goal, Wave wave, std::uint32_t n, std::size_t i) {
+  { goal.start(wave, n) } -> std::same_as<void>;
+  { goal.misses() } -> std::same_as<Misses>;
+  { goal.traced() } -> std::same_as<TraceCount&>;
+  { goal.ends() } -> std::same_as<Ends&>;
+  { goal.number_histories(wave) } -> std::same_as<void>;
+  { goal.escape(wave, i) } -> std::same_as<void>;
+  { goal.split(wave) } -> std::same_as<void>;
+  { goal.land(wave) } -> std::same_as<void>;
+  { goal.score(wave) } -> std::same_as<void>;
+  { goal.absorb(wave, i, 0.5) } -> std::same_as<void>;
+  { goal.absorb_all(wave, &n, i) } -> std::same_as<void>;
+  { goal.reflect(wave, n) } -> std::same_as<void>;
+  { goal.cut_off(wave, i) } -> std::same_as<void>;
+  { goal.move(wave, i, i) } -> std::same_as<void>;
+  { goal.cosines() } -> std::same_as<float*>;
+  { Goal::watches_absorption } -> std::convertible_to<bool>;
+  { Goal::in_lanes } -> std::convertible_to<bool>;
+};
+
+}  // namespace lichtmc
