@@ -1,4 +1,4 @@
-// lichtmc check: what is in a room's file, what will be modelled, and what report_arguments wrong.
+// lichtmc check: the content of a room file, what will be modelled, and what is probably wrong.
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -44,7 +44,7 @@ std::string point(const glm::dvec3& p) {
   return "(" + figure(p.x) + ", " + figure(p.y) + ", " + figure(p.z) + ")";
 }
 
-// Materials with what they reflect and how much of the room they cover.
+// Materials with their reflectances and areas.
 void print_materials(const Inspection& facts) {
   struct Cover {
     double low = 1.0;
@@ -90,12 +90,12 @@ void print_facts(const Room& room, const Inspection& facts) {
                                 (facts.convex ? "convex, " : "not convex, ") +
                                 (facts.closed ? "closed" : "not closed"));
   std::cout << row("Receivers", std::to_string(room.receivers.size()));
-  for (const std::string& change : room.mended) std::cout << row("Mended", change);
+  for (const std::string& change : room.mended) std::cout << row("Override", change);
   print_materials(facts);
   print_emitters(room);
 }
 
-// A finding: what is there, and below it what to do.
+// A finding, and below it what to do.
 void print_finding(const char* word, const Finding& finding) {
   std::cout << word << ": " << finding.text << "\n    -> " << finding.advice << '\n';
 }
@@ -124,8 +124,8 @@ void print_findings(const Inspection& facts) {
   const std::size_t faults = facts.count(Severity::fault);
   const std::size_t warnings = facts.count(Severity::warning);
   std::cout << '\n'
-            << (faults > 0 ? "'lichtmc run' would refuse this room as it is: "
-                           : "'lichtmc run' takes this room with the same options: ")
+            << (faults > 0 ? "'lichtmc run' would reject this room: "
+                           : "'lichtmc run' accepts this room with the same options: ")
             << faults << (faults == 1 ? " fault, " : " faults, ") << warnings
             << (warnings == 1 ? " warning.\n" : " warnings.\n");
 }
@@ -146,24 +146,24 @@ int check(const CheckOptions& options) {
 }  // namespace
 
 void add_check_command(CLI::App& program, int& status) {
-  CLI::App* command = program.add_subcommand(
-      "check", "Look a room over: what will be modelled, what report_arguments wrong, what to do");
+  CLI::App* command =
+      program.add_subcommand("check", "Check a room: what will be modelled, what is probably wrong, what to do");
   auto options = std::make_shared<CheckOptions>();
   add_room_argument(*command, options->reading);
-  command->add_flag("--json", options->json, "Everything as JSON, for programs");
-  command->add_flag("--strict", options->strict, "Exit with 1 where there is a warning");
+  command->add_flag("--json", options->json, "Write everything as JSON");
+  command->add_flag("--strict", options->strict, "Exit with status 1 if there is a warning");
   command->add_option("--tile", options->tile, "Edge of a tile in metres")->type_name("M")->capture_default_str();
   add_room_options(*command, options->reading);
-  command->footer(
-      std::string(
-          "Some hundred thousand rays are shot to see whether light leaves the room and which side of its faces "
-          "it meets.\n\n") +
-      light_forms +
-      "\nExamples:\n"
-      "  lichtmc check room.glb\n"
-      "  lichtmc check hall.glb --scale 0.01 --light point:5,3,5:8000lm --max-reflectance 0.9\n"
-      "Exit status: 0 the room can be simulated, perhaps with warnings; 1 with --strict, there are warnings; 2 it "
-      "cannot.");
+  command->footer(std::string("Several hundred thousand rays are traced, to determine whether light leaves the room "
+                              "and which side of each\n"
+                              "face it reaches.\n\n") +
+                  light_forms +
+                  "\nExamples:\n"
+                  "  lichtmc check room.glb\n"
+                  "  lichtmc check hall.glb --scale 0.01 --light point:5,3,5:8000lm --max-reflectance 0.9\n"
+                  "Exit status: 0 the room can be simulated, perhaps with warnings; 1 with --strict: there are "
+                  "warnings; 2 the room "
+                  "cannot be simulated.");
   command->callback([options, &status] { status = check(*options); });
 }
 

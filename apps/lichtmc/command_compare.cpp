@@ -1,4 +1,4 @@
-// lichtmc compare: do two results agree within their errors?
+// lichtmc compare: do two results agree within their standard errors?
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -29,7 +29,7 @@ std::string text(const char* form, double value) {
   return buffer;
 }
 
-std::string chance(double probability) {
+std::string p_value(double probability) {
   return probability < 1e-9 ? "less than 1e-9" : text("%.2g", probability);
 }
 
@@ -47,19 +47,19 @@ std::vector<const FigurePair*> worst_of(const Comparison& comparison, std::size_
 void print(const Comparison& comparison, std::size_t count) {
   std::cout << to_string(comparison.what) << ": " << comparison.figures.size() << " compared";
   if (comparison.dark > 0) std::cout << "; " << comparison.dark << " are 0 in both";
-  if (comparison.unknown > 0) std::cout << "; " << comparison.unknown << " left out, their errors are not known";
+  if (comparison.unknown > 0) std::cout << "; " << comparison.unknown << " excluded: their standard errors are unknown";
   if (comparison.unmatched > 0)
-    std::cout << "; " << comparison.unmatched << " receivers left out, not at the point of one tile alone";
+    std::cout << "; " << comparison.unmatched << " receivers excluded: not at the point of exactly one tile";
   std::cout << ".\n";
   if (comparison.figures.empty()) return;
   std::cout << "  B over A: " << text("%+.3g", 100.0 * comparison.difference) << " % with a standard error of "
             << text("%.2g", 100.0 * comparison.difference_error) << " % (mean of all)\n"
             << "  chi-square " << text("%.5g", comparison.chi_square) << ", expected "
-            << text("%.5g", comparison.expected_chi_square) << "; as large by chance with probability "
-            << chance(comparison.chi_square_chance) << '\n'
+            << text("%.5g", comparison.expected_chi_square) << "; p-value " << p_value(comparison.chi_square_chance)
+            << '\n'
             << "  largest |z| " << text("%.3g", std::abs(comparison.largest_z)) << " ("
-            << comparison.figures[comparison.largest].name << "); one as large by chance with probability "
-            << chance(comparison.largest_chance) << '\n';
+            << comparison.figures[comparison.largest].name << "); p-value " << p_value(comparison.largest_chance)
+            << " for the largest of " << comparison.figures.size() << '\n';
   if (!comparison.agree) {
     for (const FigurePair* pair : worst_of(comparison, count)) {
       std::cout << "    " << pair->name << ": A " << text("%.5g", pair->a) << " +- " << text("%.2g", pair->error_a)
@@ -67,10 +67,11 @@ void print(const Comparison& comparison, std::size_t count) {
                 << text("%+.3g", pair->z()) << '\n';
     }
   }
-  std::cout << (comparison.agree ? "  They agree within their errors.\n"
-                                 : "  They disagree: chance makes this less than once in a million comparisons.\n");
+  std::cout << (comparison.agree ? "  They agree within their standard errors.\n"
+                                 : "  They disagree: by chance this occurs less than once in a million comparisons.\n");
   if (!comparison.agree && comparison.what == ComparisonOf::tiles_at_receivers)
-    std::cout << "  A tile is the mean over its area, a receiver one point: with smaller tiles they come closer.\n";
+    std::cout << "  A tile gives the mean over its area, a receiver the value at one point. Smaller tiles reduce this "
+                 "difference.\n";
 }
 
 nlohmann::ordered_json json_of(const Comparison& comparison, std::size_t count) {
@@ -119,20 +120,19 @@ void compare(const CompareOptions& options, int& status) {
 
 void add_compare_command(CLI::App& program, int& status) {
   CLI::App* command =
-      program.add_subcommand("compare", "Hold two results against each other: do they agree within their errors?");
+      program.add_subcommand("compare", "Compare two results: do they agree within their standard errors?");
   auto options = std::make_shared<CompareOptions>();
   command->add_option("A", options->a, "Folder with results")->required();
   command->add_option("B", options->b, "Folder with results of the same tiles or receivers")->required();
-  command->add_option("--worst", options->worst, "How many of the figures that deviate most are listed")
+  command->add_option("--worst", options->worst, "Number of values to list, those with the largest |z|")
       ->type_name("N")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Write the comparison as JSON");
   command->footer(
-      "Every figure that both have gives z = (B - A) / sqrt(se_A^2 + se_B^2). Tiles are compared with tiles and\n"
-      "receivers with receivers; where one result has tiles only and the other receivers only, each receiver with the\n"
-      "tile whose point (x, y, z in tiles.csv) it stands at. Use different seeds: results of the same seed share "
-      "their\n"
-      "errors.\n"
+      "Every value that both results contain gives z = (B - A) / sqrt(se_A^2 + se_B^2). Tiles are compared with tiles\n"
+      "and receivers with receivers. If one result has only tiles and the other only receivers, each receiver is\n"
+      "compared with the tile at its point (x, y, z in tiles.csv). Use different seeds: with the same seed the errors\n"
+      "are correlated.\n"
       "Exit status: 0 they agree; 1 they do not; 2 they cannot be compared.\n\n"
       "Example:\n"
       "  lichtmc run room.glb --seed 1 -o one\n"

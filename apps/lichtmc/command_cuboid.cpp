@@ -43,8 +43,8 @@ void write_cuboid(const CuboidOptions& options) {
   if (!room.emitters.empty()) check_room(room);
   const std::filesystem::path folder = std::filesystem::path(options.output).parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    throw InputError("There is no folder " + folder.string() + " to write " + options.output +
-                     " into. Make it, or choose another file with --output.");
+    throw InputError("The folder " + folder.string() + " of the file " + options.output +
+                     " does not exist. Create it, or choose another file with --output.");
   }
   write_gltf(room, options.output);
 }
@@ -52,28 +52,28 @@ void write_cuboid(const CuboidOptions& options) {
 }  // namespace
 
 void add_cuboid_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("cuboid", "Write a cuboid room as glTF, to simulate or to start from");
+  CLI::App* command = program.add_subcommand("cuboid", "Write an empty cuboid room as a glTF file");
   auto options = std::make_shared<CuboidOptions>();
-  command
-      ->add_option("--size", options->size, "The edges along X, Y (height) and Z in metres, for example --size 5 2.6 4")
+  command->add_option("--size", options->size, "Edges along X, Y (height) and Z in metres, for example --size 5 2.6 4")
       ->expected(3)
       ->required()
       ->type_name("EDGE");
-  command->add_option("--reflectance", options->reflectance, "Reflectance of everything not named below")
+  command
+      ->add_option("--reflectance", options->reflectance, "Reflectance of the surfaces without an option of their own")
       ->type_name("R")
       ->capture_default_str();
   command->add_option("--floor", options->floor, "Reflectance of the floor (y = 0)")->type_name("R");
   command->add_option("--ceiling", options->ceiling, "Reflectance of the ceiling")->type_name("R");
   command->add_option("--walls", options->walls, "Reflectance of the four walls")->type_name("R");
   command->add_option("--wall-x0", options->x0, "Reflectance of the wall x = 0")->type_name("R");
-  command->add_option("--wall-x1", options->x1, "Reflectance of the wall opposite, at the far X")->type_name("R");
+  command->add_option("--wall-x1", options->x1, "Reflectance of the opposite wall, at the largest X")->type_name("R");
   command->add_option("--wall-z0", options->z0, "Reflectance of the wall z = 0")->type_name("R");
-  command->add_option("--wall-z1", options->z1, "Reflectance of the wall opposite, at the far Z")->type_name("R");
+  command->add_option("--wall-z1", options->z1, "Reflectance of the opposite wall, at the largest Z")->type_name("R");
   command->add_option("--light", options->lights, light_help)->type_name("LIGHT")->expected(1)->take_all();
   command->add_option("-o,--output", options->output, "File to write, .glb or .gltf")->type_name("FILE")->required();
-  command->footer(std::string("The room is empty: one corner at the origin, extending to +X, +Y (up) and +Z. "
-                              "Reflectances are shares of the\n"
-                              "arriving light, 0 (black) to 1.\n\n") +
+  command->footer(std::string("One corner of the room is the origin; the room extends to +X, +Y (up) and +Z. A "
+                              "reflectance is the reflected\n"
+                              "fraction of the incident flux, 0 (black) to 1.\n\n") +
                   light_forms +
                   "\nExample:\n  lichtmc cuboid --size 5 2.6 4 --walls 0.6 --ceiling 0.8 --floor 0.3 --light "
                   "point:2.5,2.4,2:2000lm "

@@ -1,4 +1,4 @@
-// lichtmc paths: the ways of a few photons, to look at.
+// lichtmc paths: the paths of a few photons as a picture, a table and a glTF file.
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -48,7 +48,7 @@ void run(const PathsCommand& command) {
     escaped += path.end == PathEnd::escaped ? 1 : 0;
   }
   std::cerr << paths.size() << (paths.size() == 1 ? " photon, " : " photons, ") << flights << " flights; " << escaped
-            << " left the room.\nThe paths are in " << folder.string()
+            << " escaped.\nThe paths are in " << folder.string()
             << ": paths.svg (open it in a browser), paths.csv (one row per flight), paths.glb (lines, for any glTF "
                "viewer).\n";
 }
@@ -61,15 +61,17 @@ void add_paths_command(CLI::App& program) {
   add_room_argument(*command, options->reading);
   command->add_option("-o,--output", options->output, "Folder for the results [name of ROOM with .paths]")
       ->type_name("DIR");
-  command->add_option("--photons", options->photons, "How many, up to 10000")->type_name("N")->capture_default_str();
-  command->add_option("--seed", options->seed, "Selects the random numbers: the first photons of a run with this seed")
+  command->add_option("--photons", options->photons, "Number of photons, up to 10000")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of the random numbers: the first photons of a run with this seed")
       ->type_name("S")
       ->capture_default_str();
   add_room_options(*command, options->reading);
-  command->add_flag("--quiet", options->quiet, "No summary; only errors");
+  command->add_flag("--quiet", options->quiet, "Print only errors, no summary");
   command->footer(
-      "A photon flies straight until it meets a surface, is absorbed there with probability 1 - reflectance, or else\n"
-      "reflected into a random direction (Lambert's law). Lines are coloured by the number of the flight.\n\n"
+      "A photon travels in a straight line to a surface. There it is absorbed with probability 1 - reflectance, or\n"
+      "reflected in a random direction (Lambert's law). The colour of a line gives the number of the flight.\n\n"
       "Examples:\n"
       "  lichtmc paths room.glb\n"
       "  lichtmc paths room.glb --photons 10 --seed 7 -o out/paths\n"

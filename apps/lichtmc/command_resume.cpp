@@ -1,4 +1,4 @@
-// lichtmc resume: goes on with a run from its state.
+// lichtmc resume: continues a run from its state.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -26,8 +26,8 @@ struct ResumeOptions {
   std::string checkpoint = "60s";
 };
 
-// The rules that are given; where none is, those of the run, of whose time some is over. A part stays within its
-// histories unless it is told otherwise: what is behind them another part may have.
+// The rules that are given; if none is given, those of the run, with the time that remains. A part keeps to its
+// histories unless --photons is given: the histories after them may be in another part.
 Settings rules_for(const ResumeOptions& options, const State& state) {
   Settings rules = state.settings();
   if (options.stop.any()) {
@@ -43,7 +43,7 @@ Settings rules_for(const ResumeOptions& options, const State& state) {
   return rules;
 }
 
-// Where the results go. A copy of a state must not replace the state that it lies beside.
+// The folder of the results. A copy of a state must not replace the state in the same folder.
 fs::path folder_for(const ResumeOptions& options, const fs::path& file) {
   if (!options.overrides.output.empty()) return options.overrides.output;
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
@@ -72,26 +72,23 @@ void resume_run(const ResumeOptions& options, const Invocation& invocation) {
 }  // namespace
 
 void add_resume_command(CLI::App& program, const Invocation& invocation) {
-  CLI::App* command =
-      program.add_subcommand("resume", "Go on with a run that was interrupted, or that is to go further");
+  CLI::App* command = program.add_subcommand("resume", "Continue a run that was interrupted, or extend a finished run");
   auto options = std::make_shared<ResumeOptions>();
-  command->add_option("state", options->state, "state.h5 of a run, or the folder that it is in")
-      ->required()
-      ->type_name("STATE");
-  const std::string machine = "How";
+  command->add_option("state", options->state, "state.h5 of a run, or its folder")->required()->type_name("STATE");
+  const std::string machine = "Execution";
   add_stop_options(*command, options->stop);
-  command->get_option("--photons")->description("Go on until there are so many light packets in all: 10M, 2G");
+  command->get_option("--photons")->description("Continue to this total number of photons: 10M, 2G");
   add_checkpoint_option(*command, options->checkpoint, machine);
   add_override_options(*command, options->overrides, "Folder for the results [that of STATE]", machine);
   command->footer(
-      "Photons are counted from the start of the run: --photons 10M goes on until there are 10 million in all. Time "
-      "is\n"
-      "that of this session. Without any of these rules the run goes on to its own. The results are, to the last "
-      "digit,\n"
-      "those of a run without interruption.\n\n"
+      "Photons are counted from the start of the run: --photons 10M continues to a total of 10 million. --max-time "
+      "counts\n"
+      "the time of this session. Without any of these rules the run continues to its own rules. The results are "
+      "identical\n"
+      "to those of a run without interruption.\n\n"
       "Examples:\n"
-      "  lichtmc resume room.out                         after a power cut\n"
-      "  lichtmc resume room.out --target-error 1%       further than before\n"
+      "  lichtmc resume room.out                         after a power failure\n"
+      "  lichtmc resume room.out --target-error 1%       to a smaller error\n"
       "  lichtmc resume room.out --max-time 8h -o night");
   command->callback([options, &invocation] { resume_run(*options, invocation); });
 }

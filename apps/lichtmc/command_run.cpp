@@ -1,4 +1,4 @@
-// lichtmc run: the main job, irradiance of every tile of a room.
+// lichtmc run: simulates a room and writes the irradiance of every tile.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -32,22 +32,22 @@ void run(const RunOptions& options, const Invocation& invocation) {
 }  // namespace
 
 void add_run_command(CLI::App& program, const Invocation& invocation) {
-  CLI::App* command =
-      program.add_subcommand("run", "Simulate a room: irradiance of every tile, with its standard error");
+  CLI::App* command = program.add_subcommand(
+      "run", "Simulate a room: irradiance or illuminance of every tile, with its standard error");
   auto options = std::make_shared<RunOptions>();
   add_run_options(*command, *options);
   command->footer(
       std::string(
-          "Light packets (photons) fly from the lamps until they are absorbed or leave through an opening. Results: "
+          "Photons are followed from the light sources until they are absorbed or leave through an opening. Results: "
           "the\n"
           "irradiance (W/m^2) or illuminance (lx) of every tile of every surface, each with its standard error.\n\n") +
       light_forms +
       "\nExamples:\n"
       "  lichtmc run room.glb                                1 million photons, tiles of 0.1 m, results in room.out/\n"
       "  lichtmc run room.glb --target-error 2% --max-time 5min --tile 0.25\n"
-      "  lichtmc run office.glb --grid 0.85 --only backward --target-error 2%      desk height, nothing else\n"
+      "  lichtmc run office.glb --grid 0.85 --only receivers --target-error 2%     only at desk height\n"
       "  lichtmc run hall.glb --light point:5,3,5:8000lm --max-reflectance 0.9 -o out/hall\n"
-      "Ctrl-C ends a run early and keeps what was simulated; a second Ctrl-C ends the program at once.");
+      "Ctrl-C ends a run early and writes the results so far; a second Ctrl-C ends the program at once.");
   command->callback([options, &invocation] { run(*options, invocation); });
 }
 

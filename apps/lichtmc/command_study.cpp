@@ -1,4 +1,4 @@
-// lichtmc study: the trade of speed against accuracy in a room.
+// lichtmc study: computing time against error in a room.
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -32,7 +32,7 @@ struct StudyCommand {
 };
 
 StudyOptions parse_options(const StudyCommand& command) {
-  constexpr double quick_seconds = 45.0;  // with reading, starting and writing less than a minute
+  constexpr double quick_seconds = 45.0;  // less than a minute with reading, start and writing
   StudyOptions options;
   if (command.quick && command.max_time)
     throw InputError("Both --quick and --max-time are given (allowed: one of them). Leave one out.");
@@ -44,7 +44,7 @@ StudyOptions parse_options(const StudyCommand& command) {
   return options;
 }
 
-// One line that is written over on a terminal; elsewhere a line for each run.
+// On a terminal one line that is overwritten; elsewhere one line for each run.
 std::function<void(const StudyProgress&)> progress_printer(bool terminal) {
   return [terminal, last = std::string()](const StudyProgress& progress) mutable {
     std::string line = progress.of > 0 ? std::to_string(progress.done + 1) + " of " + std::to_string(progress.of) + ": "
@@ -85,30 +85,32 @@ void run(const StudyCommand& command) {
 }  // namespace
 
 void add_study_command(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("study", "Measure the trade of speed against accuracy in a room, and say what to choose");
+  CLI::App* command = program.add_subcommand("study", "Measure time against error in a room, and recommend settings");
   auto options = std::make_shared<StudyCommand>();
   add_room_argument(*command, options->reading);
   command->add_option("-o,--output", options->output, "Folder for the results [name of ROOM with .study]")
       ->type_name("DIR");
   command->add_option("--max-time", options->max_time, "Time for the whole study: 60s, 10min, 2h [10min]")
       ->type_name("T");
-  command->add_flag("--quick", options->quick, "A first look in under a minute");
+  command->add_flag("--quick", options->quick, "Short study of less than one minute");
   command
-      ->add_option("--tile", options->tile,
-                   "Edge of a tile in metres; half and twice of it are tried too [0.1, more in rooms above 20 m2]")
+      ->add_option(
+          "--tile", options->tile,
+          "Edge of a tile in metres; half and twice this edge are measured too [0.1, more in rooms above 20 m^2]")
       ->type_name("M");
-  command->add_option("--seed", options->seed, "Selects the random numbers; the reference has its own")
+  command->add_option("--seed", options->seed, "Seed of the random numbers; the reference uses another seed")
       ->type_name("S")
       ->capture_default_str();
   command->add_option("--threads", options->threads, "Number of threads [one per processor]")->type_name("N");
   add_room_options(*command, options->reading);
-  command->add_flag("--quiet", options->quiet, "No progress; only the advice and errors");
+  command->add_flag("--quiet", options->quiet, "Print only the advice and errors, no progress");
   command->footer(
-      "Every estimator, forward and backward, with the direct light sampled and integrated, with more and more light\n"
-      "packets; the weight estimator cut off after 2 to 50 flights; other tile sizes. All are held against a "
-      "reference\n"
-      "of 30 times as many light packets. The advice is for the tiles; receivers are not studied.\n\n"
+      "The study runs every estimator, forward and backward, with direct light sampled and integrated, with "
+      "increasing\n"
+      "numbers of photons; the weight estimator with histories of 2 to 50 flights; and other tile sizes. All results "
+      "are\n"
+      "compared with a reference of 30 times as many photons. The advice is for the tiles; receivers are not "
+      "studied.\n\n"
       "Examples:\n"
       "  lichtmc study room.glb --quick\n"
       "  lichtmc study hall.glb --tile 0.25 --max-time 30min -o out/hall_study");

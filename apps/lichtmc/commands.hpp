@@ -1,5 +1,5 @@
 // The commands of the program: one file each, which adds the command and its options to the command line. A command
-// whose outcome is more than done or failed sets the exit status.
+// with more outcomes than done or failed sets the exit status.
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@ namespace lichtmc::app {
 
 // How the program was started. It outlives the commands.
 struct Invocation {
-  std::string command_line;              // such that a shell reads it as the same words
-  std::vector<std::string> arguments;    // the words behind the command's name
-  Communicator* communicator = nullptr;  // the processes that it shares a run with
+  std::string command_line;              // quoted for a shell
+  std::vector<std::string> arguments;    // after the name of the command
+  Communicator* communicator = nullptr;  // the processes that share a run with this one
 };
 
 void add_run_command(CLI::App& program, const Invocation& invocation);

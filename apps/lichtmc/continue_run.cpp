@@ -15,30 +15,28 @@ namespace fs = std::filesystem;
 
 std::string note_of(const std::vector<std::string>& arguments) {
   const nlohmann::json note{{"directory", fs::current_path().string()}, {"arguments", arguments}};
-  // Names of files may be any bytes: those that are no UTF-8 are replaced, and the file is then asked for by --room.
+  // File names may be any bytes: those that are not UTF-8 are replaced, and resume then requires --room.
   return note.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void add_override_options(CLI::App& command, OverrideOptions& options, const std::string& output_help,
                           const std::string& machine_group) {
   command.add_option("-o,--output", options.output, output_help)->type_name("DIR");
-  command.add_option("--room", options.room, "The room's file, where it is not any more where it was")
-      ->type_name("ROOM");
-  command
-      .add_option("--receivers", options.receivers, "The table of receivers, where it is elsewhere, or came from stdin")
+  command.add_option("--room", options.room, "File of the room, if it was moved")->type_name("ROOM");
+  command.add_option("--receivers", options.receivers, "Table of receivers, if it was moved or read from stdin")
       ->type_name("FILE.csv");
   add_threads_option(command, options.threads, machine_group);
   add_report_options(command, options.report_arguments);
-  command.add_flag("--quiet", options.quiet, "No progress, no summary; only errors");
+  command.add_flag("--quiet", options.quiet, "Print only errors, no progress and no summary");
 }
 
 namespace {
 
-// The words of the run and where they were said.
+// The options of the run, with file names relative to the folder in which it was started.
 RunOptions noted_options(const State& state, const fs::path& file) {
   const auto refuse = [&file](const std::string& why) {
-    throw InputError("The state " + file.string() + " does not say how it was run" + why +
-                     " (allowed: a state that `lichtmc run` has written). Go on with it in the program that made it.");
+    throw InputError("The state " + file.string() + " does not contain the options of its run" + why +
+                     " (allowed: a state written by `lichtmc run`). Continue it with the program that wrote it.");
   };
   const nlohmann::json note = nlohmann::json::parse(state.note(), nullptr, false);
   if (!note.is_object() || !note.contains("arguments") || !note["arguments"].is_array() ||
@@ -49,7 +47,7 @@ RunOptions noted_options(const State& state, const fs::path& file) {
     if (!word.is_string()) refuse("");
     words.push_back(word.get<std::string>());
   }
-  std::reverse(words.begin(), words.end());  // the parser takes them from the back
+  std::reverse(words.begin(), words.end());  // CLI11 reads a vector of arguments from its end
   RunOptions options;
   CLI::App command;
   add_run_options(command, options);
@@ -67,13 +65,13 @@ RunOptions noted_options(const State& state, const fs::path& file) {
 }  // namespace
 
 RunOptions options_of(const State& state, const fs::path& file, const OverrideOptions& overrides) {
-  check_version(state);  // words of another version may not be known
+  check_version(state);  // options of another version may be unknown
   RunOptions run = noted_options(state, file);
   if (overrides.room) run.reading.file = *overrides.room;
   if (overrides.receivers) run.receivers = overrides.receivers;
   if (run.receivers == "-" && !overrides.receivers)
     throw InputError(
-        "The receivers of this run came from stdin (allowed here: a file, or - again). Give them with "
+        "The receivers of this run were read from stdin (allowed here: a file, or - again). Give them with "
         "--receivers.");
   run.report_arguments.override_with(overrides.report_arguments);
   return run;
@@ -81,22 +79,19 @@ RunOptions options_of(const State& state, const fs::path& file, const OverrideOp
 
 namespace {
 
-// A file that the run was given and that is not where it was.
-void check_there(const std::string& file, const std::string& what, const std::string& option) {
+void check_exists(const std::string& file, const std::string& what, const std::string& option) {
   std::error_code unknown;
   if (fs::exists(file, unknown)) return;
   throw InputError("Cannot find " + what + " " + file +
-                   ", which the run was given (allowed: the same, wherever it is). "
-                   "Say where it is with " +
-                   option + ".");
+                   " of the run (allowed: the same content at any path). Give its path with " + option + ".");
 }
 
 }  // namespace
 
 RunJob job_of(const State& state, const RunOptions& run, const OverrideOptions& overrides,
               const std::string& command_line) {
-  if (!overrides.room) check_there(run.reading.file, "the room", "--room");
-  if (!overrides.receivers && run.receivers) check_there(*run.receivers, "the table of receivers", "--receivers");
+  if (!overrides.room) check_exists(run.reading.file, "the room", "--room");
+  if (!overrides.receivers && run.receivers) check_exists(*run.receivers, "the table of receivers", "--receivers");
   RunJob job;
   job.settings = state.settings();
   job.report = parse_report(run.report_arguments, overrides.threads, command_line);

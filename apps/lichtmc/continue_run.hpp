@@ -1,4 +1,4 @@
-// What resume and merge have in common: a state notes down how its run was called, and from that they make another job.
+// Common to resume and merge: a state contains the arguments of its run, from which they make another job.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@
 
 namespace lichtmc::app {
 
-// The words behind `lichtmc run`, and the folder that they were said in: what a state notes down of its run.
+// The note of a state, as JSON: the arguments of `lichtmc run` and the folder in which it was started.
 std::string note_of(const std::vector<std::string>& arguments);
 
-// What resume and merge may say otherwise than the run did.
+// Options of resume and merge that replace those of the run.
 struct OverrideOptions {
   std::string output;
   std::optional<std::string> room;
@@ -27,16 +27,16 @@ struct OverrideOptions {
 void add_override_options(CLI::App& command, OverrideOptions& options, const std::string& output_help,
                           const std::string& machine_group);
 
-// The options of the run that a state is of, with what is said otherwise; the files that they name are where they were.
-// Throws InputError where another version of the program, or another program, has written the state, or where receivers
-// came from stdin and are not given again.
+// The options of the run that wrote a state, with the overrides; file names are relative to the folder of that run.
+// Throws InputError if another version of the program, or another program, wrote the state, or if the receivers were
+// read from stdin and are not given again.
 RunOptions options_of(const State& state, const std::filesystem::path& file, const OverrideOptions& overrides);
 
-// A job for it, without the folder; the room is read.
+// A job with these options, without the output folder; reads the room.
 RunJob job_of(const State& state, const RunOptions& run, const OverrideOptions& overrides,
               const std::string& command_line);
 
-// A state file; of a folder, the state.h5 in it.
+// The name itself, or the state.h5 in it if it is a folder.
 std::filesystem::path state_file(const std::string& name);
 
 }  // namespace lichtmc::app

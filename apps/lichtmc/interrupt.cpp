@@ -8,7 +8,7 @@ namespace lichtmc::app {
 
 namespace {
 
-// A signal handler may do no more than set this; the watcher does the rest.
+// The signal handler only sets this flag (async-signal-safe); the watcher thread requests the stop.
 std::atomic<int> interrupted{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -21,8 +21,8 @@ extern "C" void note_interrupt(int signal) {
 
 InterruptWatch::InterruptWatch() {
   interrupted = 0;
-  hears_hang_up_ = std::signal(SIGHUP, note_interrupt) != SIG_IGN;
-  if (!hears_hang_up_) std::signal(SIGHUP, SIG_IGN);
+  handles_hangup_ = std::signal(SIGHUP, note_interrupt) != SIG_IGN;
+  if (!handles_hangup_) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
   watcher_ = std::jthread([this](const std::stop_token& ended) {
@@ -32,7 +32,7 @@ InterruptWatch::InterruptWatch() {
 }
 
 InterruptWatch::~InterruptWatch() {
-  if (hears_hang_up_) std::signal(SIGHUP, SIG_DFL);
+  if (handles_hangup_) std::signal(SIGHUP, SIG_DFL);
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
 }

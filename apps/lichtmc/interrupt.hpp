@@ -1,4 +1,4 @@
-// Ctrl-C as a request to stop, not as the end.
+// Ctrl-C as a request to stop.
 #pragma once
 
 #include <stop_token>
@@ -6,8 +6,8 @@
 
 namespace lichtmc::app {
 
-// While it lives, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (the terminal is gone) asks for a stop; a second one
-// ends the program at once. A SIGHUP that the program was started to ignore (nohup) stays ignored.
+// During its lifetime the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (the terminal was closed) requests a stop; a second
+// signal ends the program at once. If SIGHUP was ignored at the start (nohup), it stays ignored.
 class InterruptWatch {
  public:
   InterruptWatch();
@@ -18,7 +18,7 @@ class InterruptWatch {
   std::stop_token token() const { return source_.get_token(); }
 
  private:
-  bool hears_hang_up_;
+  bool handles_hangup_;
   std::stop_source source_;
   std::jthread watcher_;
 };

@@ -8,13 +8,13 @@
 
 namespace lichtmc::app {
 
-const char* const light_help = "Add a light (repeatable), in one of the forms below";
+const char* const light_help = "Add a light source (repeatable), in one of the forms below";
 
 const char* const light_forms =
-    "Lights (--light), positions in metres with Y up, power with its unit, lm or W:\n"
+    "Light sources (--light), positions in metres with Y up, power in lm (luminous flux) or W (radiant flux):\n"
     "  point:X,Y,Z:POWER                the same intensity in every direction, for example point:2,2.4,1.5:1000lm\n"
     "  lambert:X,Y,Z:DX,DY,DZ:M:POWER   generalized Lambert emitter cos^M about a direction, for example\n"
-    "                                   lambert:0.5,0.5,0.5:0,-1,0:5:1W (M = 1: Lambert; large M: a narrow beam)\n";
+    "                                   lambert:0.5,0.5,0.5:0,-1,0:5:1W (M = 1: Lambert; large M: narrow beam)\n";
 
 namespace {
 
@@ -40,7 +40,7 @@ Emitter parse_light(const std::string& description, Quantity& quantity) {
     emitter.shape =
         LambertEmitter{parse_vector(part[1], option), parse_vector(part[2], option), parse_number(part[3], option)};
   } else {
-    throw InputError("The light '" + description +
+    throw InputError("The light source '" + description +
                      "' cannot be used (allowed: point:X,Y,Z:POWER or lambert:X,Y,Z:DX,DY,DZ:M:POWER). Give it in one "
                      "of these forms, for "
                      "example --light point:2,2.4,1.5:1000lm.");

@@ -1,4 +1,4 @@
-// Lights on the command line.
+// Light sources of the command line.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace lichtmc::app {
 
-// Help for --light: its line in the list of options, and the forms that it takes.
+// Help for --light: its line in the list of options, and its forms.
 extern const char* const light_help;
 extern const char* const light_forms;
 
 // Adds an emitter for each description to a room:
 //   point:X,Y,Z:POWER                      the same intensity in every direction
 //   lambert:X,Y,Z:DX,DY,DZ:M:POWER         generalized Lambert emitter of exponent M about the direction
-// Positions in metres on the room's axes (Y up), POWER with its unit ("1000lm", "1W").
-// Throws InputError naming the description and what is wrong in it.
+// Positions in metres on the room's axes (Y up), POWER as luminous flux ("1000lm") or radiant flux ("1W").
+// Throws InputError that names the description and what is wrong in it.
 void add_lights(Room& room, const std::vector<std::string>& descriptions);
 
 }  // namespace lichtmc::app

@@ -15,7 +15,7 @@ namespace {
 constexpr int exit_failed = 1;       // the run failed: disk, memory, device
 constexpr int exit_wrong_input = 2;  // the command line or an input is wrong
 
-// A word that is no command is named, before the parser says only that a command is missing.
+// Names an unknown command; the parser would only report that a command is missing.
 void check_command(CLI::App& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::string names;
@@ -27,30 +27,31 @@ void check_command(CLI::App& program, int argc, char** argv) {
                             "). See lichtmc --help.");
 }
 
-// Only runs are shared; other commands would be carried out by every process.
+// Only run and resume share their work; every process would execute any other command.
 void check_ranks_agree(int argc, char** argv, const lichtmc::Communicator* communicator) {
   if (communicator == nullptr || communicator->size() == 1 || argc < 2) return;
   const std::string command = argv[1];
   if (command == "run" || command == "resume" || command[0] == '-') return;
-  throw lichtmc::InputError("The command '" + command + "' is the work of one process, and " +
+  throw lichtmc::InputError("The command '" + command + "' runs in one process, but " +
                             std::to_string(communicator->size()) +
-                            " were started (allowed: run and resume share their work). Start it without mpirun.");
+                            " were started (allowed with several processes: run, resume). Start it without mpirun.");
 }
 
-// Slurm's srun connects the processes that it starts where it has PMIx; without, each believes to be alone.
-void warn_of_strangers(int argc, char** argv, const lichtmc::Communicator* communicator) {
+// Slurm's srun connects the processes that it starts only through PMIx; without PMIx each process has no communicator.
+void warn_if_unconnected(int argc, char** argv, const lichtmc::Communicator* communicator) {
   const auto number = [](const char* name) {
     const char* text = std::getenv(name);
     return text == nullptr ? -1 : std::atoi(text);
   };
   const bool runs = argc > 1 && (std::string(argv[1]) == "run" || std::string(argv[1]) == "resume");
   if (!runs || communicator != nullptr || number("SLURM_STEP_NUM_TASKS") < 2 || number("SLURM_PROCID") != 0) return;
-  std::cerr << "Warning: srun has started " << number("SLURM_STEP_NUM_TASKS")
-            << " processes that do not know of each other: each does all of the work. For one run together give srun "
-               "--mpi=pmix, or use mpirun; for runs of their own give each another --output.\n";
+  std::cerr
+      << "Warning: srun has started " << number("SLURM_STEP_NUM_TASKS")
+      << " processes without a connection between them: each simulates the whole run. To share one run, give srun "
+         "--mpi=pmix or use mpirun; for separate runs, give each process a different --output.\n";
 }
 
-// What was typed, such that a shell reads it as the same words.
+// The arguments as one line, quoted for a shell.
 std::string command_line(int argc, char** argv) {
   std::string line = "lichtmc";
   for (int k = 1; k < argc; ++k) {
@@ -70,9 +71,8 @@ std::string command_line(int argc, char** argv) {
 int run_program(int argc, char** argv, lichtmc::Communicator* communicator) {
   int status = 0;
   CLI::App program{
-      "How much light arrives where in a room, and how sure is that number: lichtmc follows light packets from the\n"
-      "lamps of a glTF room over its diffusely reflecting surfaces and measures the irradiance (W/m^2) or\n"
-      "illuminance (lx) of every tile of surface, with its standard error.\n",
+      "lichtmc computes the irradiance (W/m^2) or illuminance (lx) on all surfaces of a glTF room, tile by tile, each\n"
+      "with its standard error, by Monte Carlo simulation of photons between diffusely reflecting surfaces.\n",
       "lichtmc"};
   program.set_version_flag("--version", std::string("lichtmc ") + std::string(lichtmc::version()));
   program.require_subcommand(1);
@@ -95,7 +95,7 @@ int run_program(int argc, char** argv, lichtmc::Communicator* communicator) {
   try {
     check_command(program, argc, argv);
     check_ranks_agree(argc, argv, communicator);
-    warn_of_strangers(argc, argv, communicator);
+    warn_if_unconnected(argc, argv, communicator);
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help and --version
     program.exit(asked);
@@ -103,13 +103,13 @@ int run_program(int argc, char** argv, lichtmc::Communicator* communicator) {
   return status;
 }
 
-// What went wrong, and with which exit status.
-struct Fault {
+struct Failure {
   std::string message;
   int status = exit_failed;
 };
 
-Fault fault_in_hand() {
+// Of the exception that is being handled.
+Failure current_failure() {
   try {
     throw;
   } catch (const CLI::ParseError& error) {
@@ -119,26 +119,26 @@ Fault fault_in_hand() {
   } catch (const std::exception& error) {
     return {error.what(), exit_failed};
   } catch (...) {
-    return {"an unknown fault. Please report it.", exit_failed};
+    return {"an unknown error occurred. Please report it.", exit_failed};
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow further is a failed write, with a message
+  std::signal(SIGXFSZ, SIG_IGN);  // beyond the limit of file size a write then fails with a message
   try {
     const lichtmc::app::ProcessGroup communicator;
     try {
       return run_program(argc, argv, communicator.get());
     } catch (...) {
-      const Fault fault = fault_in_hand();
-      communicator.end(fault.message.c_str(), fault.status);
+      const Failure failure = current_failure();
+      communicator.end(failure.message.c_str(), failure.status);
       throw;
     }
   } catch (...) {
-    const Fault fault = fault_in_hand();
-    std::cerr << "lichtmc: " << fault.message << '\n';
-    return fault.status;
+    const Failure failure = current_failure();
+    std::cerr << "lichtmc: " << failure.message << '\n';
+    return failure.status;
   }
 }

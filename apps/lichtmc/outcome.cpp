@@ -41,39 +41,38 @@ const char* describe(StopReason reason) {
   return "";
 }
 
-// A stop rule that was not met is said, with what it would take.
+// Reports a target error that was not reached, with the number of photons that it requires.
 void warn_of_missed_target(const Settings& settings, StopReason stopped_by, double error, double histories,
                            double to_target, double seconds, const char* remedy) {
   if (!settings.target_error || stopped_by == StopReason::target_error) return;
-  std::cerr << "The target error of " << percent(*settings.target_error) << " was not reached: it is " << percent(error)
-            << '.';
-  // What the errors on the way foretell; before the first of them was known, that they fall with the square root.
+  std::cerr << "The target error of " << percent(*settings.target_error) << " was not reached: the error is "
+            << percent(error) << '.';
+  // Extrapolated from the error checks; without one, the error falls with the square root of the number of histories.
   if (!std::isfinite(to_target)) to_target = histories * std::pow(error / *settings.target_error, 2);
   if (std::isfinite(to_target)) {
-    std::cerr << " It would take about " << short_count(to_target) << " photons ("
-              << short_time(to_target / histories * seconds) << " here)" << remedy << '.';
+    std::cerr << " It requires about " << short_count(to_target) << " photons ("
+              << short_time(to_target / histories * seconds) << " on this machine)" << remedy << '.';
   }
   std::cerr << '\n';
 }
 
-// One of those that matter most, and where the others are.
+// One example, if possible of those that may change results, and where the list is.
 void print_ignored(const std::vector<Ignored>& ignored) {
   if (ignored.empty()) return;
-  const auto matters = [](const Ignored& thing) { return thing.effect == Effect::figures; };
-  const auto first = std::find_if(ignored.begin(), ignored.end(), matters);
-  const auto count = std::count_if(ignored.begin(), ignored.end(), matters);
-  std::cerr << "Not modelled: " << ignored.size() << (ignored.size() == 1 ? " thing" : " things") << " in the room, "
-            << count
-            << " of which may change figures; for example: " << (first == ignored.end() ? ignored.front() : *first).what
+  const auto changes_results = [](const Ignored& item) { return item.effect == Effect::figures; };
+  const auto first = std::find_if(ignored.begin(), ignored.end(), changes_results);
+  const auto count = std::count_if(ignored.begin(), ignored.end(), changes_results);
+  std::cerr << "Not modelled: " << ignored.size() << (ignored.size() == 1 ? " item" : " items") << " of the room; "
+            << count << " may change results. Example: " << (first == ignored.end() ? ignored.front() : *first).what
             << " The list is in summary.json under \"ignored\".\n";
 }
 
-// Where the power went: only photons from the emitters tell.
+// The balance of powers, known only with photons from the emitters.
 void print_balance(const Result& result) {
   const std::string unit(power_unit(result.quantity));
   const Balance& balance = result.balance;
   std::cerr << "Emitted " << figure(balance.emitted) << ' ' << unit << ": absorbed " << figure(balance.absorbed)
-            << ", left the room " << figure(balance.escaped);
+            << ", escaped " << figure(balance.escaped);
   if (balance.residual != 0.0) std::cerr << ", residual " << figure(balance.residual);
   std::cerr << ", lost " << figure(balance.lost) << ".\n";
 }
@@ -81,14 +80,14 @@ void print_balance(const Result& result) {
 void print_tiles(const Result& result) {
   const bool forward = result.settings.tile_walk == WalkDirection::forward;
   std::cerr << short_count(static_cast<double>(result.histories))
-            << (forward ? " photons, " : " walks back from the tiles, ")
+            << (forward ? " photons, " : " backward histories from the tiles, ")
             << short_count(static_cast<double>(result.impacts)) << " impacts in " << figure(result.seconds) << " s ("
             << describe(result.stopped_by) << "; engine " << to_string(result.engine) << ", estimator "
             << to_string(result.estimator) << (direct_is_apart(result) ? ", direct light integrated" : "") << ").\n";
   if (forward) print_balance(result);
   std::cerr << result.tiles.size() << " tiles, relative standard error " << percent(result.rms_relative_error)
-            << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of those that got light)" : ")");
-  if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " got none";
+            << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of the tiles with hits)" : ")");
+  if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " without hits";
   std::cerr << ".\n";
   warn_of_missed_target(result.settings, result.stopped_by, result.rms_relative_error,
                         static_cast<double>(result.histories), result.histories_to_target, result.seconds,
@@ -99,7 +98,7 @@ void print_receivers(const Result& result) {
   const BackwardResult& backward = result.backward;
   const auto histories = static_cast<double>(backward.histories);
   std::cerr << result.receiver_results.size() << (result.receiver_results.size() == 1 ? " receiver, " : " receivers, ")
-            << short_count(histories) << " walks back from them in " << figure(backward.seconds) << " s ("
+            << short_count(histories) << " backward histories in " << figure(backward.seconds) << " s ("
             << describe(backward.stopped_by) << "), " << short_count(static_cast<double>(backward.shadow_rays))
             << " shadow rays; relative standard error " << percent(backward.rms_relative_error) << " (rms).\n";
   warn_of_missed_target(result.settings, backward.stopped_by, backward.rms_relative_error, histories,
@@ -119,7 +118,7 @@ void print_outcome(const Result& result, const std::filesystem::path& folder, bo
             << (result.receiver_results.empty() ? "" : "receivers.csv, ") << "summary.json.\n";
   if (!with_report) return;
   std::cerr << "Open " << (folder / "report.html").string() << " in a browser"
-            << (result.tiles.empty() ? "" : "; room_lit.glb, beside it, in any glTF viewer") << ".\n";
+            << (result.tiles.empty() ? "" : ", room_lit.glb in any glTF viewer") << ".\n";
 }
 
 }  // namespace lichtmc::app

@@ -1,4 +1,4 @@
-// What a run has found, in a few lines for people.
+// The summary of a run in a few lines.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace lichtmc::app {
 
-// To stderr: how long, how sure, where the power went, what to be careful about, where the files are.
+// To stderr: time, standard error, balance of powers, warnings, output files.
 void print_outcome(const Result& result, const std::filesystem::path& folder, bool with_report);
 
 }  // namespace lichtmc::app

@@ -25,7 +25,8 @@ Communicator* ProcessGroup::get() const {
   return connection_->communicator.get();
 }
 
-// Most faults, as a wrong option, all members find at the same time: then the first speaks and ends the others.
+// Most errors, such as a wrong option, occur in all processes at the same time. Then only rank 0 reports the error and
+// ends the others.
 void ProcessGroup::end(const char* message, int status) const {
   if (connection_->communicator == nullptr) return;
   const unsigned rank = connection_->communicator->rank();
@@ -47,8 +48,8 @@ ProcessGroup::ProcessGroup() {
   const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
   if (size != nullptr && std::string(size) != "1")
     throw InputError(std::string("lichtmc was started as ") + size +
-                     " processes, and was built without MPI: each would do all the work. Start it without mpirun, or "
-                     "build it with -DLICHTMC_MPI=ON.");
+                     " processes, but was built without MPI: each process would simulate the whole run. Start it "
+                     "without mpirun, or build it with -DLICHTMC_MPI=ON.");
 }
 
 Communicator* ProcessGroup::get() const {

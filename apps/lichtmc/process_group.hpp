@@ -1,4 +1,4 @@
-// The processes that mpirun has started together with this one.
+// The processes that mpirun started together with this one.
 #pragma once
 
 #include <memory>
@@ -7,17 +7,17 @@
 
 namespace lichtmc::app {
 
-// A team, and how to end it where one member cannot go on.
+// The communicator of these processes, and how to end them if one cannot continue.
 class ProcessGroup {
  public:
-  // Throws InputError where several were started and this program was built without MPI.
+  // Throws InputError if several processes were started and this program was built without MPI.
   ProcessGroup();
   ~ProcessGroup();
   ProcessGroup(const ProcessGroup&) = delete;
   ProcessGroup& operator=(const ProcessGroup&) = delete;
 
-  Communicator* get() const;  // null where this process is alone
-  // Says why, and ends all members with the exit status; returns where this process is alone.
+  Communicator* get() const;  // null for a single process
+  // Prints the message and ends all processes with the exit status; returns for a single process.
   void end(const char* message, int status) const;
 
  private:

@@ -44,10 +44,10 @@ ProgressLine::ProgressLine(Show show, const Settings& settings)
       last_(std::chrono::steady_clock::now()) {}
 
 ProgressLine::~ProgressLine() {
-  if (drawn_ && terminal_) std::cerr << "\r\x1b[K" << std::flush;  // the bar has served; results follow
+  if (drawn_ && terminal_) std::cerr << "\r\x1b[K" << std::flush;  // removes the bar; results follow
 }
 
-// Time to the nearest of the stop rules, s; infinite where none can be told yet.
+// Time to the first stop rule, s; infinite while no estimate is known.
 double ProgressLine::seconds_left(const Progress& progress) const {
   double left = std::numeric_limits<double>::infinity();
   const auto done = static_cast<double>(progress.histories);
@@ -62,15 +62,15 @@ double ProgressLine::share_done(const Progress& progress) const {
   return std::isfinite(left) ? progress.seconds / (progress.seconds + left) : 0.0;
 }
 
-// What has been simulated, and how fast.
+// Number of histories so far, and impacts or rays per second.
 std::string ProgressLine::work(const Progress& progress) const {
   const bool receivers = progress.stage == Progress::Stage::receivers;
   const bool backward = receivers || settings_.tile_walk == WalkDirection::backward;
   const bool limited = progress.target < std::uint64_t{1} << 62;
   return short_count(static_cast<double>(progress.histories)) +
          (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") +
-         (receivers  ? " walks from receivers, "
-          : backward ? " walks from tiles, "
+         (receivers  ? " backward histories from receivers, "
+          : backward ? " backward histories from tiles, "
                      : " photons, ") +
          short_count(static_cast<double>(progress.impacts) / progress.seconds) + (backward ? " rays/s" : " impacts/s");
 }
@@ -117,10 +117,10 @@ StepLine::~StepLine() {
   if (drawn_ && terminal_) std::cerr << "\r\x1b[K" << std::flush;
 }
 
-void StepLine::tell(std::string_view what) {
-  constexpr std::chrono::seconds soon{2};
+void StepLine::update(std::string_view what) {
+  constexpr std::chrono::seconds delay{2};
   if (show_ == ProgressLine::Show::no) return;
-  if (!terminal_ && std::chrono::steady_clock::now() - began_ < soon) return;
+  if (!terminal_ && std::chrono::steady_clock::now() - began_ < delay) return;
   drawn_ = true;
   if (terminal_) {
     std::cerr << '\r' << what << " …\x1b[K" << std::flush;

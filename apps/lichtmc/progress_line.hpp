@@ -1,4 +1,4 @@
-// How far a run is: a bar on a terminal, a line every few seconds elsewhere; on stderr, nothing on request.
+// Progress of a run on stderr: a bar on a terminal, a line every few seconds elsewhere, or nothing.
 #pragma once
 
 #include <chrono>
@@ -35,8 +35,8 @@ class ProgressLine {
   std::chrono::steady_clock::time_point last_;
 };
 
-// Steps of some seconds each, by name: written over each other on a terminal; elsewhere a line for each that begins
-// two seconds or more after the first.
+// Names of steps that take some seconds each. On a terminal they overwrite each other; elsewhere each step that begins
+// two seconds or more after the first has a line.
 class StepLine {
  public:
   explicit StepLine(ProgressLine::Show show);
@@ -44,7 +44,7 @@ class StepLine {
   StepLine(const StepLine&) = delete;
   StepLine& operator=(const StepLine&) = delete;
 
-  void tell(std::string_view what);
+  void update(std::string_view what);
 
  private:
   ProgressLine::Show show_;
@@ -53,7 +53,7 @@ class StepLine {
   std::chrono::steady_clock::time_point began_;
 };
 
-// "12.3M", "4.56k": a count in three digits.
+// "12.3M", "4.56k": a count with three digits.
 std::string short_count(double count);
 // "4 s", "3 min 20 s", "2 h 5 min".
 std::string short_time(double seconds);

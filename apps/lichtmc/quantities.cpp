@@ -16,7 +16,7 @@ namespace {
                    " cannot be used (allowed: " + std::string(allowed) + "). Give it in that form.");
 }
 
-// Splits "12.5ms" into the number and what follows it; false where there is no finite number.
+// Splits "12.5ms" into the number and the rest; false if there is no finite number.
 bool split_number(std::string_view text, double& number, std::string_view& rest) {
   const char* begin = text.data();
   const char* end = text.data() + text.size();
@@ -31,7 +31,7 @@ struct Suffix {
   double factor;
 };
 
-// A number with one of some suffixes; false where it is neither.
+// A number with one of these suffixes; false for anything else.
 template <std::size_t N>
 bool scaled(std::string_view text, const std::array<Suffix, N>& suffixes, double& number) {
   std::string_view rest;
@@ -55,7 +55,7 @@ double parse_number(std::string_view text, std::string_view option) {
 
 std::uint64_t parse_count(std::string_view text, std::string_view option) {
   constexpr std::string_view allowed = "a whole number from 1 to 9e18, for example 1000000, 1e6, 10M or 2G";
-  // Plain digits exactly; others by way of a double, which holds whole numbers up to 2^53 exactly.
+  // Plain digits are read exactly; other forms as a double, which represents whole numbers up to 2^53 exactly.
   std::uint64_t count = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (error == std::errc() && stop == text.data() + text.size() && count <= (std::uint64_t{1} << 63)) return count;
@@ -63,7 +63,7 @@ std::uint64_t parse_count(std::string_view text, std::string_view option) {
   double number = 0.0;
   const bool read = scaled(text, suffixes, number);
   const double whole = std::round(number);
-  // 1.005M is 1004999.9999999999 in double: a product of two roundings may miss the whole number by as much.
+  // 1.005M is 1004999.9999999999 in double: the product of two roundings may deviate that much from the whole number.
   if (!read || number < 0.0 || number > 0x1p63 || std::abs(number - whole) > 2.0 * 0x1p-53 * number)
     refuse(option, text, allowed);
   return static_cast<std::uint64_t>(whole);
@@ -85,12 +85,12 @@ unsigned parse_threads(const std::optional<int>& threads) {
   return static_cast<unsigned>(threads.value_or(0));
 }
 
-double parse_share(std::string_view text, std::string_view option) {
+double parse_fraction(std::string_view text, std::string_view option) {
   constexpr std::array<Suffix, 2> suffixes{{{"", 1.0}, {"%", 0.01}}};
   double number = 0.0;
-  if (!scaled(text, suffixes, number)) refuse(option, text, "a share above 0, for example 1% or 0.01");
+  if (!scaled(text, suffixes, number)) refuse(option, text, "a fraction above 0, for example 1% or 0.01");
   if (number >= 1.0 && text.back() != '%')
-    refuse(option, text, "a share below 1, or a percentage with %, for example 3% or 0.03");
+    refuse(option, text, "a fraction below 1, or a percentage with %, for example 3% or 0.03");
   return number;
 }
 
@@ -108,7 +108,7 @@ glm::dvec3 parse_vector(std::string_view text, std::string_view option) {
     std::string_view after;
     const bool last = k == 2;
     if (!split_number(rest, vector[k], after) || after.empty() != last || (!last && after.front() != ',')) {
-      refuse(option, text, "three numbers with commas between, for example 1,2.5,0");
+      refuse(option, text, "three numbers separated by commas, for example 1,2.5,0");
     }
     rest = last ? after : after.substr(1);
   }

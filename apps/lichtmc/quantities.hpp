@@ -1,6 +1,6 @@
-// Numbers as people write them on a command line: 1e6, 10M, 2G; 1%; 60s, 5min, 2h; 0.3,0.5,0.2; 1000lm.
+// Numbers of the command line: 1e6, 10M, 2G; 1%; 60s, 5min, 2h; 0.3,0.5,0.2; 1000lm.
 //
-// Each function throws InputError naming the option, what was given, what is allowed and an example.
+// Each function throws InputError that names the option, the value, what is allowed and an example.
 #pragma once
 
 #include <cstdint>
@@ -23,19 +23,19 @@ std::uint64_t parse_count(std::string_view text, std::string_view option);
 // The seed: a whole number from 0 to 2^64 − 1.
 std::uint64_t parse_seed(std::string_view text, std::string_view option);
 
-// --threads: 1 or more; 0, one per processor, where it was not given.
+// --threads: 1 or more; 0, one per processor, if it is not given.
 unsigned parse_threads(const std::optional<int>& threads);
 
-// A share: "1%" or "0.01"; 1 and more only with the percent sign.
-double parse_share(std::string_view text, std::string_view option);
+// A fraction: "1%" or "0.01"; 1 and more only with the percent sign.
+double parse_fraction(std::string_view text, std::string_view option);
 
 // Seconds: "60", "60s", "5min", "2h".
 double parse_seconds(std::string_view text, std::string_view option);
 
-// Three numbers with commas.
+// Three numbers separated by commas.
 glm::dvec3 parse_vector(std::string_view text, std::string_view option);
 
-// A power with its unit, "1000lm" or "1W".
+// A luminous flux, "1000lm", or a radiant flux, "1W".
 double parse_power(std::string_view text, std::string_view option, Quantity& quantity);
 
 // "W" or "lm".

@@ -22,7 +22,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// The first six fields; the rest is the name, which may hold commas.
+// The first six fields; the rest is the name, which may contain commas.
 std::vector<std::string_view> fields_of(std::string_view row) {
   std::vector<std::string_view> fields;
   while (fields.size() < 6) {
@@ -43,7 +43,7 @@ bool is_heading(const std::vector<std::string_view>& fields) {
 Receiver parse_row(const std::string& where, const std::vector<std::string_view>& fields, std::size_t number) {
   if (fields.size() < 6) {
     throw InputError(where + " has " + std::to_string(fields.size()) + " fields (allowed: " + form +
-                     "). Give the position in metres and the direction that the receiver report_arguments to.");
+                     "). Give the position in metres and the normal of the receiver.");
   }
   Receiver receiver;
   for (int k = 0; k < 3; ++k) {
@@ -51,10 +51,9 @@ Receiver parse_row(const std::string& where, const std::vector<std::string_view>
     receiver.normal[k] = parse_number(fields[static_cast<std::size_t>(k) + 3], where);
   }
   if (receiver.normal == glm::dvec3(0.0)) {
-    throw InputError(
-        where +
-        " report_arguments in the direction 0,0,0 (allowed: any other). Give the direction that the receiver "
-        "report_arguments to, for example 0,1,0 for upwards.");
+    throw InputError(where +
+                     " has the normal 0,0,0 (allowed: any other). Give the direction that the receiver faces, for "
+                     "example 0,1,0 for upwards.");
   }
   receiver.name = fields.size() > 6 ? std::string(fields[6]) : "";
   if (receiver.name.empty()) receiver.name = "receiver_" + std::to_string(number);
@@ -77,8 +76,8 @@ std::vector<Receiver> read_from(std::istream& in, const std::string& name) {
     heading_allowed = false;
     receivers.push_back(parse_row(name + ", row " + std::to_string(row) + ",", fields, receivers.size()));
   }
-  if (in.bad()) throw InputError("Cannot read " + name + ". Check the disk it is on.");
-  if (receivers.empty()) throw InputError(name + " holds no receiver (allowed: at least one row " + form + ").");
+  if (in.bad()) throw InputError("Cannot read " + name + ". Check its disk.");
+  if (receivers.empty()) throw InputError(name + " contains no receiver (allowed: at least one row " + form + ").");
   return receivers;
 }
 

@@ -12,7 +12,7 @@ namespace lichtmc::app {
 
 namespace {
 
-// A material with the reflectance that it is to have.
+// A material and its new reflectance.
 struct NewReflectance {
   std::string material;
   double value = 0.0;
@@ -54,19 +54,21 @@ void add_room_options(CLI::App& command, RoomOptions& options) {
       ->expected(1)
       ->take_all()
       ->group(reading);
-  command.add_option("--max-reflectance", options.max_reflectance, "Lower every reflectance above this to it, 0 to 1")
+  command
+      .add_option("--max-reflectance", options.max_reflectance,
+                  "Lower every reflectance above this value to it, 0 to 1")
       ->type_name("R")
       ->group(reading);
   command
       .add_option("--scale", options.scale,
-                  "Metres that a unit of the file is: 0.01 for a file in centimetres, 0.0254 for inches [1]")
+                  "Length of one unit of the file in metres: 0.01 for centimetres, 0.0254 for inches [1]")
       ->type_name("F")
       ->group(reading);
   command.add_option("--up", options.up, "Axis of the file that points up: y as in glTF, or z")
       ->type_name("y|z")
       ->capture_default_str()
       ->group(reading);
-  command.add_option("--unit", options.unit, "Take the file's powers in W or in lm [what the file says]")
+  command.add_option("--unit", options.unit, "Interpret the powers of the file in W or lm [as given in the file]")
       ->type_name("W|lm")
       ->group(reading);
   command
@@ -74,7 +76,7 @@ void add_room_options(CLI::App& command, RoomOptions& options) {
                   "Texture coordinates for the tiles, the n of TEXCOORD_n [1 if present, else 0]")
       ->type_name("N")
       ->group(reading);
-  command.add_option("--scene", options.scene, "Name of the scene to take [the file's default scene]")
+  command.add_option("--scene", options.scene, "Name of the scene to use [the file's default scene]")
       ->type_name("NAME")
       ->group(reading);
 }
@@ -92,7 +94,7 @@ Room read_room(const RoomOptions& options) {
     read.numbered_materials.push_back(reflectances.back().material);
   }
   Room room = read_gltf(options.file, read);
-  if (options.unit) room.mended.push_back("Powers of the file are taken in " + *options.unit + ".");
+  if (options.unit) room.mended.push_back("The powers of the file are interpreted in " + *options.unit + ".");
   for (const NewReflectance& change : reflectances) set_reflectance(room, change.material, change.value);
   if (options.max_reflectance) limit_reflectance(room, parse_number(*options.max_reflectance, "--max-reflectance"));
   add_lights(room, options.lights);

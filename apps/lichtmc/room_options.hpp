@@ -1,4 +1,4 @@
-// Options about the room, the same for every command that takes one: how its file is read, and what is set right in it.
+// Options of the room, the same for every command that reads one: how its file is read, and input overrides.
 #pragma once
 
 #include <optional>
@@ -21,13 +21,13 @@ struct RoomOptions {
   std::optional<int> uv_set;
 };
 
-// ROOM itself, the command's first argument.
+// ROOM, the first argument of the command.
 void add_room_argument(CLI::App& command, RoomOptions& options);
 
-// Everything else, as a group of the command's help.
+// All other options, as a group of the command's help.
 void add_room_options(CLI::App& command, RoomOptions& options);
 
-// The room as its file and the options say. Throws InputError naming the file or the option.
+// The room of the file with the overrides of the options. Throws InputError that names the file or the option.
 Room read_room(const RoomOptions& options);
 
 }  // namespace lichtmc::app

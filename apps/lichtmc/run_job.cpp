@@ -17,27 +17,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A checkpoint that fails does not end a long run: the next may succeed, and the results are still to come.
+// A checkpoint that fails does not end a run: the next may succeed.
 void write_checkpoint(const State& state, const RunJob& job) {
   try {
     fs::create_directories(job.folder);
     write_state(state, job.folder / "state.h5", job.note);
   } catch (const std::exception& error) {
-    std::cerr << "\nWarning: the checkpoint was not written; the run goes on. " << error.what() << '\n';
+    std::cerr << "\nWarning: the checkpoint was not written; the run continues. " << error.what() << '\n';
   }
 }
 
-bool is_first(const RunJob& job) {
+bool is_rank_0(const RunJob& job) {
   return job.communicator == nullptr || job.communicator->rank() == 0;
 }
 
 Result simulate_with(const RunJob& job, const std::stop_token& stop, ProgressLine::Show show,
                      const std::function<Result(const Control&)>& simulate) {
-  ProgressLine line(is_first(job) ? show : ProgressLine::Show::no, job.settings);
+  ProgressLine line(is_rank_0(job) ? show : ProgressLine::Show::no, job.settings);
   Control control;
   control.stop = stop;
   control.communicator = job.communicator;
-  if (is_first(job)) {
+  if (is_rank_0(job)) {
     control.progress = [&line](const Progress& progress) { line.update(progress); };
     control.checkpoint = [&job](const State& state) { write_checkpoint(state, job); };
   }
@@ -45,34 +45,34 @@ Result simulate_with(const RunJob& job, const std::stop_token& stop, ProgressLin
   return simulate(control);
 }
 
-// Folders that are made for a run, and removed again where it is refused: as long as they are empty.
+// Folders that are created for a run, and removed if the run is refused and they are empty.
 class NewFolders {
  public:
   explicit NewFolders(const fs::path& folder) {
     std::error_code unknown;
     for (fs::path path = fs::absolute(folder); !path.empty() && !fs::exists(path, unknown); path = path.parent_path())
-      made_.push_back(path);
+      created_.push_back(path);
   }
   ~NewFolders() {
     std::error_code not_empty;
-    for (const fs::path& path : made_) fs::remove(path, not_empty);
+    for (const fs::path& path : created_) fs::remove(path, not_empty);
   }
   NewFolders(const NewFolders&) = delete;
   NewFolders& operator=(const NewFolders&) = delete;
-  void keep() { made_.clear(); }
+  void keep() { created_.clear(); }
 
  private:
-  std::vector<fs::path> made_;  // the innermost first
+  std::vector<fs::path> created_;  // the innermost first
 };
 
 void write_all(RunJob& job, Result& result, ProgressLine::Show show) {
   if (!fs::exists(job.folder)) prepare_output(job.folder);
   write_state(result.state, job.folder / "state.h5", job.note);
-  result.state = {};  // as much memory as the tiles
+  result.state = {};  // frees as much memory as the tiles need
   write_results(job.room, result, job.folder);
   if (job.with_report) {
     StepLine line(show);
-    job.report.progress = [&line](std::string_view what) { line.tell(what); };
+    job.report.progress = [&line](std::string_view what) { line.update(what); };
     write_report(job.room, result, job.folder, job.report);
   }
   if (!job.quiet) print_outcome(result, job.folder, job.with_report);
@@ -83,16 +83,16 @@ void write_all(RunJob& job, Result& result, ProgressLine::Show show) {
 void carry_out_run(RunJob& job, const std::function<Result(const Control&)>& simulate) {
   const InterruptWatch interrupt;
   const auto show = job.quiet ? ProgressLine::Show::no : ProgressLine::Show::yes;
-  if (!is_first(job)) {
+  if (!is_rank_0(job)) {
     simulate_with(job, interrupt.token(), show, simulate);
   } else {
-    NewFolders made(job.folder);
+    NewFolders created(job.folder);
     prepare_output(job.folder);
     Result result = simulate_with(job, interrupt.token(), show, simulate);
-    made.keep();
+    created.keep();
     write_all(job, result, show);
   }
-  // A member that a signal ends while the first still writes would take it along.
+  // All ranks wait until rank 0 has written: mpirun ends all processes if a signal ends one of them.
   std::byte written{};
   if (job.communicator != nullptr) job.communicator->broadcast(std::span(&written, 1));
 }

@@ -1,5 +1,4 @@
-// What run, resume and merge have in common: a simulation with progress, Ctrl-C and checkpoints, then files and a
-// summary.
+// Common to run, resume and merge: a simulation with progress, Ctrl-C and checkpoints, then files and a summary.
 #pragma once
 
 #include <filesystem>
@@ -24,9 +23,9 @@ struct RunJob {
   Communicator* communicator = nullptr;
 };
 
-// Calls simulate with a control and writes what it returns: state.h5 first, for the work must not be lost. A signal to
-// stop does not keep it from writing. In a team the first member writes and speaks; the others only simulate, and wait
-// until it has written. A folder that was made for a run that is refused is removed again.
+// Calls simulate with a control and writes the result, state.h5 first so that the simulated histories are safe. A
+// signal to stop does not interrupt the writing. With several ranks, rank 0 writes files and messages; the others only
+// simulate and wait until it has written. If the run is refused, a folder created for it is removed.
 void carry_out_run(RunJob& job, const std::function<Result(const Control&)>& simulate);
 
 }  // namespace lichtmc::app

@@ -31,7 +31,7 @@ Engine parse_engine(const std::string& text) {
                    "' is not known (allowed: auto, cuboid, embree, embree-fast). Give one of these to --engine.");
 }
 
-// "forward" and "backward" are the words of earlier versions.
+// "forward" and "backward" are aliases from earlier versions.
 Measured parse_measured(const std::string& text) {
   if (text == "tiles" || text == "forward") return Measured::tiles;
   if (text == "receivers" || text == "backward") return Measured::receivers;
@@ -50,16 +50,16 @@ WalkDirection parse_tiles(const std::string& text) {
 Direct parse_direct(const std::string& text, WalkDirection tiles) {
   if (text == "sampled" && tiles == WalkDirection::backward) {
     throw InputError(
-        "Walks from the tiles do not count direct light (--direct sampled with --tiles backward; allowed: analytic). "
-        "Leave out --direct.");
+        "Backward walks from the tiles do not sample direct light (--direct sampled with --tiles backward; allowed: "
+        "analytic). Leave out --direct.");
   }
   if (text == "sampled") return Direct::sampled;
   if (text == "analytic") return Direct::analytic;
-  throw InputError("The way '" + text +
-                   "' to find direct light is not known (allowed: sampled, analytic). Give one of these to --direct.");
+  throw InputError("The method '" + text +
+                   "' for direct light is not known (allowed: sampled, analytic). Give one of these to --direct.");
 }
 
-// Receivers of the command line beside those of the room.
+// Adds the receivers of the command line to those of the room.
 void add_receivers(Room& room, const RunOptions& options) {
   std::vector<Receiver> more;
   if (options.receivers) more = read_receivers(*options.receivers);
@@ -75,18 +75,18 @@ void add_receivers(Room& room, const RunOptions& options) {
 // "A:B", histories A to B − 1.
 void parse_histories(const std::string& text, const StopOptions& stop, Settings& settings) {
   if (stop.photons)
-    throw InputError("--photons and --histories both say how many histories to simulate. Leave one out.");
+    throw InputError(
+        "--photons and --histories both set the number of histories (allowed: one of them). Leave one out.");
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos)
     throw InputError("The value '" + text +
-                     "' of --histories cannot be used (allowed: A:B). Give the first history and the one behind the "
+                     "' of --histories cannot be used (allowed: A:B). Give the first history and the one after the "
                      "last, for example 0:1024000.");
   settings.first_history = parse_count(text.substr(0, colon), "--histories");
   const std::uint64_t end = parse_count(text.substr(colon + 1), "--histories");
   if (end <= settings.first_history)
-    throw InputError("The histories " + text +
-                     " end before they begin (allowed: A:B with A below B). Give --histories "
-                     "a greater second number.");
+    throw InputError("The range of histories " + text +
+                     " is empty (allowed: A:B with A less than B). Give --histories a larger second number.");
   settings.photons = end - settings.first_history;
   settings.part = true;
 }
@@ -94,11 +94,11 @@ void parse_histories(const std::string& text, const StopOptions& stop, Settings&
 }  // namespace
 
 void apply_stop_options(const StopOptions& options, Settings& settings) {
-  // Another stop rule alone decides by itself.
+  // With another stop rule the number of photons has no limit by default.
   constexpr std::uint64_t no_limit = std::uint64_t{1} << 62;
   if (options.target_error || options.max_time) settings.photons = no_limit;
   if (options.photons) settings.photons = parse_count(*options.photons, "--photons");
-  if (options.target_error) settings.target_error = parse_share(*options.target_error, "--target-error");
+  if (options.target_error) settings.target_error = parse_fraction(*options.target_error, "--target-error");
   if (options.max_time) settings.max_seconds = parse_seconds(*options.max_time, "--max-time");
 }
 
@@ -109,11 +109,11 @@ Settings parse_settings(const RunOptions& options) {
   if (options.histories) parse_histories(*options.histories, options.stop, settings);
   if (options.max_bounces) {
     constexpr std::uint64_t most = 4'000'000'000;
-    const std::uint64_t bounces = parse_count(*options.max_bounces, "--max-bounces");
-    if (bounces > most)
-      throw InputError("The number of bounces is " + *options.max_bounces +
+    const std::uint64_t flights = parse_count(*options.max_bounces, "--max-bounces");
+    if (flights > most)
+      throw InputError("The maximum number of flights is " + *options.max_bounces +
                        " (allowed: 1 to 4e9). Give --max-bounces a smaller number.");
-    settings.max_bounces = static_cast<std::uint32_t>(bounces);
+    settings.max_bounces = static_cast<std::uint32_t>(flights);
   }
   settings.tile_edge_m = parse_number(options.tile, "--tile");
   settings.seed = parse_seed(options.seed, "--seed");
@@ -153,22 +153,24 @@ ReportOptions parse_report(const ReportArguments& report_arguments, const std::o
   if (report_arguments.scale_max) {
     report.scale.high = parse_number(*report_arguments.scale_max, "--scale-max");
     if (!(*report.scale.high >= least_scale_top && *report.scale.high <= greatest_scale_top))
-      throw InputError("The top of the colour scale is " + *report_arguments.scale_max +
+      throw InputError("The upper end of the colour scale is " + *report_arguments.scale_max +
                        " (allowed: a number above 0, from 1e-300 to 1e300, in lx or W/m^2). Give --scale-max such a "
                        "number, or leave it out.");
   }
   if (report_arguments.pictures && *report_arguments.pictures != "exr")
-    throw InputError("The form of pictures '" + *report_arguments.pictures +
-                     "' is not known (allowed: exr). Give it to --pictures, or leave it out for SVG and PNG.");
+    throw InputError("The picture format '" + *report_arguments.pictures +
+                     "' is not known (allowed: exr). Give exr to --pictures, or leave it out for SVG and PNG only.");
   report.exr_pictures = report_arguments.pictures.has_value();
   constexpr std::uint64_t most_paths = 10'000;
   if (report_arguments.paths) report.paths = parse_count(*report_arguments.paths, "--paths");
   if (report.paths > most_paths)
     throw InputError("The number of photon paths is " + *report_arguments.paths +
                      " (allowed: 1 to 10000). Give --paths a smaller number.");
-  const bool asked = report_arguments.scale_max || report_arguments.pictures || report_arguments.paths;
-  if (!wants_report(report_arguments) && asked)
-    throw InputError("--scale-max, --pictures and --paths are about the report (--no-report is given). Leave one out.");
+  const bool needs_report = report_arguments.scale_max || report_arguments.pictures || report_arguments.paths;
+  if (!wants_report(report_arguments) && needs_report)
+    throw InputError(
+        "--scale-max, --pictures and --paths require the report, but --no-report is given (allowed: one of the two). "
+        "Leave one out.");
   report.threads = parse_threads(threads);
   return report;
 }
@@ -176,7 +178,7 @@ ReportOptions parse_report(const ReportArguments& report_arguments, const std::o
 double parse_checkpoint(const std::string& text) {
   const double seconds = parse_seconds(text, "--checkpoint");
   if (!(seconds > 0.0))
-    throw InputError("The time between checkpoints is " + text +
+    throw InputError("The interval between checkpoints is " + text +
                      " (allowed: above 0). Give --checkpoint a time, for example 60s.");
   return seconds;
 }
@@ -201,20 +203,20 @@ void ReportArguments::override_with(const ReportArguments& other) {
 }
 
 void add_stop_options(CLI::App& command, StopOptions& options) {
-  const std::string accuracy = "How long to simulate (the first rule to be met ends the run)";
+  const std::string group = "Stop rules (the first rule that is met ends the run)";
   command
       .add_option("--photons", options.photons,
-                  "Number of light packets: 1000000, 1e6, 10M, 2G [1e6, or no limit where another rule is given]")
+                  "Number of photons: 1000000, 1e6, 10M, 2G [1e6, or no limit if another rule is given]")
       ->type_name("N")
-      ->group(accuracy);
+      ->group(group);
   command
       .add_option("--target-error", options.target_error,
-                  "Stop at this relative standard error of the tiles (area-weighted rms): 1% or 0.01")
+                  "Stop at this relative standard error (tiles: area-weighted rms; receivers: rms): 1% or 0.01")
       ->type_name("P")
-      ->group(accuracy);
+      ->group(group);
   command.add_option("--max-time", options.max_time, "Stop after this time: 60s, 5min, 2h")
       ->type_name("T")
-      ->group(accuracy);
+      ->group(group);
 }
 
 void add_threads_option(CLI::App& command, std::optional<int>& threads, const std::string& group) {
@@ -223,26 +225,27 @@ void add_threads_option(CLI::App& command, std::optional<int>& threads, const st
 
 void add_checkpoint_option(CLI::App& command, std::string& checkpoint, const std::string& group) {
   command
-      .add_option("--checkpoint", checkpoint,
-                  "Time between two writings of state.h5, from which `lichtmc resume` goes on after a power cut")
+      .add_option(
+          "--checkpoint", checkpoint,
+          "Interval between checkpoints (state.h5), from which `lichtmc resume` continues after a power failure")
       ->type_name("T")
       ->capture_default_str()
       ->group(group);
 }
 
 void add_report_options(CLI::App& command, ReportArguments& options) {
-  const std::string group = "The report: report.html, room_lit.glb and pictures/";
-  command.add_flag("--report,!--no-report", options.report, "Write it [yes]")
+  const std::string group = "Report (report.html, room_lit.glb and pictures/)";
+  command.add_flag("--report,!--no-report", options.report, "Write the report [yes]")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
       ->group(group);
   command
       .add_option("--scale-max", options.scale_max,
-                  "What the top colour stands for, in lx or W/m^2 [chosen from the tiles]")
+                  "Upper end of the colour scale, in lx or W/m^2 [chosen from the tiles]")
       ->type_name("E")
       ->group(group);
   command
       .add_option("--scale-type", options.scale_type,
-                  "linear, log (three decades), or auto: log where a few places are far brighter than the rest")
+                  "linear, log (three decades), or auto: log if a small area is far above the median")
       ->type_name("TYPE")
       ->default_str("auto")
       ->group(group);
@@ -253,87 +256,107 @@ void add_report_options(CLI::App& command, ReportArguments& options) {
   command.add_option("--paths", options.paths, "Show the paths of the first N photons, up to 10000 [none]")
       ->type_name("N")
       ->group(group);
-  command.add_option("--pictures", options.pictures, "exr: the pictures as OpenEXR too")
+  command.add_option("--pictures", options.pictures, "exr: also write the pictures as OpenEXR")
       ->type_name("FORM")
       ->group(group);
 }
+
+namespace {
+
+void add_tile_options(CLI::App& command, RunOptions& options, const std::string& group) {
+  command.add_option("--tile", options.tile, "Edge of a tile in metres")
+      ->type_name("M")
+      ->capture_default_str()
+      ->group(group);
+}
+
+void add_estimator_options(CLI::App& command, RunOptions& options, const std::string& group) {
+  command
+      .add_option("--estimator", options.estimator,
+                  "weight, collision or absorption (or 1, 2, 3): same mean, different variance; collision suits most "
+                  "rooms. auto: the most efficient of them, determined by a short pilot of each")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_option("--direct", options.direct,
+                  "Direct light: sampled by the photons, or analytic, integrated over each tile")
+      ->type_name("METHOD")
+      ->default_str("sampled")
+      ->group(group);
+  command
+      .add_option("--tiles", options.tiles,
+                  "forward: photons from the emitters are scored on the tiles; backward: walks from random points of "
+                  "each tile to the emitters")
+      ->type_name("DIRECTION")
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_option("--max-bounces", options.max_bounces,
+                  "With --estimator weight: end histories after N flights; the first flight, from the emitter, counts "
+                  "[Russian roulette, unbiased]")
+      ->type_name("N")
+      ->group(group);
+}
+
+void add_execution_options(CLI::App& command, RunOptions& options, const std::string& group) {
+  command.add_option("--seed", options.seed, "Seed of the random numbers: the same seed gives identical results")
+      ->type_name("S")
+      ->capture_default_str()
+      ->group(group);
+  add_threads_option(command, options.threads, group);
+  command
+      .add_option("--engine", options.engine,
+                  "Tracer of the flights: auto, cuboid (closed form, only for empty cuboids), embree, or embree-fast "
+                  "(may lose one photon in many millions at edges)")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->group(group);
+}
+
+void add_part_options(CLI::App& command, RunOptions& options) {
+  const std::string group = "Long runs, and runs in parts";
+  add_checkpoint_option(command, options.checkpoint, group);
+  command
+      .add_option("--histories", options.histories,
+                  "Simulate a part of a run, histories A to B - 1, for `lichtmc merge`; A is a multiple of 1024")
+      ->type_name("A:B")
+      ->group(group);
+}
+
+void add_receiver_options(CLI::App& command, RunOptions& options) {
+  const std::string group = "Receivers, in addition to the tiles";
+  command
+      .add_option("--receivers", options.receivers,
+                  "Table of receivers, one row x,y,z,nx,ny,nz[,name] each, positions in metres; - for stdin")
+      ->type_name("FILE.csv")
+      ->group(group);
+  command
+      .add_option("--grid", options.grid, "Grid of upward-facing receivers at this height above the floor in metres")
+      ->type_name("H")
+      ->group(group);
+  command.add_option("--grid-spacing", options.grid_spacing, "Spacing of the grid in metres [0.5]")
+      ->type_name("M")
+      ->group(group);
+  command.add_option("--only", options.only, "Measure only these: tiles or receivers")->type_name("WHAT")->group(group);
+}
+
+}  // namespace
 
 void add_run_options(CLI::App& command, RunOptions& options) {
   add_room_argument(command, options.reading);
   command.add_option("-o,--output", options.output, "Folder for the results [name of ROOM with .out]")
       ->type_name("DIR");
   add_stop_options(command, options.stop);
-
-  const std::string method = "How to simulate";
-  command.add_option("--tile", options.tile, "Edge of a tile in metres")
-      ->type_name("M")
-      ->capture_default_str()
-      ->group(method);
-  command
-      .add_option("--estimator", options.estimator,
-                  "weight, collision or absorption (or 1, 2, 3): same mean, other errors; collision suits most rooms. "
-                  "auto: the "
-                  "best of them, by a short pilot of each")
-      ->type_name("NAME")
-      ->capture_default_str()
-      ->group(method);
-  command
-      .add_option("--direct", options.direct,
-                  "Light straight from the lamps: sampled by the photons, or analytic, integrated over each tile")
-      ->type_name("HOW")
-      ->default_str("sampled")
-      ->group(method);
-  command
-      .add_option(
-          "--tiles", options.tiles,
-          "forward: photons from the lamps are counted on the tiles; backward: walks from random points of each "
-          "tile back to the light")
-      ->type_name("WAY")
-      ->capture_default_str()
-      ->group(method);
-  command
-      .add_option("--max-bounces", options.max_bounces,
-                  "With --estimator weight: cut histories off after N flights [roulette, unbiased]")
-      ->type_name("N")
-      ->group(method);
-  command.add_option("--seed", options.seed, "Selects the random numbers: the same seed gives the same digits")
-      ->type_name("S")
-      ->capture_default_str()
-      ->group(method);
-  add_threads_option(command, options.threads, method);
-  command
-      .add_option("--engine", options.engine,
-                  "How flights are traced: auto, cuboid (closed form, empty cuboids only), embree, or embree-fast (may "
-                  "lose a photon in many millions at edges)")
-      ->type_name("NAME")
-      ->capture_default_str()
-      ->group(method);
-
-  const std::string long_runs = "Long runs, and runs in parts";
-  add_checkpoint_option(command, options.checkpoint, long_runs);
-  command
-      .add_option("--histories", options.histories,
-                  "Simulate a part of a run, light packets A to B - 1, for `lichtmc merge`; A a multiple of 1024")
-      ->type_name("A:B")
-      ->group(long_runs);
-
-  const std::string points = "Points to measure at, besides the tiles";
-  command
-      .add_option("--receivers", options.receivers,
-                  "Table of receivers, x,y,z,nx,ny,nz[,name] in metres, one row each; - for stdin")
-      ->type_name("FILE.csv")
-      ->group(points);
-  command.add_option("--grid", options.grid, "A grid of points that look up, this many metres above the floor")
-      ->type_name("H")
-      ->group(points);
-  command.add_option("--grid-spacing", options.grid_spacing, "Distance between points of the grid in metres [0.5]")
-      ->type_name("M")
-      ->group(points);
-  command.add_option("--only", options.only, "Measure only these: tiles or receivers")->type_name("WAY")->group(points);
-
+  const std::string method = "Method";
+  add_tile_options(command, options, method);
+  add_estimator_options(command, options, method);
+  add_execution_options(command, options, method);
+  add_part_options(command, options);
+  add_receiver_options(command, options);
   add_report_options(command, options.report_arguments);
   add_room_options(command, options.reading);
-  command.add_flag("--quiet", options.quiet, "No progress, no summary; only errors");
+  command.add_flag("--quiet", options.quiet, "Print only errors, no progress and no summary");
 }
 
 }  // namespace lichtmc::app

@@ -1,4 +1,4 @@
-// The options of `lichtmc run`, and those that other commands that make results share with it.
+// The options of `lichtmc run`, and those that resume and merge share with it.
 #pragma once
 
 #include <optional>
@@ -19,12 +19,12 @@ struct StopOptions {
   bool any() const { return photons || target_error || max_time; }
 };
 
-// The report of a run. What is not given is empty, so that another command may keep what the run was given.
+// The report of a run. Options that are not given are empty, so that resume and merge keep those of the run.
 struct ReportArguments {
   std::string report;  // "true" or "false"
   std::optional<std::string> pictures, paths, scale_max, scale_type, colour_map;
 
-  // What is given there comes before what is given here.
+  // Options that are given in `other` replace those given here.
   void override_with(const ReportArguments& other);
 };
 
@@ -53,9 +53,9 @@ void add_report_options(CLI::App& command, ReportArguments& options);
 void add_threads_option(CLI::App& command, std::optional<int>& threads, const std::string& group);
 void add_checkpoint_option(CLI::App& command, std::string& checkpoint, const std::string& group);
 
-// What the options say. Throw InputError naming the option.
+// The values of the options. Throw InputError that names the option.
 Settings parse_settings(const RunOptions& options);
-// Into settings that are there: rules that are not given end nothing.
+// Sets the rules that are given; with --target-error or --max-time alone the number of photons has no limit.
 void apply_stop_options(const StopOptions& options, Settings& settings);
 ReportOptions parse_report(const ReportArguments& report_arguments, const std::optional<int>& threads,
                            const std::string& command_line);
@@ -64,7 +64,7 @@ inline bool wants_report(const ReportArguments& report_arguments) {
 }
 double parse_checkpoint(const std::string& text);
 
-// The room with the receivers of the command line.
+// The room of the file with the receivers of the command line.
 Room read_run_room(const RunOptions& options);
 
 }  // namespace lichtmc::app

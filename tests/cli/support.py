@@ -1,4 +1,4 @@
-"""What the tests of the command line share: the program, temporary folders, small glTF rooms."""
+"""Shared by the tests of the command line: the program, temporary folders, small glTF rooms."""
 import base64
 import copy
 import json
@@ -27,7 +27,7 @@ class ProgramTest(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def refused(self, *arguments, says, status=2):
-        """The program must end with this status and one message that holds all of these words, and print nothing else."""
+        """The program must end with this status and one message that contains all these words, and print nothing else."""
         done = lichtmc(*arguments)
         self.assertEqual(done.returncode, status, done.stderr)
         self.assertEqual(done.stdout, "")
@@ -43,7 +43,7 @@ class ProgramTest(unittest.TestCase):
 
 
 def triangle_room(positions=((0, 0, 0), (0, 0, 1), (1, 0, 0)), reflectance=0.5):
-    """A glTF document with one triangle over which a point light hangs."""
+    """A glTF document with one triangle and a point light above it."""
     data = b"".join(struct.pack("<3f", *p) for p in positions)
     return copy.deepcopy({
         "asset": {"version": "2.0"},

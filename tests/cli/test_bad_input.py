@@ -1,4 +1,4 @@
-"""Bad input ends with exit status 2 and one message that names the file and the thing in it, and says what to do."""
+"""Bad input gives exit status 2 and one message that names the file and the item in it, and says what to do."""
 import math
 import os
 import unittest
@@ -55,7 +55,7 @@ class BadFiles(ProgramTest):
         document["nodes"][1]["extras"] = {"power": -5}
         self.run_refused(document, "lamp", "-5", "power")
 
-    def test_position_that_is_no_number(self):
+    def test_position_that_is_not_finite(self):
         for value in (math.nan, math.inf):
             self.run_refused(triangle_room([(0, 0, 0), (0, value, 1), (1, 0, 0)]), "triangle")
 
@@ -76,7 +76,7 @@ class BadFiles(ProgramTest):
         self.assertEqual(lichtmc("cuboid", "--size", 1, 1, 1, "--reflectance", 1, "--light", "point:.5,.5,.5:1lm", "-o", path).returncode, 0)
         self.refused("run", path, "-o", self.folder / "out", says=["mirror.glb", "absorbs", "reflectance"])
 
-    def test_nothing_absorbs_but_the_walk_is_cut_off(self):
+    def test_nothing_absorbs_but_max_bounces_ends_the_histories(self):
         path = self.folder / "mirror.glb"
         lichtmc("cuboid", "--size", 1, 1, 1, "--reflectance", 1, "--light", "point:.5,.5,.5:1lm", "-o", path)
         done = lichtmc("run", path, "-o", self.folder / "out", "--estimator", "weight", "--max-bounces", 5, "--photons", 5000, "--no-report")
@@ -144,7 +144,7 @@ class BadOptions(ProgramTest):
         message = self.refused("run", CUBE, "--tile", "1e-5", "-o", self.folder / "out", says=["--tile", "memory"])
         self.assertIn("metres", message)
 
-    def test_cuboid_into_a_folder_that_is_not_there(self):
+    def test_cuboid_into_a_folder_that_does_not_exist(self):
         self.refused("cuboid", "--size", "1", "1", "1", "-o", self.folder / "none" / "room.glb", says=["none", "--output"])
 
     def test_engine_that_cannot_serve_the_room(self):

@@ -1,4 +1,4 @@
-"""lichtmc check: what it finds, says and returns."""
+"""lichtmc check: findings, messages and exit status."""
 import json
 import os
 import pathlib
@@ -30,14 +30,14 @@ class CheckTest(ProgramTest):
 
 
 class Check(CheckTest):
-    def test_a_sound_room_is_clean(self):
+    def test_a_valid_room_has_no_warnings(self):
         facts, _ = self.findings(self.cuboid())
         self.assertEqual((facts["faults"], facts["warnings"]), (0, 0))
         self.assertTrue(facts["usable"] and facts["cuboid"] and facts["convex"] and facts["closed"])
         self.assertEqual((facts["triangles"], facts["open_edges"], facts["flights_that_left"]), (12, 0, 0))
         self.assertEqual(facts["high"], [5, 2.5999999046325684, 4])
         self.check(self.cuboid(), "--strict")
-        self.assertIn("takes this room", self.check(self.cuboid()))
+        self.assertIn("accepts this room", self.check(self.cuboid()))
 
     def test_every_finding_says_what_to_do(self):
         for scene in SCENES.iterdir():
@@ -52,14 +52,14 @@ class Check(CheckTest):
         self.assertIn("more than 95 %", self.check(room, "--strict", status=1))
         self.check(room, "--strict", "--max-reflectance", "0.9")
 
-    def test_no_emitter_is_a_fault_with_a_place_for_one(self):
+    def test_no_emitter_is_a_fault_and_a_position_is_proposed(self):
         room = self.folder / "dark.glb"
         self.assertEqual(lichtmc("cuboid", "--size", 5, 2.6, 4, "-o", room).returncode, 0)
         facts, found = self.findings(room, status=2)
         self.assertFalse(facts["usable"])
         self.assertIn("--light point:2.5,1.3,2:1000lm", found["emitters"]["advice"])
         self.check(room, "--light", "point:2.5,1.3,2:1000lm")
-        # What check says is what run does.
+        # run agrees with check.
         self.refused("run", room, "-o", self.folder / "out", says=["no emitter"])
 
     def test_units_and_axes(self):
@@ -85,14 +85,14 @@ class Check(CheckTest):
         self.assertEqual(found["openings"]["severity"], "warning")
         self.assertGreater(facts["open_edges"], 0)
 
-    def test_light_that_is_shut_in(self):
+    def test_an_enclosure_without_absorption(self):
         facts, found = self.findings(self.cuboid("--reflectance", "1"), status=2)
         self.assertEqual(found["trapped-light"]["severity"], "fault")
 
     def test_tiles_beyond_memory(self):
         facts, found = self.findings(self.cuboid(), "--tile", "0.00001", status=2)
         self.assertEqual(found["tiles"]["severity"], "fault")
-        self.assertGreater(facts["flights"], 0)  # the rest is found all the same
+        self.assertGreater(facts["flights"], 0)  # the other checks are made too
 
     def test_power_in_the_wrong_unit(self):
         _, found = self.findings(self.cuboid("--light", "point:1,1,1:1e9lm"))
@@ -106,6 +106,7 @@ class Check(CheckTest):
         facts, found = self.findings(self.write_gltf(document))
         self.assertEqual(facts["duplicate_triangles"], 2)
         self.assertEqual(found["duplicates"]["severity"], "warning")
+
     def test_wrong_options(self):
         self.refused("check", SCENES / "cube_paper.gltf", "--tile", "-1", says=["tile edge", "-1"])
         self.refused("check", SCENES / "cube_paper.gltf", "--up", "x", says=["--up", "y or z"])
@@ -113,11 +114,11 @@ class Check(CheckTest):
         self.refused("check", self.folder / "none.glb", says=["none.glb"])
 
 
-@unittest.skipUnless(ROOMS.is_dir(), f"the room files are not there: {ROOMS}")
+@unittest.skipUnless(ROOMS.is_dir(), f"the room files do not exist: {ROOMS}")
 class RealRooms(CheckTest):
-    """Rooms that nobody made for this program."""
+    """Rooms from other sources."""
 
-    def test_what_is_known_of_them(self):
+    def test_known_properties(self):
         real = ROOMS / "real"
         facts, found = self.findings(real / "bevy_CornellBox.glb", "--scale", "0.01")
         self.assertEqual([o["side"] for o in facts["openings"]], ["+z"])  # the front is open
@@ -134,8 +135,8 @@ class RealRooms(CheckTest):
         self.assertIn("'mat21' (1)", found["reflectance"]["text"])
         self.assertEqual(found["emitters"]["severity"], "warning")  # 2 lm in a garage
 
-    def test_broken_files_end_soon_and_small(self):
-        """Each within 1 s and 200 MB, with a message and exit 2, or 0 or 2 of a room that is sound."""
+    def test_malformed_files_take_little_time_and_memory(self):
+        """Each within 1 s and 200 MB, with a message and exit status 2."""
         for path in sorted((ROOMS / "malformed").rglob("*.gl*")):
             with self.subTest(path.name):
                 began = time.monotonic()
@@ -145,7 +146,6 @@ class RealRooms(CheckTest):
                 self.assertLess(max(before, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss), 200 * 1024)
                 self.assertEqual(done.returncode, 2, done.stderr + done.stdout)
                 self.assertIn(path.name, done.stderr + done.stdout)
-
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""lichtmc compare: what it prints and returns."""
+"""lichtmc compare: output and exit status."""
 import json
 import unittest
 
@@ -34,14 +34,14 @@ class Compare(ProgramTest):
         self.assertEqual(len(comparison["worst"]), 2)
         self.assertLess(comparison["relative_difference"], -0.05)
 
-    def test_what_cannot_be_compared(self):
+    def test_results_that_cannot_be_compared(self):
         one = self.result("one")
         done = lichtmc("compare", one, self.folder / "missing")
         self.assertEqual(done.returncode, 2)
         self.assertIn("summary.json", done.stderr)
         self.assertEqual(lichtmc("compare", one).returncode, 2)
 
-    def test_ways_that_do_not_go_together(self):
+    def test_invalid_combinations_of_options(self):
         for options, word in ((("--tiles", "backward", "--direct", "sampled"), "--direct"),
                               (("--tiles", "sideways"), "sideways"), (("--direct", "guessed"), "guessed")):
             done = lichtmc("run", CUBE, "-o", self.folder / "x", "--no-report", *options)

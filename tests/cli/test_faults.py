@@ -1,4 +1,4 @@
-"""What a run survives: kills at any moment, full disks, folders that vanish, signals, a team's member that dies."""
+"""Faults during a run: kills at any moment, full disks, removed folders, signals, a killed process of several."""
 import hashlib
 import json
 import os
@@ -31,12 +31,12 @@ def wait_for(condition, seconds=20.0):
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:
-            raise AssertionError("it did not come in time")
+            raise AssertionError("timeout")
         time.sleep(0.002)
 
 
 class FaultTest(ProgramTest):
-    # Some seconds on two cores; 15000 tiles, so that a checkpoint writes half a megabyte.
+    # Some seconds on two cores; 15000 tiles: a checkpoint of half a megabyte.
     OPTIONS = ["--tile", "0.02", "--photons", "1e7", "--grid", "0.5", "--no-report", "--quiet"]
 
     def reference(self):
@@ -52,7 +52,7 @@ class FaultTest(ProgramTest):
 
 class Faults(FaultTest):
     def wait_and_kill(self, process, folder, at_checkpoint):
-        """Kills at a random moment, or while a state is being written. Whether it still lived."""
+        """Kills at a random moment, or while a state is being written. Returns whether it was running, and writing."""
         moment = time.monotonic() + random.uniform(0.0, 0.4)
         while process.poll() is None:
             if at_checkpoint and folder.exists() and any(".h5.tmp" in name for name in os.listdir(folder)):
@@ -68,7 +68,7 @@ class Faults(FaultTest):
         process.communicate()
         return alive, writing
 
-    def test_killed_at_any_moment_a_run_ends_with_the_same_digits(self):
+    def test_a_run_killed_at_any_moment_and_resumed_gives_identical_results(self):
         random.seed(8)
         whole = self.reference()
         kills = while_writing = chains = 0
@@ -86,10 +86,10 @@ class Faults(FaultTest):
                 kills += alive
                 while_writing += writing
             self.assert_same(whole, folder)
-            # And nothing half-written is left behind.
+            # No incomplete file remains.
             self.assertEqual([name for name in os.listdir(folder) if name.startswith(".lichtmc") or ".tmp" in name], [])
             shutil.rmtree(folder)
-        print(f"{kills} kills, {while_writing} of them while a state was being written; {chains} runs ended with the same digits", file=sys.stderr)
+        print(f"{kills} kills, {while_writing} of them while a state was being written; {chains} runs with identical results", file=sys.stderr)
         self.assertGreater(while_writing, KILLS // 20)
 
     def limited(self, kilobytes, *arguments):
@@ -97,26 +97,26 @@ class Faults(FaultTest):
             resource.setrlimit(resource.RLIMIT_FSIZE, (kilobytes * 1024, kilobytes * 1024))
         return lichtmc(*arguments, preexec_fn=limit)
 
-    def test_a_full_disk_leaves_the_old_files_whole(self):
+    def test_a_full_disk_leaves_the_old_files_complete(self):
         out = self.folder / "out"
         options = ["--tile", "0.05", "--photons", "20k", "--grid", "0.5"]
         self.assertEqual(lichtmc("run", CUBE, "-o", out, *options).returncode, 0)
         old = digests(out)
         largest = max(path.stat().st_size for path in out.rglob("*") if path.is_file()) // 1024 + 1
         failed = 0
-        # Limits from nothing to the largest file: the state, a table or the report is the first that does not fit.
+        # Limits from 0 to the largest file: the state, a table or the report is the first that does not fit.
         for kilobytes in [0, 1, 2, 4, 8] + [largest * k // 12 for k in range(1, 12)]:
             done = self.limited(kilobytes, "run", CUBE, "-o", out, "--seed", "2", *options)
             if done.returncode == 0:
                 continue
-            # Where not a byte can be written the folder is refused before the run.
+            # If no byte can be written, the folder is refused before the run.
             self.assertEqual(done.returncode, 2 if kilobytes == 0 else 1, done.stderr)
             failed += 1
             self.assertIn("lichtmc: Cannot", done.stderr)
             self.assertEqual(done.stderr.count("lichtmc:"), 1, done.stderr)
             new = digests(out)
             changed = {name for name in old if new.get(name) != old[name]}
-            # Either nothing is new but the state, or all results are and only the report is missing.
+            # Either only the state is new, or all results are new and only the report is missing.
             results = {name for name in old if name.endswith((".csv", ".json"))}
             if changed & results:
                 self.assertTrue(results <= changed, changed)
@@ -132,9 +132,9 @@ class Faults(FaultTest):
 
     def test_a_checkpoint_that_fails_does_not_end_the_run(self):
         out = self.folder / "out"
-        done = self.limited(100, "run", CUBE, "-o", out, "--tile", "0.02", "--photons", "3e7", "--only", "forward", "--checkpoint", "0.02s")
+        done = self.limited(100, "run", CUBE, "-o", out, "--tile", "0.02", "--photons", "3e7", "--only", "tiles", "--checkpoint", "0.02s")
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("Warning: the checkpoint was not written; the run goes on.", done.stderr)
+        self.assertIn("Warning: the checkpoint was not written; the run continues.", done.stderr)
         self.assertIn("lichtmc: Cannot write", done.stderr)
 
     def test_tallies_beyond_memory_are_refused_before_the_start(self):
@@ -150,7 +150,7 @@ class Faults(FaultTest):
             self.assertFalse((out / "summary.json").exists())
         self.assertIn("for 64 threads need 4.0 GB of memory (allowed: 2.0 GB, what there is)", done.stderr.replace(" 4 GB", " 4.0 GB").replace(" 2 GB", " 2.0 GB"))
 
-    def test_a_folder_that_vanishes_comes_back_with_the_results(self):
+    def test_a_removed_folder_is_created_again_with_the_results(self):
         whole = self.reference()
         out = self.folder / "out"
         process = start("run", CUBE, "-o", out, *self.OPTIONS, "--checkpoint", "0.02s")
@@ -167,7 +167,7 @@ class Faults(FaultTest):
         self.assertEqual(lichtmc("run", CUBE, "-o", part, "--no-report", "--photons", "20k").returncode, 0)
         self.refused("resume", part, "-o", "/proc/none", says=["Cannot write into the output folder"])
 
-    def test_signals_end_a_run_with_results_from_which_it_goes_on(self):
+    def test_a_run_ended_by_a_signal_can_be_resumed(self):
         whole = self.reference()
         for number in (signal.SIGINT, signal.SIGTERM):
             out = self.folder / f"out{number}"
@@ -181,9 +181,8 @@ class Faults(FaultTest):
             self.assertEqual(lichtmc("resume", out, "--quiet").returncode, 0)
             self.assert_same(whole, out)
 
-
-    def test_a_signal_while_results_are_written_waits_for_them(self):
-        """A closed terminal too. The walk is short, the files are large: a second signal would end the program."""
+    def test_a_signal_does_not_interrupt_the_writing_of_results(self):
+        """Also when a terminal is closed. The walk is short and the files are large."""
         options = ["--tile", "0.004", "--photons", "20k", "--no-report", "--quiet"]
         whole = self.folder / "whole"
         self.assertEqual(lichtmc("run", CUBE, "-o", whole, *options).returncode, 0)
@@ -197,7 +196,7 @@ class Faults(FaultTest):
             self.assertEqual(set(digests(out)), set(digests(whole)))
             self.assertEqual((out / "tiles.csv").read_bytes(), (whole / "tiles.csv").read_bytes())
 
-    def test_a_terminal_that_is_closed_ends_a_run_unless_it_is_to_go_on(self):
+    def test_a_closed_terminal_ends_a_run_except_under_nohup(self):
         out = self.folder / "out"
         process = start("run", CUBE, "-o", out, *self.OPTIONS, "--checkpoint", "0.05s")
         wait_for(lambda: (out / "state.h5").exists())
@@ -205,7 +204,7 @@ class Faults(FaultTest):
         self.assertEqual(process.wait(60), 0, process.stderr.read())
         process.stderr.close()
         self.assertEqual(json.loads((out / "summary.json").read_text())["stopped_by"], "interrupt")
-        # As nohup does it.
+        # nohup ignores SIGHUP in the same way.
         process = start("run", CUBE, "-o", out, *self.OPTIONS, "--checkpoint", "0.05s",
                         preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
         wait_for(lambda: not (out / "summary.json").exists() or process.poll() is not None)
@@ -215,74 +214,74 @@ class Faults(FaultTest):
         self.assertEqual(json.loads((out / "summary.json").read_text())["stopped_by"], "photons")
 
 
-@unittest.skipUnless(MPIRUN, "mpirun is not there, or the program was built without MPI")
-class Team(FaultTest):
-    """Processes that share a run."""
+@unittest.skipUnless(MPIRUN, "mpirun is missing, or the program was built without MPI")
+class Ranks(FaultTest):
+    """Several processes that share a run."""
     ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
     def mpirun(self, processes, *arguments):
         return [MPIRUN, "--oversubscribe", "-n", str(processes), PROGRAM, *map(str, arguments)]
 
-    def run_team(self, processes, *arguments):
+    def run_ranks(self, processes, *arguments):
         return subprocess.run(self.mpirun(processes, *arguments), env=self.ENVIRONMENT, capture_output=True, text=True, timeout=120, check=False)
 
-    def test_a_team_finds_the_digits_of_one_process(self):
+    def test_several_ranks_give_the_results_of_one_process(self):
         for options in (["--photons", "300001"], ["--target-error", "8%", "--estimator", "auto"]):
             options += ["--tile", "0.1", "--grid", "0.5", "--no-report"]
             whole = self.folder / "whole"
             self.assertEqual(lichtmc("run", CUBE, "-o", whole, *options).returncode, 0)
             for processes in (1, 2, 3):
-                out = self.folder / f"team{processes}"
-                done = self.run_team(processes, "run", CUBE, "-o", out, "--threads", "1", *options)
+                out = self.folder / f"ranks{processes}"
+                done = self.run_ranks(processes, "run", CUBE, "-o", out, "--threads", "1", *options)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertEqual(done.stderr.count("Results are in"), 1, done.stderr)
                 self.assert_same(whole, out)
 
-    def test_a_team_resumes_what_one_process_began(self):
+    def test_several_ranks_resume_a_run_of_one_process(self):
         options = ["--tile", "0.1", "--grid", "0.5", "--no-report"]
         whole = self.folder / "whole"
         self.assertEqual(lichtmc("run", CUBE, "-o", whole, "--photons", "200k", *options).returncode, 0)
         part = self.folder / "part"
         self.assertEqual(lichtmc("run", CUBE, "-o", part, "--photons", "70k", *options).returncode, 0)
-        done = self.run_team(2, "resume", part, "--photons", "200k")
+        done = self.run_ranks(2, "resume", part, "--photons", "200k")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assert_same(whole, part)
 
-    def test_faults_are_told_once_and_end_all(self):
-        done = self.run_team(3, "run", self.folder / "missing.glb")
+    def test_errors_are_reported_once_and_end_all_ranks(self):
+        done = self.run_ranks(3, "run", self.folder / "missing.glb")
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertEqual(done.stderr.count("Cannot open"), 1, done.stderr)
-        done = self.run_team(2, "study", CUBE)
+        done = self.run_ranks(2, "study", CUBE)
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("work of one process", done.stderr)
+        self.assertIn("runs in one process", done.stderr)
 
-    def start_team(self, out):
-        """A team of two that has written its first checkpoint; the job, and the process numbers of its members by rank."""
+    def start_ranks(self, out):
+        """Two ranks that have written their first checkpoint: the job, and the process ids in order of rank."""
         job = subprocess.Popen(self.mpirun(2, "run", CUBE, "-o", out, *self.OPTIONS, "--threads", "1", "--checkpoint", "0.05s"),
                                env=self.ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         wait_for(lambda: (out / "state.h5").exists())
-        members = subprocess.run(["pgrep", "-P", str(job.pid)], capture_output=True, text=True, check=False).stdout.split()
-        programs = [int(pid) for pid in members if os.path.realpath(f"/proc/{pid}/exe") == os.path.realpath(PROGRAM)]
+        children = subprocess.run(["pgrep", "-P", str(job.pid)], capture_output=True, text=True, check=False).stdout.split()
+        programs = [int(pid) for pid in children if os.path.realpath(f"/proc/{pid}/exe") == os.path.realpath(PROGRAM)]
         self.assertEqual(len(programs), 2)
         return job, sorted(programs)
 
-    def test_when_one_member_is_killed_the_job_ends_and_the_checkpoint_is_good(self):
+    def test_after_the_kill_of_one_rank_the_job_ends_and_the_checkpoint_is_valid(self):
         whole = self.reference()
-        for victim in (0, 1):
-            out = self.folder / f"out{victim}"
-            job, members = self.start_team(out)
-            os.kill(members[victim], signal.SIGKILL)
+        for rank in (0, 1):
+            out = self.folder / f"out{rank}"
+            job, pids = self.start_ranks(out)
+            os.kill(pids[rank], signal.SIGKILL)
             self.assertNotEqual(job.wait(60), 0)
             self.assertFalse((out / "tiles.csv").exists())
             self.assertEqual(lichtmc("resume", out, "--quiet").returncode, 0)
             self.assert_same(whole, out)
 
-    def test_a_signal_to_one_member_ends_the_run_of_all_with_results(self):
+    def test_a_signal_to_one_rank_ends_the_run_of_all_with_results(self):
         whole = self.reference()
-        for member in (0, 1):
-            out = self.folder / f"out{member}"
-            job, members = self.start_team(out)
-            os.kill(members[member], signal.SIGTERM)
+        for rank in (0, 1):
+            out = self.folder / f"out{rank}"
+            job, pids = self.start_ranks(out)
+            os.kill(pids[rank], signal.SIGTERM)
             self.assertEqual(job.wait(60), 0)
             self.assertEqual(json.loads((out / "summary.json").read_text())["stopped_by"], "interrupt")
             self.assertEqual(lichtmc("resume", out, "--quiet").returncode, 0)

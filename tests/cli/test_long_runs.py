@@ -1,4 +1,4 @@
-"""lichtmc resume and merge: a run in pieces has the digits of one run, and what does not fit is refused."""
+"""lichtmc resume and merge: a run in parts gives the results of one run, and states that do not match are refused."""
 import json
 import os
 import shutil
@@ -27,21 +27,21 @@ class LongRuns(ProgramTest):
         for table in TABLES:
             self.assertEqual((a / table).read_bytes(), (b / table).read_bytes(), table)
 
-    def test_resume_ends_with_the_digits_of_one_run(self):
+    def test_resume_gives_the_results_of_one_run(self):
         whole = self.run_to("whole", "--photons", "200001")
         part = self.run_to("part", "--photons", "50k")
         self.assertNotEqual((whole / "tiles.csv").read_bytes(), (part / "tiles.csv").read_bytes())
         said = self.succeeds("resume", part, "--photons", "200001")
         self.assertIn("200k photons", said)
         self.assert_same(whole, part)
-        # Where the rules are met there is nothing to do, and the state alone makes the results.
+        # If the rules are met, nothing is simulated, and the results are those of the state.
         elsewhere = self.folder / "elsewhere"
         self.succeeds("resume", part / "state.h5", "-o", elsewhere)
         self.assert_same(whole, elsewhere)
         summary = json.loads((elsewhere / "summary.json").read_text())
         self.assertEqual(summary["histories"], 200001)
 
-    def test_resume_keeps_to_the_options_of_the_run(self):
+    def test_resume_keeps_the_options_of_the_run(self):
         options = ["--estimator", "weight", "--seed", "9", "--light", "point:2,2,2:500lm", "--max-reflectance", "0.7", "--direct", "analytic"]
         whole = self.run_to("whole", "--photons", "90k", *options)
         part = self.run_to("part", "--photons", "30k", *options)
@@ -49,14 +49,14 @@ class LongRuns(ProgramTest):
         self.assert_same(whole, part)
 
     def test_resume_to_a_smaller_error(self):
-        options = ["--estimator", "auto", "--only", "forward"]
+        options = ["--estimator", "auto", "--only", "tiles"]
         whole = self.run_to("whole", "--target-error", "15%", *options)
         part = self.run_to("part", "--target-error", "30%", *options)
         self.succeeds("resume", part, "--target-error", "15%")
         self.assertEqual((whole / "tiles.csv").read_bytes(), (part / "tiles.csv").read_bytes())
         self.assertEqual(json.loads((part / "summary.json").read_text())["stopped_by"], "target-error")
 
-    def test_resume_finds_the_room_where_it_is_now(self):
+    def test_resume_with_the_new_path_of_a_moved_room(self):
         moved = self.folder / "moved.glb"
         shutil.copy(ROOM, moved)
         part = self.run_to("part", "--photons", "30k", room=moved)
@@ -78,12 +78,12 @@ class LongRuns(ProgramTest):
         self.assert_same(whole, merged)
         self.succeeds("merge", *reversed(parts), "-o", merged)
         self.assert_same(whole, merged)
-        # The sum goes on.
+        # The sum can be resumed.
         longer = self.run_to("longer", "--photons", "150k")
         self.succeeds("resume", merged, "--photons", "150k")
         self.assert_same(longer, merged)
 
-    def test_what_does_not_fit_is_refused_and_nothing_is_written(self):
+    def test_states_that_do_not_match_are_refused_and_nothing_is_written(self):
         one = self.run_to("one", "--histories", "0:20480")
         two = self.run_to("two", "--histories", "20480:40960", "--seed", "2")
         three = self.run_to("three", "--histories", "40960:61440")
@@ -105,7 +105,7 @@ class LongRuns(ProgramTest):
         self.refused("resume", gap, "--photons", "1e6", says=["gaps", "20480", "40959", "--histories"])
 
     def test_many_receivers_in_small_parts(self):
-        """A round of walks back from 81 receivers is longer than the first part: each round is in one part only."""
+        """A round of backward histories from 81 receivers is longer than the first part: each round is in one part only."""
         options = ["--grid", "0.5", "--grid-spacing", "0.1", "--no-report"]
         whole = self.folder / "whole"
         self.succeeds("run", SCENES / "cube_paper.gltf", "-o", whole, "--photons", "4096", *options)
@@ -116,10 +116,10 @@ class LongRuns(ProgramTest):
         merged = self.folder / "merged"
         self.succeeds("merge", *names, "-o", merged)
         self.assert_same(whole, merged)
-        self.assertIn("leave out histories 1024 to 2047", self.succeeds("merge", names[0], names[2], "-o", merged))
+        self.assertIn("No part contains the histories 1024 to 2047", self.succeeds("merge", names[0], names[2], "-o", merged))
 
     def test_a_stop_before_the_receivers_keeps_the_tiles(self):
-        """The direct light of many receivers takes a while: a stop then must not cost what the photons have found."""
+        """The direct light of many receivers takes long: a stop during it must not discard the scores of the photons."""
         out = self.folder / "out"
         done = lichtmc("run", ROOM, "-o", out, "--tile", "0.5", "--max-time", "0.4s", "--grid", "0.85", "--grid-spacing", "0.01", "--no-report")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -129,13 +129,13 @@ class LongRuns(ProgramTest):
         summary = json.loads((out / "summary.json").read_text())
         self.assertGreater(summary["histories"], 0)
         self.assertEqual(summary["stopped_by"], "max-time")
-        # Beside a part that has them it leaves a gap, of which merge tells.
+        # Parts without a gap cause no warning.
         one = self.run_to("one", "--histories", "0:20480")
         two = self.run_to("two", "--histories", "20480:40960")
         self.assertNotIn("Warning", self.succeeds("merge", one, two, "-o", self.folder / "both"))
 
-    def test_resume_after_the_time_is_over_keeps_what_there_is(self):
-        """Time may be over when a run is killed: going on must not need more of it, though direct light is found anew."""
+    def test_resume_after_max_time_keeps_the_results(self):
+        """When the time of a run is used up, resume must not need more, although direct light is integrated again."""
         for options in (["--direct", "analytic", "--grid", "0.5"], ["--tiles", "backward", "--grid", "0.5"]):
             out = self.folder / options[1]
             self.succeeds("run", SCENES / "cube_paper.gltf", "-o", out, "--max-time", "1s", "--no-report", *options)
@@ -143,36 +143,36 @@ class LongRuns(ProgramTest):
             self.succeeds("resume", out)
             self.assertEqual([(out / table).read_bytes() for table in TABLES], tables)
 
-    def test_a_part_that_goes_on_stays_within_its_histories(self):
-        part = self.run_to("part", "--histories", "0:20480", "--target-error", "0.1%", "--only", "forward")
+    def test_a_resumed_part_keeps_to_its_histories(self):
+        part = self.run_to("part", "--histories", "0:20480", "--target-error", "0.1%", "--only", "tiles")
         self.assertEqual(json.loads((part / "summary.json").read_text())["stopped_by"], "photons")
         self.succeeds("resume", part, "--target-error", "0.01%")
         self.assertEqual(json.loads((part / "summary.json").read_text())["histories"], 20480)
         self.succeeds("resume", part, "--photons", "30720")
         self.assertEqual(json.loads((part / "summary.json").read_text())["histories"], 30720)
 
-    def test_merge_takes_the_threads_that_it_is_given(self):
+    def test_merge_uses_the_given_number_of_threads(self):
         part = self.run_to("part", "--photons", "20k", "--threads", "2")
         merged = self.folder / "merged"
         self.succeeds("merge", part, "-o", merged, "--threads", "1")
         self.assertEqual(json.loads((merged / "summary.json").read_text())["threads"], 1)
         self.assert_same(part, merged)
 
-    def test_a_copy_of_a_state_does_not_replace_the_one_that_it_lies_beside(self):
+    def test_a_copy_of_a_state_does_not_replace_the_state_in_the_same_folder(self):
         part = self.run_to("part", "--photons", "20k")
         copy = part / "copy.h5"
         shutil.copy(part / "state.h5", copy)
         self.refused("resume", copy, "--photons", "30k", says=["copy.h5", "would replace", "--output"])
         shutil.copy(copy, self.folder / "alone.h5")
         self.succeeds("resume", self.folder / "alone.h5", "--photons", "30k", "-o", self.folder / "further")
-        # Without another state beside it the results go where the file is.
+        # Without another state in the folder of the file, the results are written there.
         alone = self.folder / "folder"
         alone.mkdir()
         shutil.copy(copy, alone / "alone.h5")
         self.succeeds("resume", alone / "alone.h5", "--photons", "30k")
         self.assert_same(alone, self.folder / "further")
 
-    def test_what_is_refused_leaves_no_folder(self):
+    def test_a_refused_run_leaves_no_folder(self):
         part = self.run_to("part", "--photons", "20k")
         deep = self.folder / "a" / "b"
         self.refused("resume", part, "--room", SCENES / "cube_paper.gltf", "-o", deep, says=["another room"])
@@ -180,17 +180,17 @@ class LongRuns(ProgramTest):
         self.refused("run", ROOM, "--photons", "0", "-o", deep, says=["photons"])
         self.assertFalse((self.folder / "a").exists())
 
-    def test_processes_that_do_not_know_of_each_other_are_warned_of(self):
+    def test_unconnected_processes_cause_a_warning(self):
         environment = {**os.environ, "SLURM_STEP_NUM_TASKS": "4", "SLURM_PROCID": "0"}
         command = ("run", SCENES / "cube_paper.gltf", "-o", self.folder / "out", "--no-report", "--photons", "2k")
         said = lichtmc(*command, env=environment)
         self.assertEqual(said.returncode, 0, said.stderr)
-        self.assertIn("srun has started 4 processes that do not know of each other", said.stderr)
+        self.assertIn("srun has started 4 processes without a connection between them", said.stderr)
         self.assertNotIn("srun", lichtmc(*command, env={**environment, "SLURM_PROCID": "1"}).stderr)
         self.assertNotIn("srun", lichtmc(*command, env={**environment, "SLURM_STEP_NUM_TASKS": "1"}).stderr)
 
     def test_options_are_checked(self):
-        for histories, says in (("10:2000", "Begin at 0 or 1024"), ("2048", "A:B"), ("2048:1024", "end before they begin"),
+        for histories, says in (("10:2000", "Begin at 0 or 1024"), ("2048", "A:B"), ("2048:1024", "is empty"),
                                 ("a:b", "--histories")):
             self.refused("run", ROOM, "--histories", histories, says=[says])
         self.refused("run", ROOM, "--histories", "0:1024", "--photons", "1e6", says=["--photons and --histories"])
@@ -198,7 +198,7 @@ class LongRuns(ProgramTest):
         for checkpoint in ("0", "-1s", "soon"):
             self.refused("run", ROOM, "--checkpoint", checkpoint, says=["--checkpoint"])
 
-    def test_receivers_from_stdin_are_asked_for_again(self):
+    def test_receivers_from_stdin_must_be_given_again(self):
         table = "1,1,1,0,1,0\n2,1,2,0,1,0\n"
         part = self.folder / "part"
         done = lichtmc("run", SCENES / "cube_paper.gltf", "-o", part, "--no-report", "--photons", "20k", "--receivers", "-", input=table)

@@ -1,4 +1,4 @@
-"""lichtmc run and cuboid: what they write, print and return."""
+"""lichtmc run and cuboid: files, messages and exit status."""
 import csv
 import hashlib
 import json
@@ -70,7 +70,7 @@ class Run(ProgramTest):
         self.assertEqual((out / "room_lit.glb").read_bytes()[:4], b"glTF")
         pictures = {p.name for p in (out / "pictures").iterdir()}
         self.assertLessEqual({"room.svg", "room.png", "room.exr", "above.svg", "floor.svg", "paths.svg"}, pictures)
-        # A run without a report does not leave the old one beside its figures.
+        # A run without a report removes the report of the earlier run.
         self.assertEqual(lichtmc("run", CUBE, "-o", out, "--photons", "20k", "--no-report").returncode, 0)
         self.assertFalse((out / "report.html").exists())
         self.assertEqual(list((out / "pictures").iterdir()), [])
@@ -115,12 +115,23 @@ class Run(ProgramTest):
         self.assertEqual(len(tiles), 600)
         self.assertIn("18 receivers", said)
 
-    def test_only_one_way(self):
-        done = lichtmc("run", CUBE, "-o", self.folder / "out", "--photons", "10k", "--grid", "0.5", "--only", "backward", "--no-report")
+    def test_the_aliases_of_only(self):
+        measured = {}
+        for value in ("tiles", "forward", "receivers", "backward"):
+            out = self.folder / value
+            done = lichtmc("run", CUBE, "-o", out, "--photons", "2k", "--grid", "0.5", "--only", value, "--no-report")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            measured[value] = (sorted(p.name for p in out.iterdir()), [p.read_bytes() for p in sorted(out.glob("*.csv"))])
+        self.assertEqual(measured["forward"], measured["tiles"])
+        self.assertEqual(measured["backward"], measured["receivers"])
+        self.assertNotEqual(measured["tiles"], measured["receivers"])
+
+    def test_only_tiles_or_receivers(self):
+        done = lichtmc("run", CUBE, "-o", self.folder / "out", "--photons", "10k", "--grid", "0.5", "--only", "receivers", "--no-report")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()), ["receivers.csv", "state.h5", "summary.json", "tiles"])
-        out, summary, _, _ = self.run_room("--photons", "10k", "--grid", "0.5", "--only", "forward")
-        self.assertFalse((out / "receivers.csv").exists())  # not left over from the run before
+        out, summary, _, _ = self.run_room("--photons", "10k", "--grid", "0.5", "--only", "tiles")
+        self.assertFalse((out / "receivers.csv").exists())  # that of the run before is removed
         self.assertIsNone(summary["backward"])
         self.assertIn("only tiles were asked for", " ".join(summary["ignored"]))
         table = self.folder / "wrong.csv"
@@ -130,11 +141,11 @@ class Run(ProgramTest):
         self.refused("run", CUBE, "-o", out, "--receivers", table, says=["row 1", "0,0,0"])
         table.write_text("0.5,0.5,0.5,0,1,0\n")
         self.refused("run", CUBE, "-o", out, "--receivers", table, says=["receiver_0", "on the emitter"])
-        self.refused("run", CUBE, "-o", out, "--only", "sideways", says=["sideways", "forward, backward"])
+        self.refused("run", CUBE, "-o", out, "--only", "sideways", says=["sideways", "tiles, receivers"])
         self.refused("run", CUBE, "-o", out, "--grid-spacing", "1", says=["without --grid"])
-        self.refused("run", CUBE, "-o", out, "--only", "backward", says=["no receiver"])
+        self.refused("run", CUBE, "-o", out, "--only", "receivers", says=["no receiver"])
 
-    def test_same_digits_for_any_number_of_threads(self):
+    def test_identical_results_for_any_number_of_threads(self):
         files = []
         for threads in (1, 2, 7):
             out, _, _, _ = self.run_room("--photons", "50001", "--threads", threads)
@@ -148,12 +159,12 @@ class Run(ProgramTest):
             _, summary, _, _ = self.run_room("--photons", "2000", "--estimator", number)
             self.assertEqual(summary["estimator"], name)
 
-    def test_counts_as_people_write_them(self):
+    def test_forms_of_counts(self):
         for text, count in ("2000", 2000), ("2e3", 2000), ("2k", 2000), ("1.005k", 1005), ("0.003M", 3000):
             _, summary, _, _ = self.run_room("--photons", text)
             self.assertEqual(summary["histories"], count)
 
-    def test_target_error_and_what_it_would_take(self):
+    def test_target_error_and_the_photons_it_requires(self):
         _, summary, _, _ = self.run_room("--target-error", "10%", "--tile", "0.25")
         self.assertEqual(summary["stopped_by"], "target-error")
         self.assertLessEqual(summary["rms_relative_error"], 0.10)
@@ -165,7 +176,7 @@ class Run(ProgramTest):
         _, summary, _, _ = self.run_room("--photons", "1T", "--max-time", "0.5s")
         self.assertEqual(summary["stopped_by"], "max-time")
 
-    def test_light_and_mending_are_noted(self):
+    def test_input_overrides_are_listed(self):
         room = self.folder / "dark.glb"
         self.assertEqual(lichtmc("cuboid", "--size", 2, 2, 2, "-o", room).returncode, 0)
         _, summary, _, _ = self.run_room("--photons", "2000", "--light", "point:1,1,1:500lm", "--light", "lambert:1,1.9,1:0,-1,0:3:100lm",
@@ -174,7 +185,7 @@ class Run(ProgramTest):
         self.assertEqual(summary["unit"], "lm")
         self.assertEqual(len(summary["mended"]), 3)
 
-    def test_a_target_error_alone_is_not_ended_by_the_default_number_of_photons(self):
+    def test_with_a_target_error_alone_the_number_of_photons_has_no_limit(self):
         _, summary, _, _ = self.run_room("--target-error", "1.2%")
         self.assertEqual(summary["stopped_by"], "target-error")
         self.assertGreater(summary["histories"], 1_000_000)
@@ -197,7 +208,7 @@ class Run(ProgramTest):
         self.assertEqual(lichtmc("run", CUBE, "--photons", "2000", "--no-report", cwd=self.folder).returncode, 0)
         self.assertTrue((self.folder / "cube_paper.out" / "summary.json").exists())
 
-    def test_interrupt_keeps_what_was_simulated(self):
+    def test_an_interrupt_keeps_the_results(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             out = self.folder / f"out{number}"
             program = subprocess.Popen([PROGRAM, "run", str(CUBE), "-o", str(out), "--photons", "1T"], stderr=subprocess.PIPE, text=True)
@@ -218,7 +229,7 @@ class Run(ProgramTest):
         self.assertEqual(len(tiles), 600)
         self.assertEqual([p.name for p in out.rglob("*") if "tmp" in p.name], [])
 
-    def test_cuboid_is_read_back_as_one(self):
+    def test_a_written_cuboid_is_recognised_as_a_cuboid(self):
         for name in "room.glb", "room.gltf":
             room = self.folder / name
             done = lichtmc("cuboid", "--size", 5, 2.6, 4, "--walls", 0.6, "--ceiling", 0.8, "--floor", 0.3, "--light", "point:2.5,2.4,2:2000lm", "-o", room)
@@ -232,7 +243,7 @@ class Run(ProgramTest):
 
 
 class Help(ProgramTest):
-    def test_every_command_explains_itself(self):
+    def test_every_command_has_a_help_text(self):
         top = lichtmc("--help")
         self.assertEqual(top.returncode, 0)
         for command in "run", "cuboid":

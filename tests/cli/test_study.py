@@ -1,4 +1,4 @@
-"""lichtmc study: its files, its advice, and that the advice can be followed; and the estimator auto."""
+"""lichtmc study: files and advice, and a run with the advised settings; and the estimator auto."""
 import csv
 import json
 import shlex
@@ -27,7 +27,7 @@ class Study(ProgramTest):
         self.assertEqual({float(row["tile"]) for row in rows}, {0.125, 0.25, 0.5})
         for picture in ("error_over_time.svg", "bias_over_bounces.svg", "figures_of_merit.svg"):
             self.assertTrue((out / picture).read_text().startswith("<svg"))
-        # The advice for 10 % is a command that does what it says.
+        # The command advised for 10 % reaches 10 %.
         line = next(line for line in done.stdout.splitlines() if line.startswith("For 10 %: "))
         command = shlex.split(line.removeprefix("For 10 %: ").split("   (")[0])
         self.assertEqual(command[:2], ["lichtmc", "run"])
@@ -37,7 +37,7 @@ class Study(ProgramTest):
         self.assertEqual(summary["stopped_by"], "target-error")
         self.assertLessEqual(summary["rms_relative_error"], 0.1)
 
-    def test_what_cannot_be_studied(self):
+    def test_invalid_studies(self):
         self.refused("study", CUBE, "--quick", "--max-time", "10s", says=["--quick", "--max-time"])
         self.refused("study", CUBE, "--max-time", "1s", "-o", self.folder / "x", says=["5 s or more"])
         self.refused("study", self.folder / "missing.glb", says=["missing.glb"])
@@ -45,7 +45,7 @@ class Study(ProgramTest):
 
 
 class Auto(ProgramTest):
-    def test_says_which_and_why(self):
+    def test_reports_the_choice_and_the_reason(self):
         out = self.folder / "out"
         done = lichtmc("run", CUBE, "-o", out, "--estimator", "auto", "--photons", "300k", "--tile", "0.25", "--no-report")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -54,7 +54,7 @@ class Auto(ProgramTest):
         self.assertEqual(len(summary["choices"]), 1)
         self.assertIn(f"'{summary['estimator']}' was chosen for the tiles", summary["choices"][0])
         self.assertIn(summary["choices"][0], done.stdout + done.stderr)
-        # The same as with this estimator from the start.
+        # Identical to a run with this estimator from the start.
         fixed = self.folder / "fixed"
         done = lichtmc("run", CUBE, "-o", fixed, "--estimator", summary["estimator"], "--photons", "300k", "--tile", "0.25", "--no-report")
         self.assertEqual(done.returncode, 0, done.stderr)
