@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Long runs, not part of the suite: 10^10 impacts in a cube, beyond 2^32 histories, and 10^9 in a real room. Checks that
-# no photon is lost in the cube, that the powers balance to 1e-12, that ten short runs agree with the long one and with
-# each other, and that they do not drift.
+# Long runs, not part of the suite: 10^10 impacts in a cube, more than 2^32 histories, and 10^9 in a real room. Tests that
+# no photon is lost in the cube, that the powers balance to 1e-12, that ten short runs agree with the long run and with
+# each other, and that the ten results have no trend.
 #
-# Usage: tests/soak.sh [FOLDER_OF_LICHTMC] [ROOM.gltf]      (default: build/release/bin, ../shared/rooms garage if there)
-#        SOAK_SHARE=0.01 tests/soak.sh                      a hundredth of the impacts
+# Usage: tests/soak.sh [FOLDER_OF_LICHTMC] [ROOM.gltf]      (default: build/release/bin, garage of ../shared/rooms if present)
+#        SOAK_SHARE=0.01 tests/soak.sh                      one hundredth of the impacts
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bin=${1:-build/release/bin}
@@ -13,15 +13,15 @@ share=${SOAK_SHARE:-1}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# rho 0.5: two impacts per photon, so that 10^10 impacts take 5*10^9 photons, more than 32 bits can number.
+# rho 0.5: two impacts per photon, so that 10^10 impacts take 5*10^9 photons, more than 2^32.
 "$bin/lichtmc" cuboid --size 1 1 1 --reflectance 0.5 --light lambert:0.5,0.5,0.5:0,-1,0:5:1W -o "$work/cube.glb" > "$work/log"
 
-# soak NAME PHOTONS ARGUMENTS...: a long run, then ten of a tenth with other seeds.
+# soak NAME PHOTONS ARGUMENTS...: a long run, then ten runs of one tenth with other seeds.
 soak() {
   local name=$1 photons=$2
   shift 2
   mkdir -p "$work/$name"
-  echo "$name: $photons photons, then ten runs of a tenth"
+  echo "$name: $photons photons, then ten runs of one tenth"
   "$bin/lichtmc" run "$@" --photons "$photons" --seed 100 -o "$work/$name/long" > "$work/log" 2>&1 || { cat "$work/log"; exit 1; }
   for k in 1 2 3 4 5 6 7 8 9 10; do
     "$bin/lichtmc" run "$@" --photons "$((photons / 10))" --seed "$k" -o "$work/$name/$k" > "$work/log" 2>&1 || { cat "$work/log"; exit 1; }
@@ -36,7 +36,7 @@ if [ -e "$room" ]; then
   soak room "$(count 4.6e8)" "$room" --max-reflectance 0.9 --tile 0.25
   rooms+=(room)
 else
-  echo "skipped: $room is not there; name a room as the second argument"
+  echo "skipped: $room does not exist; give a room as the second argument"
 fi
 
 python3 - "$work" "${rooms[@]}" <<'PYTHON'
@@ -50,7 +50,7 @@ def check(what, holds):
     failed = failed or not holds
     print(f"  {'ok  ' if holds else 'FAIL'} {what}")
 
-# Two-sided probability 1e-6 for a normal variable; for chi-square of n degrees by Wilson and Hilferty.
+# Two-sided probability 1e-6 for a normal variable; for chi-square with n degrees of freedom by Wilson and Hilferty.
 Z = 4.8916
 def chi_limit(n):
     return n * (1 - 2 / (9 * n) + 4.7534 * math.sqrt(2 / (9 * n))) ** 3
@@ -82,11 +82,11 @@ for name in rooms:
     check(f"ten runs {mean_of_ten:.8f} +- {error_of_ten:.2g}, the long one {mean:.8f} +- {error:.2g}: z = {z:.2f}",
           abs(z) < Z)
     chi = sum(w * (v - mean_of_ten) ** 2 for w, (v, _) in zip(weights, values))
-    check(f"the ten among each other: chi-square {chi:.1f}, allowed {chi_limit(9):.1f}", chi < chi_limit(9))
-    # Slope over the runs' numbers, in errors of its own.
+    check(f"the ten runs with each other: chi-square {chi:.1f}, allowed {chi_limit(9):.1f}", chi < chi_limit(9))
+    # Slope over the number of the run, in units of its standard error.
     weight = [k - 4.5 for k in range(10)]
     slope = sum(w * v for w, (v, _) in zip(weight, values))
     slope_error = math.sqrt(sum((w * e) ** 2 for w, (_, e) in zip(weight, values)))
-    check(f"drift over the ten: z = {slope / slope_error:.2f}", abs(slope / slope_error) < Z)
+    check(f"trend of the ten runs: z = {slope / slope_error:.2f}", abs(slope / slope_error) < Z)
 sys.exit(1 if failed else 0)
 PYTHON

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From a bare machine to a first result: installs what is missing, builds, and simulates the living room in scenes/.
+# From a bare machine to a first result: installs missing packages, builds, and simulates the living room in scenes/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install-deps.sh

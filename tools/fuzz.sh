@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Feeds the reader of rooms with broken files for a while, under the address and undefined-behaviour sanitizers. Needs clang.
-#   tools/fuzz.sh [SECONDS]     60 where nothing is said; ends with 1 where a file breaks the reader, with 77 where clang is missing
-# Seeds are the room files of LICHTMC_ROOMS (../shared/rooms) and scenes/. What is found interesting stays in build/fuzz/corpus, files that
-# break the reader in build/fuzz.
+# Tests the reader of rooms with malformed files, under the address and undefined-behaviour sanitizers. Requires clang.
+#   tools/fuzz.sh [SECONDS]     default 60; ends with 1 if the reader fails on a file, with 77 if clang is missing
+# Seeds are the room files of LICHTMC_ROOMS (../shared/rooms) and scenes/. New inputs that reach new code are kept in build/fuzz/corpus,
+# files on which the reader fails in build/fuzz.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}
 command -v clang++ >/dev/null || { echo "fuzz.sh: clang is missing. Install it: apt-get install clang libclang-rt-dev" >&2; exit 77; }
-# Debian has libFuzzer in a package of its own (libclang-rt-dev).
+# In Debian libFuzzer is in the package libclang-rt-dev.
 printf '#include <cstddef>\n#include <cstdint>\nextern "C" int LLVMFuzzerTestOneInput(const std::uint8_t*, std::size_t) { return 0; }\n' |
   clang++ -fsanitize=fuzzer,address,undefined -x c++ - -o /dev/null 2>/dev/null ||
   { echo "fuzz.sh: this clang has no libFuzzer. Install it: apt-get install libclang-rt-dev" >&2; exit 77; }
@@ -16,8 +16,8 @@ cmake --build --preset fuzz --target fuzz_gltf
 mkdir -p build/fuzz/corpus build/fuzz/seeds
 rooms=${LICHTMC_ROOMS:-../shared/rooms}
 folders=(scenes)
-if [ -d "$rooms" ]; then folders+=("$rooms"); else echo "fuzz.sh: $rooms is not there; only scenes/ are seeds" >&2; fi
-# Small files: the fuzzer changes them byte by byte.
+if [ -d "$rooms" ]; then folders+=("$rooms"); else echo "fuzz.sh: the folder $rooms does not exist; only scenes/ are seeds" >&2; fi
+# Only small files: the fuzzer changes single bytes.
 n=0
 while IFS= read -r -d '' file; do
   n=$((n + 1))

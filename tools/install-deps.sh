@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what building lichtmc and running its tests needs, from Debian's packages (12 "bookworm" and 13 "trixie").
-# Needs root or sudo; asks nothing. Does nothing where everything is there.
+# Installs the Debian packages (12 "bookworm" and 13 "trixie") that are required to build and test lichtmc.
+# Requires root or sudo; not interactive. Does nothing if all packages are installed.
 set -euo pipefail
 
 packages=(
@@ -13,11 +13,11 @@ packages=(
   libstb-dev                                 # pictures
   libopenexr-dev                             # tile maps as images
   libhdf5-dev libxxhash-dev                  # states of runs, their checksums
-  libopenmpi-dev openmpi-bin                 # runs over several machines
-  libhwy-dev                                 # random numbers in lanes
-  libfccp-dev                                # tables read back
-  libcli11-dev                               # the command line
-  nlohmann-json3-dev                         # summary.json, glTF written
+  libopenmpi-dev openmpi-bin                 # runs on several machines
+  libhwy-dev                                 # SIMD random numbers
+  libfccp-dev                                # reading of CSV tables
+  libcli11-dev                               # command line
+  nlohmann-json3-dev                         # summary.json, writing of glTF
   catch2                                     # tests
   python3                                    # test scripts of the command line, pictures of the paper
 )

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Checks with Node.js and a browser: every glTF file that the project ships or writes against the Khronos validator;
-# lit rooms in three.js; reports, opened as a person would. Installs what it needs (Node.js and Chromium from Debian's
-# packages, the rest from npm into build/web) and builds the program.
+# Tests with Node.js and a browser: the Khronos validator on every glTF file that the project ships or writes; lit rooms in
+# three.js; reports in headless Chromium. Installs the requirements (Node.js and Chromium as Debian packages, the rest
+# from npm into build/web) and builds the program.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# Each program's package has its name, but node's. What is there already, from wherever, is left as it is.
+# The packages have the names of the programs, except that of node. Programs from other sources are used if present.
 install_packages() {
   local missing=()
   command -v node >/dev/null || missing+=(nodejs)
@@ -25,8 +25,8 @@ install_packages() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
 
-# The versions are those of tools/web/package-lock.json. Nothing is fetched where that has been done: the copy of the
-# lock file beside the packages, made last, says so.
+# The versions are those of tools/web/package-lock.json. A copy of the lock file is written after the packages; if it is
+# equal, they are installed and nothing is downloaded.
 install_web_packages() {
   cmp -s tools/web/package-lock.json build/web/installed.json && return
   mkdir -p build/web
@@ -53,7 +53,7 @@ for room in "${simulated[@]}"; do
   results+=("build/web/out/${room%.*}")
   build/release/bin/lichtmc run "scenes/$room" --photons 2e5 --paths 20 --quiet -o "${results[-1]}"
 done
-# 100 000 tiles; the other colours and the other scale.
+# 100 000 tiles; the other colour map and the other scale.
 build/release/bin/lichtmc run scenes/cube_paper.gltf --tile 0.00775 --scale-type log --colormap inferno --quiet \
   -o build/web/out/many_tiles
 results+=(build/web/out/many_tiles)
@@ -63,7 +63,7 @@ lit=("${results[@]/%//room_lit.glb}")
 status=0
 counts=build/web/counts.txt
 : >"$counts"
-# Each says how many passed and failed in its last line.
+# The last line of each check contains the numbers of passed and failed tests.
 check() {
   local log=build/web/check.log
   if ! "$@" 2>&1 | tee "$log"; then status=1; fi

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Sets up, builds and runs the whole test suite. Arguments go to ctest, for example: tools/test.sh -R furnace
+# Installs missing packages, builds, and runs the whole test suite. Arguments are passed to ctest, for example:
+#   tools/test.sh -R furnace
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install-deps.sh
