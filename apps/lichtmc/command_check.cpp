@@ -28,7 +28,7 @@ constexpr int exit_done = 0;
 constexpr int exit_warned = 1;
 constexpr int exit_unusable = 2;
 
-std::string figure(double value) {
+std::string four_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
@@ -41,7 +41,7 @@ std::string row(const char* name, const std::string& text) {
 }
 
 std::string point(const glm::dvec3& p) {
-  return "(" + figure(p.x) + ", " + figure(p.y) + ", " + figure(p.z) + ")";
+  return "(" + four_digits(p.x) + ", " + four_digits(p.y) + ", " + four_digits(p.z) + ")";
 }
 
 // Materials with their reflectances and areas.
@@ -60,20 +60,20 @@ void print_materials(const Inspection& facts) {
   }
   std::cout << "\nMaterials (reflectance, area)\n";
   for (const auto& [name, cover] : covers) {
-    const bool several = figure(cover.low) != figure(cover.high);
+    const bool several = four_digits(cover.low) != four_digits(cover.high);
     std::cout << "  " << (name.empty() ? "(no name)" : name) << ": "
-              << (several ? figure(cover.low) + " to " + figure(cover.high) : figure(cover.high)) << ", "
-              << figure(cover.area) << " m^2\n";
+              << (several ? four_digits(cover.low) + " to " + four_digits(cover.high) : four_digits(cover.high)) << ", "
+              << four_digits(cover.area) << " m^2\n";
   }
 }
 
 void print_emitters(const Room& room) {
   constexpr std::size_t shown = 20;
   const std::string unit(power_unit(room.quantity));
-  std::cout << "\nEmitters (" << room.emitters.size() << ", together " << figure(total_power(room)) << ' ' << unit
+  std::cout << "\nEmitters (" << room.emitters.size() << ", together " << four_digits(total_power(room)) << ' ' << unit
             << ")\n";
   for (std::size_t k = 0; k < std::min(shown, room.emitters.size()); ++k)
-    std::cout << "  " << room.emitters[k].name << ": " << figure(room.emitters[k].power) << ' ' << unit << '\n';
+    std::cout << "  " << room.emitters[k].name << ": " << four_digits(room.emitters[k].power) << ' ' << unit << '\n';
   if (room.emitters.size() > shown)
     std::cout << "  … and " << room.emitters.size() - shown << " more (--json lists all)\n";
 }
@@ -81,7 +81,7 @@ void print_emitters(const Room& room) {
 void print_facts(const Room& room, const Inspection& facts) {
   const glm::dvec3 size = facts.high - facts.low;
   std::cout << room.source << '\n';
-  std::cout << row("Size", figure(size.x) + " x " + figure(size.y) + " x " + figure(size.z) +
+  std::cout << row("Size", four_digits(size.x) + " x " + four_digits(size.y) + " x " + four_digits(size.z) +
                                " m (x, height y, z), from " + point(facts.low) + " to " + point(facts.high));
   std::cout << row("Meshes", std::to_string(facts.triangles) + " triangles in " +
                                  std::to_string(facts.surfaces.size()) + " surfaces; " + std::to_string(facts.tiles) +

@@ -33,7 +33,7 @@ std::string p_value(double probability) {
   return probability < 1e-9 ? "less than 1e-9" : text("%.2g", probability);
 }
 
-// The figures that deviate most, the worst first.
+// The values with the largest |z|, the largest first.
 std::vector<const FigurePair*> worst_of(const Comparison& comparison, std::size_t count) {
   std::vector<const FigurePair*> worst;
   for (const FigurePair& pair : comparison.figures) worst.push_back(&pair);

@@ -14,14 +14,14 @@ namespace lichtmc::app {
 
 namespace {
 
-std::string percent(double share) {
-  if (!std::isfinite(share)) return "unknown";
+std::string percent(double fraction) {
+  if (!std::isfinite(fraction)) return "unknown";
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100.0 * share);
+  std::snprintf(text, sizeof text, "%.2g %%", 100.0 * fraction);
   return text;
 }
 
-std::string figure(double value) {
+std::string four_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
@@ -71,18 +71,18 @@ void print_ignored(const std::vector<Ignored>& ignored) {
 void print_balance(const Result& result) {
   const std::string unit(power_unit(result.quantity));
   const Balance& balance = result.balance;
-  std::cerr << "Emitted " << figure(balance.emitted) << ' ' << unit << ": absorbed " << figure(balance.absorbed)
-            << ", escaped " << figure(balance.escaped);
-  if (balance.residual != 0.0) std::cerr << ", residual " << figure(balance.residual);
-  std::cerr << ", lost " << figure(balance.lost) << ".\n";
+  std::cerr << "Emitted " << four_digits(balance.emitted) << ' ' << unit << ": absorbed "
+            << four_digits(balance.absorbed) << ", escaped " << four_digits(balance.escaped);
+  if (balance.residual != 0.0) std::cerr << ", residual " << four_digits(balance.residual);
+  std::cerr << ", lost " << four_digits(balance.lost) << ".\n";
 }
 
 void print_tiles(const Result& result) {
   const bool forward = result.settings.tile_walk == WalkDirection::forward;
   std::cerr << short_count(static_cast<double>(result.histories))
             << (forward ? " photons, " : " backward histories from the tiles, ")
-            << short_count(static_cast<double>(result.impacts)) << " impacts in " << figure(result.seconds) << " s ("
-            << describe(result.stopped_by) << "; engine " << to_string(result.engine) << ", estimator "
+            << short_count(static_cast<double>(result.impacts)) << " impacts in " << four_digits(result.seconds)
+            << " s (" << describe(result.stopped_by) << "; engine " << to_string(result.engine) << ", estimator "
             << to_string(result.estimator) << (direct_is_apart(result) ? ", direct light integrated" : "") << ").\n";
   if (forward) print_balance(result);
   std::cerr << result.tiles.size() << " tiles, relative standard error " << percent(result.rms_relative_error)
@@ -98,7 +98,7 @@ void print_receivers(const Result& result) {
   const BackwardResult& backward = result.backward;
   const auto histories = static_cast<double>(backward.histories);
   std::cerr << result.receiver_results.size() << (result.receiver_results.size() == 1 ? " receiver, " : " receivers, ")
-            << short_count(histories) << " backward histories in " << figure(backward.seconds) << " s ("
+            << short_count(histories) << " backward histories in " << four_digits(backward.seconds) << " s ("
             << describe(backward.stopped_by) << "), " << short_count(static_cast<double>(backward.shadow_rays))
             << " shadow rays; relative standard error " << percent(backward.rms_relative_error) << " (rms).\n";
   warn_of_missed_target(result.settings, backward.stopped_by, backward.rms_relative_error, histories,

@@ -57,7 +57,7 @@ double ProgressLine::seconds_left(const Progress& progress) const {
   return std::max(left, 0.0);
 }
 
-double ProgressLine::share_done(const Progress& progress) const {
+double ProgressLine::fraction_done(const Progress& progress) const {
   const double left = seconds_left(progress);
   return std::isfinite(left) ? progress.seconds / (progress.seconds + left) : 0.0;
 }
@@ -104,7 +104,7 @@ void ProgressLine::update(const Progress& progress) {
     std::cerr << describe(progress) << std::endl;
     return;
   }
-  const int done = static_cast<int>(std::lround(share_done(progress) * bar_width));
+  const int done = static_cast<int>(std::lround(fraction_done(progress) * bar_width));
   std::cerr << "\r[" << std::string(static_cast<std::size_t>(done), '#')
             << std::string(static_cast<std::size_t>(bar_width - done), '.') << "] " << describe(progress) << "\x1b[K"
             << std::flush;

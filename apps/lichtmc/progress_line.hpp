@@ -26,7 +26,7 @@ class ProgressLine {
   std::string describe(const Progress& progress) const;
   std::string work(const Progress& progress) const;
   double seconds_left(const Progress& progress) const;
-  double share_done(const Progress& progress) const;
+  double fraction_done(const Progress& progress) const;
 
   Show show_;
   bool terminal_;
