@@ -29,6 +29,12 @@ SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
 EXCEPTIONS = {
     "version": "names the program, not a figure; tile images have it in their header, too",
 }
+# The same for keys of single runs.
+EXCEPTIONS_OF_RUNS = {
+    # 0.1.0 counted the rays of direct light at receivers once per session or part; now once, as in one run.
+    "resumed": {"rays", "shadow_rays"},
+    "merged": {"rays", "shadow_rays"},
+}
 # Keys of summary.json that hold times or follow from one: two runs of one program differ in them.
 TIMES = {"seconds", "impacts_per_second", "figure_of_merit", "checkpoint_seconds"}
 
@@ -223,22 +229,22 @@ def images(folder):
             for file in sorted(folder.glob("tiles/*.exr"))}  # fmt: skip
 
 
-def without_times(value):
+def without(value, keys):
     if isinstance(value, dict):
-        return {key: without_times(part) for key, part in value.items() if key not in TIMES and key not in EXCEPTIONS}
+        return {key: without(part, keys) for key, part in value.items() if key not in keys}
     if isinstance(value, list):
-        return [without_times(part) for part in value]
-    # Sentences may be worded anew; numbers and names of surfaces stay.
+        return [without(part, keys) for part in value]
     return value
 
 
-def numbers_of(summary):
+def numbers_of(summary, run):
     """summary.json without times, exceptions and sentences (choices, warnings, ignored, mended)."""
     sentences = ("choices", "warnings", "ignored", "mended", "overrides", "room")
-    return without_times({key: value for key, value in summary.items() if key not in sentences})
+    left_out = TIMES | EXCEPTIONS.keys() | EXCEPTIONS_OF_RUNS.get(run, set())
+    return without({key: value for key, value in summary.items() if key not in sentences}, left_out)
 
 
-def differences(base, new):
+def differences(base, new, run):
     for name in COMPARED + ("paths.csv",):
         if (base / name).exists() != (new / name).exists():
             yield f"{name} is there in one of them only"
@@ -251,7 +257,7 @@ def differences(base, new):
         if pictures_a[name] != pictures_b[name]:
             yield f"{name} differs"
     if (base / "summary.json").exists():
-        a, b = (numbers_of(json.loads((folder / "summary.json").read_text())) for folder in (base, new))
+        a, b = (numbers_of(json.loads((folder / "summary.json").read_text()), run) for folder in (base, new))
         for key in sorted(a.keys() | b.keys()):
             if key not in a or key not in b or a[key] != b[key]:
                 yield f"summary.json: {key} is {a.get(key)!r:.200} and {b.get(key)!r:.200}"
@@ -284,7 +290,7 @@ def main():
             simulate(base_folder / "build/bin/lichtmc", name, file, options.split(), results / name)
             (results / name / "done").touch()
         simulate(program, name, file, options.split(), fresh / name)
-        found = list(differences(results / name, fresh / name))
+        found = list(differences(results / name, fresh / name, name))
         failed += bool(found)
         print(f"{name}: {'the same bits' if not found else 'DIFFERENT'}")
         for line in found:

@@ -3,8 +3,11 @@
 
 #include "lichtmc/communicator.hpp"    // IWYU pragma: export
 #include "lichtmc/compare.hpp"         // IWYU pragma: export
+#include "lichtmc/control.hpp"         // IWYU pragma: export
 #include "lichtmc/cuboid.hpp"          // IWYU pragma: export
+#include "lichtmc/emitter_law.hpp"     // IWYU pragma: export
 #include "lichtmc/error.hpp"           // IWYU pragma: export
+#include "lichtmc/fingerprint.hpp"     // IWYU pragma: export
 #include "lichtmc/gltf.hpp"            // IWYU pragma: export
 #include "lichtmc/inspect.hpp"         // IWYU pragma: export
 #include "lichtmc/lit_room.hpp"        // IWYU pragma: export
@@ -12,6 +15,7 @@
 #include "lichtmc/overrides.hpp"       // IWYU pragma: export
 #include "lichtmc/paths.hpp"           // IWYU pragma: export
 #include "lichtmc/picture.hpp"         // IWYU pragma: export
+#include "lichtmc/progress.hpp"        // IWYU pragma: export
 #include "lichtmc/receivers.hpp"       // IWYU pragma: export
 #include "lichtmc/result.hpp"          // IWYU pragma: export
 #include "lichtmc/room.hpp"            // IWYU pragma: export

@@ -63,22 +63,31 @@ struct ReceiverResult {
 // How far a run had come at some time.
 struct ConvergencePoint {
   std::uint64_t histories = 0;
-  double seconds = 0.0;             // as Result::seconds
-  double rms_relative_error = 0.0;  // as Result::rms_relative_error, or BackwardResult's
+  double seconds = 0.0;             // as WalkReport::seconds
+  double rms_relative_error = 0.0;  // as WalkReport::rms_relative_error
 };
 
-// How the receivers' results were got.
-struct BackwardResult {
+// How the results of one walk were computed.
+struct WalkReport {
   Estimator estimator = Estimator::collision;  // as used
+  std::string choice;                          // why, where Estimator::automatic has chosen it; else empty
   StopReason stopped_by = StopReason::photons;
-  std::uint64_t histories = 0;    // of all receivers together
-  std::uint64_t rays = 0;         // flights traced and shadow rays
-  std::uint64_t shadow_rays = 0;  // rays that only asked whether an emitter is seen; none where nothing casts a shadow
-  double seconds = 0.0;           // wall-clock time
-  double rms_relative_error = 0.0;  // rms of the receivers' relative standard errors, over those that get light
-  double figure_of_merit = 0.0;     // 1 / (rms_relative_error² · seconds), 1/s
-  double histories_to_target = std::numeric_limits<double>::quiet_NaN();  // as Result::histories_to_target
-  std::vector<ConvergencePoint> convergence;                              // on the way, the end as the last
+  std::uint64_t histories = 0;  // of all receivers together, where they were measured
+  std::uint64_t impacts = 0;    // flights that ended on a surface
+  std::uint64_t rays = 0;       // flights traced, with those traced again and shadow rays
+  std::uint64_t shadow_rays =
+      0;                        // rays that only asked whether an emitter is visible; none where nothing casts a shadow
+  std::uint64_t retraced = 0;   // flights that met no surface and were traced again by the slower rule
+  double seconds = 0.0;         // wall-clock time, with that of direct light
+  double direct_seconds = 0.0;  // of that, computing direct light
+  // Rms of the relative standard errors: of the tiles that got light, weighted by area; or of the receivers that got
+  // light.
+  double rms_relative_error = 0.0;
+  double figure_of_merit = 0.0;  // 1 / (rms_relative_error² · seconds), 1/s
+  // Histories that Settings::target_error is forecast to take, from the errors on the way; NaN where none was asked for
+  // or no error is known.
+  double histories_to_target = std::numeric_limits<double>::quiet_NaN();
+  std::vector<ConvergencePoint> convergence;  // errors on the way, the end as the last
 };
 
 // Where the emitted power went, in W or lm: emitted = absorbed + escaped + residual + lost. Only photons from the
@@ -94,45 +103,29 @@ struct Balance {
 struct Result {
   std::string room;  // Room::source
   Quantity quantity = Quantity::photometric;
-  Settings settings;                           // as asked for
-  Engine engine = Engine::embree;              // as used
-  Estimator estimator = Estimator::collision;  // as used for the tiles
-  std::vector<std::string> choices;            // what Estimator::automatic has chosen and why, a sentence each
-  unsigned threads = 1;                        // as used, of each process
-  unsigned processes = 1;                      // that have shared the run, see Control::team
-  StopReason stopped_by = StopReason::photons;
-
-  std::uint64_t histories = 0;
-  std::uint64_t impacts = 0;         // flights that ended on a surface
-  std::uint64_t rays = 0;            // flights traced, with those traced again and shadow rays
-  std::uint64_t shadow_rays = 0;     // rays that only asked whether an emitter is seen
-  std::uint64_t retraced = 0;        // flights that met no surface and were traced again by the slower rule
-  std::uint64_t lost_histories = 0;  // histories behind Balance::lost
-  double seconds = 0.0;              // wall-clock time of the walk, with that of integrating direct light
+  Settings settings;                 // as asked for
+  Engine engine = Engine::embree;    // as used
+  WalkReport walk;                   // of the walk that measured the tiles
+  WalkReport receiver_walk;          // of the walk that measured the receivers
+  std::vector<std::string> choices;  // of both, what Estimator::automatic has chosen and why, a sentence each
+  unsigned threads = 1;              // as used, of each process
+  unsigned processes = 1;            // that have shared the run, see Control::team
   double checkpoint_seconds = 0.0;   // that all walks of this session have waited for Control::checkpoint
-  double direct_seconds = 0.0;       // of that, integrating direct light
+  std::uint64_t lost_histories = 0;  // histories behind Balance::lost
 
   Balance balance;
   double incident = 0.0;                 // incident power of all tiles in W or lm
   double incident_standard_error = 0.0;  // NaN where too little was simulated to tell
-  double rms_relative_error =
-      0.0;                       // area-weighted rms of the tiles' relative standard errors, over tiles that got light
-  double figure_of_merit = 0.0;  // 1 / (rms_relative_error² · seconds), 1/s
-  // Histories that Settings::target_error is forecast to take, from the errors on the way; NaN where none was asked for
-  // or no error is known.
-  double histories_to_target = std::numeric_limits<double>::quiet_NaN();
-  std::vector<ConvergencePoint> convergence;  // of the tiles, on the way, the end as the last
-  std::uint64_t tiles_without_hits = 0;       // that no photon hit, or no walk found light from
+  std::uint64_t tiles_without_hits = 0;  // that no photon hit, or no walk found light from
 
   std::vector<TileResult> tiles;        // as Tiling::tiles; none where only the backward walk was run
   std::vector<SurfaceResult> surfaces;  // as Tiling::maps
   Tiling tiling;
   std::vector<Receiver> receivers;               // the room's
   std::vector<ReceiverResult> receiver_results;  // of each; none where only the forward walk was run
-  BackwardResult backward;
-  std::vector<Ignored> ignored;     // Room::ignored, and what of the room this run did not use
-  std::vector<std::string> mended;  // Room::mended
-  State state;                      // to go on from, or to merge with others
+  std::vector<Ignored> ignored;                  // Room::ignored, and what of the room this run did not use
+  std::vector<std::string> mended;               // Room::mended
+  State state;                                   // to go on from, or to merge with others
   std::vector<std::string>
       warnings;  // what may make the figures mean something else than is thought, a sentence or two each
 };

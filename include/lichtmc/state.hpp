@@ -6,7 +6,6 @@
 // results are made, in a millisecond.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -14,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lichtmc/room.hpp"
+#include "lichtmc/fingerprint.hpp"
 #include "lichtmc/settings.hpp"
 
 namespace lichtmc {
@@ -26,11 +25,6 @@ struct HistoryRange {
 
   bool operator==(const HistoryRange&) const = default;
 };
-
-// Two rooms with the same fingerprint give the same figures: a hash (XXH3, 128 bits) of surfaces, reflectances,
-// emitters and receivers as modelled, not of the file that they came from.
-using Fingerprint = std::array<std::uint64_t, 2>;
-Fingerprint fingerprint(const Room& room);
 
 struct StateData;  // the library's own
 

@@ -34,18 +34,18 @@ std::string key_figures(const Room& room, const Result& result) {
     double area = 0.0;
     for (const SurfaceResult& surface : result.surfaces) area += surface.area_m2;
     figures += figure(short_number(result.incident / area) + " " + irradiance, "mean over all surfaces");
-    figures += figure("± " + percent(result.rms_relative_error),
+    figures += figure("± " + percent(result.walk.rms_relative_error),
                       "standard error of a tile (rms), " + to_text(result.tiles.size(), "tile"));
-    figures += figure(short_count(result.histories),
+    figures += figure(short_count(result.walk.histories),
                       (result.settings.tile_walk == WalkDirection::forward ? "photons in " : "walks in ") +
-                          short_number(result.seconds) + " s");
+                          short_number(result.walk.seconds) + " s");
   }
   if (!result.receiver_results.empty()) {
     double sum = 0.0;
     for (const ReceiverResult& receiver : result.receiver_results) sum += receiver.irradiance;
     figures += figure(short_number(sum / static_cast<double>(result.receiver_results.size())) + " " + irradiance,
                       "mean of " + to_text(result.receiver_results.size(), "receiver") + ", standard error of each ± " +
-                          percent(result.backward.rms_relative_error) + " (rms)");
+                          percent(result.receiver_walk.rms_relative_error) + " (rms)");
   }
   return text_element(
              "p",
@@ -70,7 +70,7 @@ std::string warnings_section(const ReportContent& content) {
   if (ignored > 0)
     sentences.push_back(to_text(ignored, "item") + " of the file " + (ignored == 1 ? "was" : "were") +
                         " not modelled and may change the figures: see the list below.");
-  if (result.stopped_by == StopReason::interrupt)
+  if (result.walk.stopped_by == StopReason::interrupt)
     sentences.emplace_back("The run was interrupted: the figures are from the histories simulated until then.");
   if (sentences.empty()) return {};
   return element("section", text_element("h2", "Before you use these figures") + list_of(sentences),

@@ -18,7 +18,7 @@ std::string settings_section(const Room& room, const Result& result) {
   const auto row = [&rows](std::string_view name, const std::string& value) {
     rows += "<tr>" + text_cell(name) + text_cell(value) + "</tr>\n";
   };
-  row("estimator", std::string(to_string(result.tiles.empty() ? result.backward.estimator : result.estimator)));
+  row("estimator", std::string(to_string(result.tiles.empty() ? result.receiver_walk.estimator : result.walk.estimator)));
   row("engine", std::string(to_string(result.engine)));
   row("seed", std::to_string(s.seed));
   if (!result.tiles.empty()) {
@@ -26,13 +26,13 @@ std::string settings_section(const Room& room, const Result& result) {
     row("tiles measured",
         s.tile_walk == WalkDirection::forward ? "by photons from the emitters" : "by walks back from the tiles");
     row("direct light", direct_is_apart(result) ? "integrated" : "counted with all other light");
-    row("photons", std::to_string(result.histories));
-    row("impacts", std::to_string(result.impacts));
-    row("ended by", std::string(to_string(result.stopped_by)));
+    row("photons", std::to_string(result.walk.histories));
+    row("impacts", std::to_string(result.walk.impacts));
+    row("ended by", std::string(to_string(result.walk.stopped_by)));
   }
   if (!result.receiver_results.empty()) {
-    row("walks from receivers", std::to_string(result.backward.histories));
-    row("ended by (receivers)", std::string(to_string(result.backward.stopped_by)));
+    row("walks from receivers", std::to_string(result.receiver_walk.histories));
+    row("ended by (receivers)", std::string(to_string(result.receiver_walk.stopped_by)));
   }
   if (s.target_error) row("target error", percent(*s.target_error));
   if (s.max_seconds) row("time limit", short_number(*s.max_seconds) + " s");
@@ -62,9 +62,9 @@ std::string left_out_section(const Result& result) {
 std::string reproduction_section(const Result& result, const std::string& command) {
   std::string html = heading("To reproduce this");
   if (!command.empty()) html += text_element("pre", command);
-  if (result.stopped_by == StopReason::max_time || result.stopped_by == StopReason::interrupt) {
+  if (result.walk.stopped_by == StopReason::max_time || result.walk.stopped_by == StopReason::interrupt) {
     html += text_element("p", "The clock ended this run, and clocks differ. To get the same digits give it --photons " +
-                                  std::to_string(result.histories) + " instead of a time.");
+                                  std::to_string(result.walk.histories) + " instead of a time.");
   }
   return html + text_element("p",
                              "lichtmc " + std::string(version()) +

@@ -67,7 +67,7 @@ void write_receivers(const Result& result, const Sink& sink) {
 // Facts of the backward walk for the receivers; null without receivers.
 Json backward_of(const Result& result) {
   if (result.receiver_results.empty()) return nullptr;
-  const BackwardResult& b = result.backward;
+  const WalkReport& b = result.receiver_walk;
   return {{"histories", b.histories},
           {"rays", b.rays},
           {"shadow_rays", b.shadow_rays},
@@ -125,14 +125,14 @@ void add_run(const Result& result, Json& summary) {
   summary["room"] = result.room;
   summary["unit"] = std::string(power_unit(result.quantity));
   summary["engine"] = std::string(to_string(result.engine));
-  summary["estimator"] = std::string(to_string(result.tiles.empty() ? result.backward.estimator : result.estimator));
+  summary["estimator"] = std::string(to_string(result.tiles.empty() ? result.receiver_walk.estimator : result.walk.estimator));
   summary["seed"] = result.settings.seed;
   summary["threads"] = result.threads;
-  summary["histories"] = result.histories;
-  summary["impacts"] = result.impacts;
-  summary["rays"] = result.rays + result.backward.rays;
-  summary["seconds"] = number(result.seconds);
-  summary["impacts_per_second"] = number(static_cast<double>(result.impacts) / result.seconds);
+  summary["histories"] = result.walk.histories;
+  summary["impacts"] = result.walk.impacts;
+  summary["rays"] = result.walk.rays + result.receiver_walk.rays;
+  summary["seconds"] = number(result.walk.seconds);
+  summary["impacts_per_second"] = number(static_cast<double>(result.walk.impacts) / result.walk.seconds);
 }
 
 void add_balance(const Result& result, Json& summary) {
@@ -148,9 +148,9 @@ void add_balance(const Result& result, Json& summary) {
 
 // `receivers` stays empty here: see write_receivers().
 void add_results(const Result& result, Json& summary) {
-  summary["rms_relative_error"] = number(result.rms_relative_error);
-  summary["figure_of_merit"] = number(result.figure_of_merit);
-  summary["stopped_by"] = std::string(to_string(result.stopped_by));
+  summary["rms_relative_error"] = number(result.walk.rms_relative_error);
+  summary["figure_of_merit"] = number(result.walk.figure_of_merit);
+  summary["stopped_by"] = std::string(to_string(result.walk.stopped_by));
   summary["surfaces"] = surfaces_of(result);
   summary["receivers"] = Json::array();
   summary["ignored"] = texts_of(result.ignored);
@@ -162,7 +162,7 @@ void add_details(const Room& room, const Result& result, Json& summary) {
   summary["checkpoint_seconds"] = number(result.checkpoint_seconds);
   summary["tiles_by"] = std::string(to_string(result.settings.tile_walk));
   summary["direct"] = std::string(to_string(direct_is_apart(result) ? Direct::analytic : Direct::sampled));
-  summary["shadow_rays"] = result.shadow_rays + result.backward.shadow_rays;
+  summary["shadow_rays"] = result.walk.shadow_rays + result.receiver_walk.shadow_rays;
   summary["choices"] = result.choices;
   summary["backward"] = backward_of(result);
   summary["warnings"] = result.warnings;
@@ -172,7 +172,7 @@ void add_details(const Room& room, const Result& result, Json& summary) {
   summary["tiles_count"] = result.tiles.size();
   summary["tiles_without_hits"] = result.tiles_without_hits;
   summary["max_bounces"] = result.settings.max_bounces ? Json(*result.settings.max_bounces) : Json(nullptr);
-  summary["retraced"] = result.retraced;
+  summary["retraced"] = result.walk.retraced;
   summary["lost_histories"] = result.lost_histories;
   summary["units"] = units_of(result);
 }

@@ -120,7 +120,7 @@ class ReportWriter {
   std::vector<PhotonPath> trace() {
     if (options_->paths == 0) return {};
     Settings settings = result_->settings;
-    settings.estimator = result_->estimator;
+    settings.estimator = result_->walk.estimator;
     std::vector<PhotonPath> paths = trace_paths(*room_, settings, options_->paths);
     content_.paths_picture = paths_svg(*room_, paths);
     return paths;

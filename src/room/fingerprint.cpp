@@ -1,7 +1,7 @@
 #include <variant>
 
 #include "base/checksum.hpp"
-#include "lichtmc/state.hpp"
+#include "lichtmc/fingerprint.hpp"
 
 namespace lichtmc {
 

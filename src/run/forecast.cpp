@@ -6,8 +6,8 @@
 
 namespace lichtmc {
 
-void Forecast::look(std::uint64_t histories, double error) {
-  if (std::isfinite(error) && error > 0.0) looks_.push_back({static_cast<double>(histories), error});
+void Forecast::add(std::uint64_t histories, double error) {
+  if (std::isfinite(error) && error > 0.0) points_.push_back({static_cast<double>(histories), error});
 }
 
 // −d ln R / d ln N over the last doubling of N: a half where that is not known yet. An error that hardly falls is taken
@@ -15,17 +15,17 @@ void Forecast::look(std::uint64_t histories, double error) {
 double Forecast::slope() const {
   constexpr double steepest = 0.5;
   constexpr double flattest = 0.05;
-  const Look& last = looks_.back();
-  const auto earlier = std::find_if(looks_.rbegin(), looks_.rend(),
-                                    [&](const Look& look) { return 2.0 * look.histories <= last.histories; });
-  if (earlier == looks_.rend()) return steepest;
+  const Point& last = points_.back();
+  const auto earlier = std::find_if(points_.rbegin(), points_.rend(),
+                                    [&](const Point& point) { return 2.0 * point.histories <= last.histories; });
+  if (earlier == points_.rend()) return steepest;
   const double seen = std::log(earlier->error / last.error) / std::log(last.histories / earlier->histories);
   return std::clamp(seen, flattest, steepest);
 }
 
 double Forecast::histories_to(double target) const {
-  if (looks_.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const Look& last = looks_.back();
+  if (points_.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const Point& last = points_.back();
   if (last.error <= target) return last.histories;
   constexpr double slow_factor = 100.0;
   const double more = std::pow(last.error / target, 1.0 / slope());

@@ -14,20 +14,20 @@ namespace lichtmc {
 class Forecast {
  public:
   // The error (> 0) after so many histories; each call with more of them.
-  void look(std::uint64_t histories, double error);
+  void add(std::uint64_t histories, double error);
 
-  // Histories from the start to the target error (> 0); NaN before the first look, at least those of the last look
+  // Histories from the start to the target error (> 0); NaN before the first error, at least those of the last error
   // where the target was not met by then.
   double histories_to(double target) const;
 
  private:
-  struct Look {
+  struct Point {
     double histories;
     double error;
   };
   double slope() const;
 
-  std::vector<Look> looks_;
+  std::vector<Point> points_;
 };
 
 }  // namespace lichtmc

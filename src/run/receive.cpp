@@ -3,10 +3,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
-#include "run/gather.hpp"
+#include "run/backward_work.hpp"
 #include "run/rounds.hpp"
 #include "run/surface_results.hpp"
 #include "run/tile_light.hpp"
@@ -23,12 +24,12 @@ namespace {
                    " (allowed: some distance), where irradiance has no value. Move it away.");
 }
 
-double error_at(const Gathered& found, std::size_t k) {
+double error_at(const OriginEstimates& found, std::size_t k) {
   return std::hypot(found.indirect_error(k), found.direct[k].standard_error);
 }
 
 // Rms of the receivers' relative errors, over those that get light.
-double error_of_receivers(const Gathered& found) {
+double error_of_receivers(const OriginEstimates& found) {
   double squares = 0.0;
   std::size_t lit = 0;
   for (std::size_t k = 0; k < found.sums->size(); ++k) {
@@ -41,12 +42,8 @@ double error_of_receivers(const Gathered& found) {
   return lit > 0 ? std::sqrt(squares / static_cast<double>(lit)) : std::numeric_limits<double>::quiet_NaN();
 }
 
-double figure_of_merit(double relative_error, double seconds) {
-  return 1.0 / (relative_error * relative_error * seconds);
-}
-
 // The tiles, each the sum of its faces.
-std::vector<TileResult> tiles_of(const Tiling& tiling, const TileFaces& faces, const Gathered& found) {
+std::vector<TileResult> tiles_of(const Tiling& tiling, const TileFaces& faces, const OriginEstimates& found) {
   std::vector<TileResult> tiles(tiling.tiles.size());
   for (TileResult& tile : tiles) tile.direct = 0.0;
   for (std::size_t face = 0; face < faces.size(); ++face) {
@@ -62,7 +59,7 @@ std::vector<TileResult> tiles_of(const Tiling& tiling, const TileFaces& faces, c
 
 // Tiles are independent of each other: their errors add up by their squares.
 std::vector<SurfaceResult> surfaces_of(const Room& room, const Tiling& tiling, const TileFaces& faces,
-                                       const Gathered& found, const std::vector<TileResult>& tiles) {
+                                       const OriginEstimates& found, const std::vector<TileResult>& tiles) {
   std::vector<SurfaceResult> results = surface_results(room, tiling, tiles);
   std::vector<double> behind(results.size(), 0.0);
   for (std::size_t face = 0; face < faces.size(); ++face) {
@@ -85,9 +82,34 @@ std::vector<SurfaceResult> surfaces_of(const Room& room, const Tiling& tiling, c
   return results;
 }
 
-// What only photons from the emitters tell.
-void leave_balance_open(Balance& balance) {
+// Only photons from the emitters determine where the flux went.
+Balance unknown_balance() {
+  Balance balance;
   balance.absorbed = balance.escaped = balance.residual = balance.lost = std::numeric_limits<double>::quiet_NaN();
+  return balance;
+}
+
+void add_incident(TileMeasurement& measured) {
+  double variance = 0.0;
+  for (const SurfaceResult& surface : measured.surfaces) {
+    measured.incident += surface.power;
+    variance += std::pow(surface.standard_error * surface.area_m2, 2);
+  }
+  measured.incident_standard_error = std::sqrt(variance);
+}
+
+std::vector<ReceiverResult> receiver_results(const Room& room, const OriginEstimates& found) {
+  const double power = total_power(room);
+  std::vector<ReceiverResult> results(room.receivers.size());
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    ReceiverResult& one = results[k];
+    one.direct = found.direct[k].value;
+    one.indirect = found.indirect(k);
+    one.irradiance = one.direct + one.indirect;
+    one.standard_error = error_at(found, k);
+    one.gain = one.irradiance * room.receivers[k].area_m2 / power;
+  }
+  return results;
 }
 
 }  // namespace
@@ -100,97 +122,62 @@ void check_receivers_whole(const Room& room, const Settings& settings, const Bac
   check_whole(settings, room.receivers.size() * ReceiverOrigins::group, walks, "the receivers");
 }
 
-void receive(const Room& room, const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
-             RunRecord& record, Result& result) {
-  const DirectLight light(room, *scene.tracer);
-  const ReceiverOrigins origins(room.receivers, *scene.tracer);
+ReceiverMeasurement measure_receivers(const RunContext& context) {
+  const Room& room = context.room;
+  const Tracer& tracer = *context.scene.tracer;
+  const DirectLight light(room, tracer);
+  const ReceiverOrigins origins(room.receivers, tracer);
   const BackwardScale scale(room);
-  const Stream stream(settings.seed, WalkDirection::backward);
-  GatherTask task;
+  const Stream stream(context.settings.seed, WalkDirection::backward);
+  BackwardTask task;
   task.stage = Progress::Stage::receivers;
   task.origins = room.receivers.size();
   task.group = ReceiverOrigins::group;
   task.unit = scale.unit;
   task.direct = [&](std::size_t k, TraceCount& count) -> DirectIrradiance {
     const Receiver& receiver = room.receivers[k];
-    if (receiver.half_angle_deg == 0.0) return {};  // it sees nothing
+    if (receiver.half_angle_deg == 0.0) return {};  // its field of view is empty
     const ReferencePoint reference = reference_point_of(receiver);
     if (const auto emitter = light.emitter_at(reference)) refuse_on_emitter(room, k, *emitter);
     return light.irradiance_at(reference, stream, k, count);
   };
-  task.make_walk = [&](const Settings& own) { return make_backward_walk(scene, light, origins, scale, own); };
+  task.make_walk = [&](const Settings& own) { return make_backward_walk(context.scene, light, origins, scale, own); };
   task.error = error_of_receivers;
   task.weights.assign(task.origins, 1.0);
   task.name = "the receivers";
   task.slot = &StateData::receivers;
-  const Gathered found = gather(task, room, settings, control, watch, result.threads, record);
-
-  const double power = total_power(room);
-  result.receiver_results.resize(task.origins);
-  for (std::size_t k = 0; k < task.origins; ++k) {
-    ReceiverResult& one = result.receiver_results[k];
-    one.direct = found.direct[k].value;
-    one.indirect = found.indirect(k);
-    one.irradiance = one.direct + one.indirect;
-    one.standard_error = error_at(found, k);
-    one.gain = one.irradiance * room.receivers[k].area_m2 / power;
-  }
-  BackwardResult& backward = result.backward;
-  backward.estimator = found.estimator;
-  if (!found.choice.empty()) result.choices.push_back(found.choice);
-  backward.stopped_by = found.stopped_by;
-  backward.histories_to_target = found.histories_to_target;
-  backward.convergence = found.convergence;
-  backward.histories = found.histories();
-  backward.rays = found.count.traced.rays;
-  backward.shadow_rays = found.count.traced.shadow_rays;
-  backward.seconds = watch.seconds();
-  backward.rms_relative_error = error_of_receivers(found);
-  backward.figure_of_merit = figure_of_merit(backward.rms_relative_error, backward.seconds);
+  BackwardOutcome outcome = walk_backward(context, task);
+  return {receiver_results(room, outcome.estimates), std::move(outcome.report)};
 }
 
-void walk_from_tiles(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
-                     StopWatch& watch, RunRecord& record, Result& result) {
-  const Tiling& tiling = result.tiling;
-  const TileLight light(room, tiling, scene, settings, WalkDirection::backward);
-  const BackwardScale scale(room);
-  GatherTask task;
+TileMeasurement measure_tiles_backward(const RunContext& context) {
+  const Tiling& tiling = context.tiling;
+  const TileLight light(context.room, tiling, context.scene, context.settings, WalkDirection::backward);
+  const BackwardScale scale(context.room);
+  BackwardTask task;
   task.stage = Progress::Stage::tiles;
   task.origins = light.faces().size();
   task.group = TileFaces::group;
   task.unit = scale.unit;
   task.direct = [&](std::size_t face, TraceCount& count) { return light.mean(face, count); };
   task.make_walk = [&](const Settings& own) {
-    return make_backward_walk(scene, light.direct_light(), light.faces(), scale, own);
+    return make_backward_walk(context.scene, light.direct_light(), light.faces(), scale, own);
   };
-  task.error = [&](const Gathered& found) {
+  task.error = [&](const OriginEstimates& found) {
     return rms_relative_error(tiling, tiles_of(tiling, light.faces(), found));
   };
   for (std::size_t face = 0; face < task.origins; ++face) task.weights.push_back(light.faces().area_m2(face));
   task.name = "the tiles";
   task.slot = &StateData::tile_walks;
-  const Gathered found = gather(task, room, settings, control, watch, result.threads, record);
+  BackwardOutcome outcome = walk_backward(context, task);
 
-  result.estimator = found.estimator;
-  if (!found.choice.empty()) result.choices.push_back(found.choice);
-  result.stopped_by = found.stopped_by;
-  result.histories_to_target = found.histories_to_target;
-  result.convergence = found.convergence;
-  result.seconds = watch.seconds();
-  result.direct_seconds = found.direct_seconds;
-  result.histories = found.histories();
-  result.impacts = found.count.impacts;
-  result.rays = found.count.traced.rays;
-  result.shadow_rays = found.count.traced.shadow_rays;
-  leave_balance_open(result.balance);
-  result.tiles = tiles_of(tiling, light.faces(), found);
-  result.surfaces = surfaces_of(room, tiling, light.faces(), found, result.tiles);
-  double variance = 0.0;
-  for (const SurfaceResult& surface : result.surfaces) {
-    result.incident += surface.power;
-    variance += std::pow(surface.standard_error * surface.area_m2, 2);
-  }
-  result.incident_standard_error = std::sqrt(variance);
+  TileMeasurement measured;
+  measured.report = std::move(outcome.report);
+  measured.balance = unknown_balance();
+  measured.tiles = tiles_of(tiling, light.faces(), outcome.estimates);
+  measured.surfaces = surfaces_of(context.room, tiling, light.faces(), outcome.estimates, measured.tiles);
+  add_incident(measured);
+  return measured;
 }
 
 }  // namespace lichtmc

@@ -1,14 +1,14 @@
 // Results by walks back to the light: irradiance at the receivers, and of the tiles where that is asked for.
 #pragma once
 
+#include <vector>
+
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
-#include "lichtmc/simulate.hpp"
-#include "run/run_record.hpp"
+#include "run/context.hpp"
+#include "run/measured_tiles.hpp"
 #include "run/state_data.hpp"
-#include "run/stop_watch.hpp"
-#include "walk/scene.hpp"
 
 namespace lichtmc {
 
@@ -18,14 +18,16 @@ void check_receiver_rounds(const Room& room, const Settings& settings);
 // Throws InputError where walks from the receivers are missing before those that there are, or between them.
 void check_receivers_whole(const Room& room, const Settings& settings, const BackwardState& walks);
 
-// Fills in Result::receiver_results and Result::backward. The room has receivers. Throws InputError naming a receiver
-// that lies on an emitter. Goes on from the walks that the logbook has, and leaves there what was found, as gather()
-// does.
-void receive(const Room& room, const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
-             RunRecord& record, Result& result);
+struct ReceiverMeasurement {
+  std::vector<ReceiverResult> receivers;
+  WalkReport report;
+};
 
-// Fills in the tiles' part of the result by walks from random points of every tile.
-void walk_from_tiles(const Room& room, const Scene& scene, const Settings& settings, const Control& control,
-                     StopWatch& watch, RunRecord& record, Result& result);
+// Irradiance at the room's receivers, of which there is at least one. Throws InputError naming a receiver that lies on
+// an emitter, StoppedTooSoon where the run is stopped before the first round is complete.
+ReceiverMeasurement measure_receivers(const RunContext& context);
+
+// Irradiance of the tiles by walks from random points of each.
+TileMeasurement measure_tiles_backward(const RunContext& context);
 
 }  // namespace lichtmc

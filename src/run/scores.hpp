@@ -9,8 +9,8 @@
 #include "lichtmc/room.hpp"
 #include "lichtmc/tiles.hpp"
 #include "run/tile_light.hpp"
-#include "walk/tally.hpp"
 #include "walk/choose_policy.hpp"
+#include "walk/tally.hpp"
 
 namespace lichtmc {
 

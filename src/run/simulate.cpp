@@ -1,6 +1,7 @@
 #include "lichtmc/simulate.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <string>
 #include <thread>
@@ -14,13 +15,13 @@
 #include "lichtmc/error.hpp"
 #include "lichtmc/version.hpp"
 #include "run/collectives.hpp"
-#include "run/forward.hpp"
-#include "run/gather.hpp"
+#include "run/context.hpp"
+#include "run/drive.hpp"
 #include "run/receive.hpp"
 #include "run/run_record.hpp"
 #include "run/settings_check.hpp"
 #include "run/stop_watch.hpp"
-#include "run/surface_results.hpp"
+#include "run/tiles_forward.hpp"
 #include "run/warnings.hpp"
 #include "walk/non_absorbing_enclosure.hpp"
 #include "walk/scene.hpp"
@@ -59,16 +60,6 @@ std::vector<Ignored> ignored_by_run(const Room& room, Measured measured) {
   return ignored;
 }
 
-// How good the tiles are.
-void rate(Result& result) {
-  result.rms_relative_error = rms_relative_error(result.tiling, result.tiles);
-  result.figure_of_merit = 1.0 / (result.rms_relative_error * result.rms_relative_error * result.seconds);
-  if (result.convergence.empty() || result.convergence.back().histories != result.histories)
-    result.convergence.push_back({result.histories, result.seconds, result.rms_relative_error});
-  result.tiles_without_hits = static_cast<std::uint64_t>(std::count_if(
-      result.tiles.begin(), result.tiles.end(), [](const TileResult& tile) { return !(tile.irradiance > 0.0); }));
-}
-
 // What holds of the run as a whole.
 void complete(Result& result, const Room& room) {
   result.room = room.source;
@@ -76,6 +67,9 @@ void complete(Result& result, const Room& room) {
   result.receivers = room.receivers;
   result.ignored = ignored_by_run(room, result.settings.measured);
   result.mended = room.mended;
+  for (const WalkReport* report : {&result.walk, &result.receiver_walk}) {
+    if (!report->choice.empty()) result.choices.push_back(report->choice);
+  }
   result.balance.emitted = total_power(room);
   result.warnings = warnings_of(room, result);
 }
@@ -109,26 +103,17 @@ std::optional<double> half_of_time(const Settings& settings, const WalkedBefore&
   return std::clamp(half - mine, 0.0, *settings.max_seconds);
 }
 
-void simulate_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
-                    const Control& control, StopWatch& watch, RunRecord& record) {
-  if (settings.tile_walk == WalkDirection::forward) {
-    walk_from_emitters(room, scene, settings, control, watch, record, result);
-  } else {
-    walk_from_tiles(room, scene, settings, control, watch, record, result);
-  }
-  rate(result);
-}
-
-// Which walks there are to do. A state that is only read may hold one of them, or both.
-struct WaysToGo {
-  WaysToGo(const Room& room, const Settings& settings, const RunRecord& record) {
+// Which walks a run has. A state that is only read may hold one of them, or both.
+struct Walks {
+  Walks(const Room& room, const Settings& settings, const RunRecord& record) {
     const StateData& data = record.data();
-    forward = settings.measured != Measured::receivers && (!record.only_read() || data.photons || data.tile_walks);
-    backward =
+    tiles = settings.measured != Measured::receivers && (!record.only_read() || data.photons || data.tile_walks);
+    receivers =
         settings.measured != Measured::tiles && !room.receivers.empty() && (!record.only_read() || data.receivers);
   }
-  bool forward = false;
-  bool backward = false;
+  bool tiles = false;
+  bool receivers = false;
+  bool both() const { return tiles && receivers; }
 };
 
 constexpr const char* tiles_left_out =
@@ -141,23 +126,6 @@ constexpr const char* receivers_left_out =
     "The run was stopped before the direct light of the receivers was found anew: they are not among the results. The "
     "state has the walks back from them; going on from it brings them back.";
 
-// The receivers after the tiles. What was found of the tiles is kept where a stop comes before there is anything to
-// tell of the receivers: false then.
-bool receive_after_tiles(Result& result, const Room& room, const Scene& scene, const Settings& settings,
-                         const Control& control, StopWatch& watch, RunRecord& record) {
-  if (count_votes(control.communicator, control.stop.stop_requested()) > 0) {
-    result.stopped_by = StopReason::interrupt;
-    return false;
-  }
-  try {
-    receive(room, scene, settings, control, watch, record, result);
-    return true;
-  } catch (const StoppedTooSoon&) {
-    result.stopped_by = watch.reason().value_or(StopReason::interrupt);
-    return false;
-  }
-}
-
 // A state has one of them; it is found from the room, so that another one means that the file was tampered with.
 void note_engine(StateData& data, Engine used) {
   if ((data.photons || data.tile_walks || data.receivers) && data.engine != used) {
@@ -168,47 +136,105 @@ void note_engine(StateData& data, Engine used) {
   data.engine = used;
 }
 
-Result simulate_checked(const Room& room, const Settings& settings, const Control& control, RunRecord& record) {
-  Result result;
-  result.settings = settings;
-  result.threads = threads_for(settings);
-  result.processes = size_of(control.communicator);
-  result.tiling = make_tiling(room, settings.tile_edge_m);
-  const Scene scene(room, result.tiling, settings.engine);
-  note_engine(record.data(), scene.engine);
-  result.engine = scene.engine;
-  // Photons are only counted again where a state is only read, by one thread.
-  const unsigned tallies = record.only_read() ? 1 : result.threads;
-  check_memory(room, result.tiling, settings, tallies, result.processes, scene.has_reflectance_maps());
-  if (!settings.max_bounces && has_non_absorbing_enclosure(scene, settings.seed)) refuse_non_absorbing_enclosure(room);
-  const WaysToGo go(room, settings, record);
-  const WalkedBefore before(record.data());
-  const bool both = go.forward && go.backward;
-  if (both && !record.data().receivers) check_receiver_rounds(room, settings);
-  const bool receivers_known = record.data().receivers.has_value();
-  bool receivers_told = true;
-  if (go.forward) {
-    StopWatch watch(both ? half_of_time(settings, before, before.tiles) : settings.max_seconds, control.stop,
-                    before.tiles, control.communicator);
-    simulate_tiles(result, room, scene, settings, control, watch, record);
+// One run whose input has been checked.
+class Run {
+ public:
+  Run(const Room& room, const Settings& settings, const Control& control, RunRecord& record)
+      : room_(room),
+        settings_(settings),
+        control_(control),
+        record_(record),
+        walks_(room, settings, record),
+        before_(record.data()),
+        receivers_in_state_(record.data().receivers.has_value()) {
+    result_.settings = settings;
+    result_.threads = threads_for(settings);
+    result_.processes = size_of(control.communicator);
+    result_.tiling = make_tiling(room, settings.tile_edge_m);
+    scene_ = std::make_unique<Scene>(room, result_.tiling, settings.engine);
+    note_engine(record.data(), scene_->engine);
+    result_.engine = scene_->engine;
   }
-  if (go.backward) {
-    StopWatch watch(both ? half_of_time(settings, before, before.receivers) : settings.max_seconds, control.stop,
-                    before.receivers, control.communicator);
-    if (both) {
-      receivers_told = receive_after_tiles(result, room, scene, settings, control, watch, record);
-    } else {
-      receive(room, scene, settings, control, watch, record, result);
+
+  Result simulate() {
+    check();
+    if (walks_.tiles) measure_tiles();
+    if (walks_.receivers) measure_receivers_after_tiles();
+    complete(result_, room_);
+    warn_of_missing();
+    result_.checkpoint_seconds = record_.spent();
+    result_.state = record_.close();
+    return std::move(result_);
+  }
+
+ private:
+  void check() const {
+    // Where a state is only read, photons are simulated by one thread, the end of a batch.
+    const unsigned tallies = record_.only_read() ? 1 : result_.threads;
+    check_memory(room_, result_.tiling, settings_, tallies, result_.processes, scene_->has_reflectance_maps());
+    if (!settings_.max_bounces && has_non_absorbing_enclosure(*scene_, settings_.seed))
+      refuse_non_absorbing_enclosure(room_);
+    if (walks_.both() && !receivers_in_state_) check_receiver_rounds(room_, settings_);
+  }
+
+  // Where tiles and receivers are measured each gets half of the time.
+  std::optional<double> time_for(double mine) const {
+    return walks_.both() ? half_of_time(settings_, before_, mine) : settings_.max_seconds;
+  }
+
+  RunContext context(StopWatch& watch) const {
+    return {room_, result_.tiling, *scene_, settings_, control_, watch, record_, result_.threads};
+  }
+
+  void measure_tiles() {
+    StopWatch watch(time_for(before_.tiles), control_.stop, before_.tiles, control_.communicator);
+    const RunContext tiles_context = context(watch);
+    TileMeasurement measured = settings_.tile_walk == WalkDirection::forward ? measure_tiles_forward(tiles_context)
+                                                                             : measure_tiles_backward(tiles_context);
+    result_.walk = std::move(measured.report);
+    result_.tiles = std::move(measured.tiles);
+    result_.surfaces = std::move(measured.surfaces);
+    result_.balance = measured.balance;
+    result_.incident = measured.incident;
+    result_.incident_standard_error = measured.incident_standard_error;
+    result_.lost_histories = measured.lost_histories;
+    result_.tiles_without_hits = static_cast<std::uint64_t>(std::count_if(
+        result_.tiles.begin(), result_.tiles.end(), [](const TileResult& tile) { return !(tile.irradiance > 0.0); }));
+  }
+
+  // Where a stop comes before there is a result of the receivers, the tiles' result is kept.
+  void measure_receivers_after_tiles() {
+    if (walks_.tiles && count_votes(control_.communicator, control_.stop.stop_requested()) > 0) {
+      result_.walk.stopped_by = StopReason::interrupt;
+      return;
+    }
+    StopWatch watch(time_for(before_.receivers), control_.stop, before_.receivers, control_.communicator);
+    try {
+      ReceiverMeasurement measured = measure_receivers(context(watch));
+      result_.receiver_results = std::move(measured.receivers);
+      result_.receiver_walk = std::move(measured.report);
+    } catch (const StoppedTooSoon&) {
+      if (!walks_.tiles) throw;
+      result_.walk.stopped_by = watch.reason().value_or(StopReason::interrupt);
     }
   }
-  complete(result, room);
-  const bool tiles_missing = settings.measured != Measured::receivers && !go.forward;
-  if (tiles_missing) result.warnings.emplace_back(tiles_left_out);
-  if (!receivers_told) result.warnings.emplace_back(receivers_known ? receivers_left_out : receivers_not_measured);
-  result.checkpoint_seconds = record.spent();
-  result.state = record.close();
-  return result;
-}
+
+  void warn_of_missing() {
+    if (settings_.measured != Measured::receivers && !walks_.tiles) result_.warnings.emplace_back(tiles_left_out);
+    if (walks_.receivers && result_.receiver_results.empty())
+      result_.warnings.emplace_back(receivers_in_state_ ? receivers_left_out : receivers_not_measured);
+  }
+
+  const Room& room_;
+  const Settings& settings_;
+  const Control& control_;
+  RunRecord& record_;
+  Walks walks_;
+  WalkedBefore before_;
+  bool receivers_in_state_;
+  Result result_;
+  std::unique_ptr<Scene> scene_;
+};
 
 // All members have read the same files and were given the same options, or histories would count twice. All refuse.
 void check_ranks_agree(Communicator* communicator, const StateData& data) {
@@ -240,7 +266,7 @@ Result simulate_from(const Room& room, const Settings& settings, const Control& 
     }
     check_ranks_agree(control.communicator, data);
     RunRecord record(control, std::move(data), only_read);
-    return simulate_checked(room, settings, control, record);
+    return Run(room, settings, control, record).simulate();
   } catch (const std::bad_alloc&) {
     throw RuntimeError("There is not enough memory to simulate " + room.source +
                        ". Use larger tiles (--tile) or fewer threads (--threads).");

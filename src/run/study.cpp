@@ -49,7 +49,7 @@ Reference make_reference(Result result) {
     area += area_m2;
     squares += area_m2 * relative * relative;
   }
-  reference.facts = {result.settings.tile_edge_m, result.tiles.size(), result.histories,
+  reference.facts = {result.settings.tile_edge_m, result.tiles.size(), result.walk.histories,
                      area_weighted_rms(squares, area), lit > 0.0 ? area / lit : 0.0};
   reference.result = std::move(result);
   return reference;
@@ -58,14 +58,14 @@ Reference make_reference(Result result) {
 StudyRow row_of(const Result& result, const Reference& reference) {
   StudyRow row;
   row.direction = result.settings.tile_walk;
-  row.estimator = result.estimator;
+  row.estimator = result.walk.estimator;
   row.engine = result.engine;
-  row.histories = result.histories;
+  row.histories = result.walk.histories;
   row.max_bounces = result.settings.max_bounces;
   row.tile_edge_m = result.settings.tile_edge_m;
   row.direct = direct_is_apart(result) ? Direct::analytic : Direct::sampled;
-  row.seconds = result.seconds;
-  row.direct_seconds = result.direct_seconds;
+  row.seconds = result.walk.seconds;
+  row.direct_seconds = result.walk.direct_seconds;
   double area = 0.0;
   double squares = 0.0;
   double stated = 0.0;
@@ -228,9 +228,9 @@ const Reference& Studying::reference_for(double edge, double share) {
   settings.photons = std::uint64_t{1} << 62;
   settings.max_seconds = share * options_->seconds;
   Reference reference = make_reference(simulate(*room_, settings, control()));
-  if (reference.result.histories < 2 * reference_factor * batch_histories) {
+  if (reference.result.walk.histories < 2 * reference_factor * batch_histories) {
     throw InputError("The time of " + short_number(options_->seconds) + " s is too short to study " + room_->source +
-                     ": its reference came to " + std::to_string(reference.result.histories) + " photons (allowed: " +
+                     ": its reference came to " + std::to_string(reference.result.walk.histories) + " photons (allowed: " +
                      std::to_string(2 * reference_factor * batch_histories) + " or more). Give --max-time more.");
   }
   study_.references.push_back(reference.facts);
@@ -247,10 +247,10 @@ bool Studying::measure_once(const Plan& plan, const Reference& reference, std::u
   const auto began = std::chrono::steady_clock::now();
   const Result result = simulate(*room_, settings, control());
   seconds_left -= std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  const bool longer = !plan.ladder || result.histories > rung_;
-  rung_ = result.histories;
+  const bool longer = !plan.ladder || result.walk.histories > rung_;
+  rung_ = result.walk.histories;
   if (longer) study_.rows.push_back(row_of(result, reference));
-  return result.stopped_by == StopReason::photons && seconds_left > 0.0;
+  return result.walk.stopped_by == StopReason::photons && seconds_left > 0.0;
 }
 
 void Studying::measure(const Plan& plan) {
@@ -260,7 +260,7 @@ void Studying::measure(const Plan& plan) {
   try {
     const Reference& reference = reference_for(plan.settings.tile_edge_m, for_other_sizes);
     begin(plan.name);
-    const std::uint64_t batches = reference.result.histories / reference_factor / batch_histories;
+    const std::uint64_t batches = reference.result.walk.histories / reference_factor / batch_histories;
     for (std::uint64_t step = plan.ladder ? steps_of_ladder : 1; step-- > 0;) {
       const std::uint64_t on_step = batches >> (2 * step);
       if (on_step < 2) continue;  // one batch alone tells no error

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "run/gather.hpp"
+#include "run/backward_work.hpp"
 
 namespace lichtmc {
 

@@ -59,12 +59,12 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result) {
   std::vector<std::string> warnings;
   const Balance& balance = result.balance;
   for (const OutsideEmitter& outside : emitters_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
-  if (result.settings.measured != Measured::receivers && result.impacts == 0) {
+  if (result.settings.measured != Measured::receivers && result.walk.impacts == 0) {
     warnings.push_back(
         "No light met any surface. Check the positions and directions of the emitters; a surface emits light from its "
         "front only.");
   }
-  const bool roulette = result.estimator == Estimator::weight && !result.settings.max_bounces;
+  const bool roulette = result.walk.estimator == Estimator::weight && !result.settings.max_bounces;
   constexpr double noticeable = 0.001;
   if (!roulette && balance.residual > noticeable * balance.emitted) {
     warnings.push_back(percent(balance.residual / balance.emitted) +
@@ -73,7 +73,7 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result) {
                        "the highest reflectances (--max-reflectance 0.9).");
   }
   if (result.lost_histories > 0) {
-    warnings.push_back(to_text(result.lost_histories, "photon") + " of " + std::to_string(result.histories) +
+    warnings.push_back(to_text(result.lost_histories, "photon") + " of " + std::to_string(result.walk.histories) +
                        " left a closed room by a numerical fault: their power is reported as lost.");
   }
   std::size_t perfect = 0;

@@ -38,7 +38,7 @@ WorkerThreads::WorkerThreads(const Scene& scene, const Settings& settings, const
   broadcast(communicator_, round_);  // members may have other numbers of threads
 }
 
-void WorkerThreads::go_on_from(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals) {
+void WorkerThreads::restore(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals) {
   whole_ = own(std::move(totals));
   before_ = std::move(ranges);
   range_ = before_.back();
@@ -46,29 +46,23 @@ void WorkerThreads::go_on_from(std::vector<HistoryRange> ranges, std::shared_ptr
   reporter_.set_before(histories());
 }
 
-void WorkerThreads::keep(RunRecord& record) {
+void WorkerThreads::begin(RunRecord& record) {
   record_ = &record;
   const std::size_t bytes = whole_->tiles.size() * sizeof(Moments) + whole_->hits.size() * sizeof(std::uint64_t);
   record.expect(static_cast<double>(bytes));
+  // An earlier session may have ended within a batch: its whole batches count.
+  range_.last -= (range_.last - range_.first) % batch_histories;
 }
 
 std::uint64_t WorkerThreads::histories() const {
   return range_.last - range_.first + ends_ + count_of(before_);
 }
 
-void WorkerThreads::simulate_up_to(std::uint64_t count) {
+void WorkerThreads::simulate_towards(std::uint64_t count) {
   const std::uint64_t rest = count % batch_histories;
   const std::uint64_t end = range_.first + (count - rest);
-  // An earlier session may have ended within a batch: its whole batches are what counts.
-  range_.last -= (range_.last - range_.first) % batch_histories;
-  while (range_.last < end && !watch_->reason()) {
-    communicator_ == nullptr ? simulate_alone(end) : simulate_in_ranks(end);
-    if (watch_->reason() || record_ == nullptr) continue;
-    bool due = record_->due();
-    broadcast(communicator_, due);
-    if (due) checkpoint();
-  }
-  if (rest == 0 || watch_->reason() || ends_ > 0) return;
+  if (range_.last < end) return communicator_ == nullptr ? simulate_alone(end) : simulate_in_ranks(end);
+  if (rest == 0 || ends_ > 0) return;
   collect();
   simulate_part({end, end + rest});
 }
@@ -206,17 +200,6 @@ Counted WorkerThreads::state() {
   counted.ranges.push_back(range);
   counted.totals = whole_;
   return counted;
-}
-
-void WorkerThreads::checkpoint() {
-  record_->checkpoint([this](StateData& data) {
-    const Counted counted = state();
-    data.photons->ranges = counted.ranges;
-    data.photons->totals = counted.totals;
-    data.photons->seconds = watch_->seconds();
-  });
-  after_checkpoint_ = true;
-  record_->data().photons->totals.reset();  // or it would be copied before the next batch is added
 }
 
 }  // namespace lichtmc

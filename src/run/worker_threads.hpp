@@ -27,15 +27,15 @@ class WorkerThreads {
                 unsigned threads);
 
   // Goes on from what an earlier session has counted. Before anything is simulated.
-  void go_on_from(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals);
+  void restore(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals);
 
   // Shows the state there when it is time; none until then. It must outlive the crew.
-  void keep(RunRecord& record);
+  void begin(RunRecord& record);
 
   // Simulates the histories from where the last call ended up to the `count`th, or until the watch says stop; a batch
   // begun is finished. The histories done are always the first ones, without a gap. A count that is not one of whole
   // batches ends the work. Rethrows what a thread or the callback threw.
-  void simulate_up_to(std::uint64_t count);
+  void simulate_towards(std::uint64_t count);
 
   // Of what an earlier session has counted, the ends of ranges within a batch, which states do not hold. Ends the work.
   void simulate_ends();
@@ -54,6 +54,8 @@ class WorkerThreads {
     reporter_.set_error(rms_relative_error, histories_to_target);
   }
   void set_stage(Progress::Stage stage) { reporter_.set_stage(stage); }
+  // New tallies, which the next call makes, are a part of what a checkpoint costs.
+  void after_checkpoint() { after_checkpoint_ = true; }
 
  private:
   struct Worker {
@@ -71,7 +73,6 @@ class WorkerThreads {
   void simulate_part(HistoryRange range);
   bool abandoned() const;
   void collect();
-  void checkpoint();
 
   const Scene* scene_;
   Hits hits_;

@@ -197,7 +197,7 @@ class PolicyBackwardWalk final : public BackwardWalk {
       : goal_(scene, light, origins, scale, Stream(seed, WalkDirection::backward)),
         kernel_(scene, Stream(seed, WalkDirection::backward), max_flights) {}
 
-  void simulate(const BackwardWork& work, std::vector<BackwardSums>& sums, BackwardCount& count,
+  void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,
                 const Abandon& abandon) override {
     static_assert(batch_histories % Origins::group == 0);  // no round is torn apart
     goal_.begin(count);

@@ -53,7 +53,7 @@ struct BackwardScale {
 
 // Which walks: of every origin from first to before last, samples from first_sample to before last_sample each, both
 // whole rounds.
-struct BackwardWork {
+struct WalkBlock {
   std::uint64_t first = 0;
   std::uint64_t last = 0;
   std::uint64_t first_sample = 0;
@@ -76,7 +76,7 @@ class BackwardWalk {
   virtual ~BackwardWalk() = default;
 
   // Simulates histories; sums[k] belongs to origin work.first + k.
-  virtual void simulate(const BackwardWork& work, std::vector<BackwardSums>& sums, BackwardCount& count,
+  virtual void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,
                         const Abandon& abandon) = 0;
 
  protected:

@@ -26,8 +26,8 @@ BELOW = {
 PUBLIC = {
     "error": "base", "walk_direction": "base", "emitter_law": "chance", "units": "base", "version": "base",
     "room": "room", "cuboid": "room", "overrides": "room", "tiles": "room",
-    "settings": "room", "state": "room",  # plain data that every layer may read
-    "communicator": "run", "mpi": "mpi",
+    "settings": "room", "fingerprint": "room",  # plain data that every layer may read
+    "communicator": "run", "control": "run", "progress": "run", "state": "run", "mpi": "mpi",
     "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
     "paths": "walk", "picture": "view",
     "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output",

@@ -118,27 +118,27 @@ TEST_CASE("a forecast extrapolates the slope of the errors") {
   CHECK(std::isnan(none.histories_to(0.01)));
   // R = 10/√N.
   Forecast steady;
-  for (const std::uint64_t n : {1000U, 2000U, 4000U}) steady.look(n, 10.0 / std::sqrt(n));
+  for (const std::uint64_t n : {1000U, 2000U, 4000U}) steady.add(n, 10.0 / std::sqrt(n));
   CHECK(steady.histories_to(0.01) == Approx(1e6));
   CHECK(steady.histories_to(1.0) == 4000.0);  // met
   // R = N^(−1/4) while tiles still get their first hits: half the error requires 16 times the histories. After 100
   // times the histories all have hits: R(4·10⁵) = 0.0398, and from there the square-root law holds.
   Forecast slow;
-  for (const std::uint64_t n : {1000U, 2000U, 4000U}) slow.look(n, std::pow(n, -0.25));
+  for (const std::uint64_t n : {1000U, 2000U, 4000U}) slow.add(n, std::pow(n, -0.25));
   CHECK(slow.histories_to(std::pow(4000.0, -0.25) / 2.0) == Approx(64'000.0));
   CHECK(slow.histories_to(0.01) == Approx(4e5 * std::pow(std::pow(4e5, -0.25) / 0.01, 2.0)));
   // Errors that decrease faster than any law, and one that does not decrease: the result is a number in both cases.
   Forecast lucky;
-  lucky.look(1000, 1.0);
-  lucky.look(2000, 0.1);
+  lucky.add(1000, 1.0);
+  lucky.add(2000, 0.1);
   CHECK(lucky.histories_to(0.01) == Approx(2000.0 * 100.0));
   Forecast stuck;
-  stuck.look(1000, 0.5);
-  stuck.look(2000, 0.5);
+  stuck.add(1000, 0.5);
+  stuck.add(2000, 0.5);
   CHECK(std::isfinite(stuck.histories_to(0.25)));
   CHECK(stuck.histories_to(0.25) > 1e5);
   // A value that is no error is no error check.
   Forecast unknown;
-  unknown.look(1000, std::numeric_limits<double>::quiet_NaN());
+  unknown.add(1000, std::numeric_limits<double>::quiet_NaN());
   CHECK(std::isnan(unknown.histories_to(0.01)));
 }

@@ -80,7 +80,7 @@ TEST_CASE("automatic: receivers and tiles with backward walks have separate choi
   REQUIRE(both.choices.size() == 2);
   CHECK(both.choices[0].find("the tiles") != std::string::npos);
   CHECK(both.choices[1].find("the receivers") != std::string::npos);
-  settings.estimator = both.backward.estimator;
+  settings.estimator = both.receiver_walk.estimator;
   CHECK(simulate(room, settings).receiver_results[0].irradiance == both.receiver_results[0].irradiance);
   settings.estimator = Estimator::automatic;
   settings.measured = Measured::tiles;

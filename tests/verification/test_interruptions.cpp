@@ -180,14 +180,14 @@ TEST_CASE("a stop request to any rank stops all ranks together, in any stage") {
       if (communicator.rank() == 0) control.checkpoint = [&](const State& /*state*/) { source.request_stop(); };
       const Result result = simulate(room, settings, control);
       states[communicator.rank()] = result.state;
-      reasons[communicator.rank()] = ways == Measured::receivers ? result.backward.stopped_by : result.stopped_by;
+      reasons[communicator.rank()] = ways == Measured::receivers ? result.receiver_walk.stopped_by : result.stopped_by;
     });
     CHECK(reasons == std::vector<StopReason>(3, StopReason::interrupt));
     Settings as_far = settings;
     as_far.photons = 1;
     const Result first = resume(room, states[0], as_far);
     CHECK(same_figures(first, resume(room, states[2], as_far)));
-    as_far.photons = ways == Measured::receivers ? first.backward.histories : first.histories;
+    as_far.photons = ways == Measured::receivers ? first.receiver_walk.histories : first.histories;
     CHECK(same_figures(first, simulate(room, as_far)));
   }
 }

@@ -100,7 +100,7 @@ TEST_CASE("receivers: CIE 171 case 5.6 by the closed polygon formula and by poin
     room.receivers = {at({2.0, height, 0.0}, {0, 0, 1})};
     const Result result = simulate(room, backward(Estimator::collision, Engine::automatic, 10, 1));
     const ReceiverResult& one = result.receiver_results[0];
-    CHECK(result.backward.shadow_rays > 0);
+    CHECK(result.receiver_walk.shadow_rays > 0);
     CHECK(one.standard_error > 0.0);
     CHECK(one.standard_error < 1e-2 * one.direct);
     CHECK(std::abs(one.direct - 0.01 * expected) < 5.0 * one.standard_error);
@@ -128,8 +128,8 @@ TEST_CASE("receivers: the paper's cube, indirect light of every floor tile's cen
     for (const Engine engine : {Engine::cuboid, Engine::embree}) {
       for (const Estimator estimator : estimators) {
         const Result result = simulate(room, backward(estimator, engine, 1e6, 31));
-        CHECK(result.backward.shadow_rays == 0);
-        CHECK(result.backward.histories == 1000000);
+        CHECK(result.receiver_walk.shadow_rays == 0);
+        CHECK(result.receiver_walk.histories == 1000000);
         const Verdict verdict = compare(indirect_against(result, expected));
         check(std::string(to_string(estimator)) + ", " + std::string(to_string(engine)), verdict);
         CHECK(verdict.smallest_bias < 0.05);
@@ -179,7 +179,7 @@ TEST_CASE("receivers: a sphere gives every point the same indirect light") {
   for (const Estimator estimator : estimators) {
     const Result result = simulate(room, backward(estimator, Engine::automatic, 2.4e5, 51));
     check(std::string(to_string(estimator)), compare(indirect_against(result, [&](std::size_t) { return expected; })));
-    CHECK(result.backward.shadow_rays == 0);  // no shadows in a sphere
+    CHECK(result.receiver_walk.shadow_rays == 0);  // no shadows in a sphere
   }
 }
 
@@ -284,7 +284,7 @@ TEST_CASE("receivers: the same figures for any number of threads") {
     Settings settings = backward(Estimator::collision, Engine::automatic, 40000, 91);
     settings.threads = threads;
     const Result result = simulate(room, settings);
-    CHECK(result.backward.shadow_rays > 0);
+    CHECK(result.receiver_walk.shadow_rays > 0);
     if (first.empty()) first = result.receiver_results;
     for (std::size_t k = 0; k < first.size(); ++k) {
       REQUIRE(result.receiver_results[k].irradiance == first[k].irradiance);

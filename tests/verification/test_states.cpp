@@ -85,7 +85,7 @@ TEST_CASE("a run with an automatic estimator keeps its choice and its error chec
   const Result resumed = resume(room, *first, settings);
   CHECK(same_figures(whole, resumed));
   CHECK(resumed.estimator == whole.estimator);
-  CHECK(resumed.backward.estimator == whole.backward.estimator);
+  CHECK(resumed.receiver_walk.estimator == whole.receiver_walk.estimator);
 }
 
 TEST_CASE("parts add up to one run, in any order and grouping") {

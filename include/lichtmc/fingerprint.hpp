@@ -1,0 +1,16 @@
+// What identifies a room, whatever file it came from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "lichtmc/room.hpp"
+
+namespace lichtmc {
+
+// Two rooms with the same fingerprint give the same figures: a hash (XXH3, 128 bits) of surfaces, reflectances,
+// emitters and receivers as modelled, not of the file that they came from.
+using Fingerprint = std::array<std::uint64_t, 2>;
+Fingerprint fingerprint(const Room& room);
+
+}  // namespace lichtmc

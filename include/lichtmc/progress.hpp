@@ -1,0 +1,27 @@
+// How far a run has come.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace lichtmc {
+
+struct Progress {
+  enum class Stage {
+    direct_light,  // it is integrated; histories and target count tiles, or receivers
+    pilot,         // short walks by which Estimator::automatic chooses
+    tiles,         // walks for the tiles
+    receivers,     // walks for the receivers
+  };
+  Stage stage = Stage::tiles;
+  std::uint64_t histories = 0;  // simulated so far
+  std::uint64_t target = 0;     // to simulate if no other stop rule comes first
+  std::uint64_t impacts = 0;
+  double seconds = 0.0;  // since the walk, or its direct light, began
+  // At the last error check; NaN before the first.
+  double rms_relative_error = std::numeric_limits<double>::quiet_NaN();
+  // Forecast of the time until Settings::target_error is met, from the errors so far; NaN where there is none.
+  double seconds_to_target = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace lichtmc

@@ -1,0 +1,278 @@
+#include "run/backward_work.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "lichtmc/error.hpp"
+#include "run/collectives.hpp"
+#include "run/drive.hpp"
+#include "run/rounds.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// Histories that a thread takes at a time: some waves, so that the lock that ends them costs nothing.
+constexpr std::uint64_t histories_at_a_time = 8192;
+
+[[noreturn]] void refuse_too_short() {
+  throw StoppedTooSoon(
+      "The run was stopped before its direct light and the first backward walks were completed: there is no result, "
+      "and "
+      "the files in its folder stay as they were. Give it more time.");
+}
+
+Settings with_estimator(Settings settings, Estimator estimator) {
+  settings.estimator = estimator;
+  return settings;
+}
+
+}  // namespace
+
+BackwardWork::BackwardWork(const RunContext& context, const BackwardTask& task, Estimator estimator,
+                           Progress::Stage stage, const std::vector<DirectIrradiance>& direct)
+    : context_(context),
+      task_(task),
+      settings_(with_estimator(context.settings, estimator)),
+      together_(task.origins * task.group),
+      range_(rounds_of(settings_, together_)),
+      reporter_(context.control, context.watch, stage == Progress::Stage::pilot ? stage : task.stage,
+                histories_of(range_.last - range_.first)) {
+  found_.direct = direct;
+  found_.sums = std::make_shared<std::vector<BackwardSums>>(task.origins);
+  found_.group = task.group;
+  found_.unit = task.unit;
+}
+
+std::uint64_t BackwardWork::histories_of(std::uint64_t rounds) const {
+  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  return rounds > most / together_ ? most : rounds * together_;
+}
+
+CheckSchedule BackwardWork::schedule() const {
+  const std::uint64_t first = std::max(2U, 256 / task_.group);  // an error from 256 walks is known to 4 %
+  return {first, range_.last - range_.first, 1, 4};
+}
+
+std::uint64_t BackwardWork::pilot_rounds(const RunContext& context, const BackwardTask& task, Estimator estimator) {
+  // Some walks from every origin, or there is nothing to compare.
+  constexpr std::uint64_t fewest_rounds = 8;
+  const std::uint64_t together = task.origins * task.group;
+  Settings settings = context.settings;
+  settings.photons = std::max(pilot_histories(settings.photons, estimator), fewest_rounds * together);
+  const HistoryRange rounds = rounds_of(settings, together);
+  return rounds.last - rounds.first;
+}
+
+void BackwardWork::restore(StateData& data) {
+  const BackwardState& before = *(data.*task_.slot);
+  if (before.sums->size() != task_.origins || before.group != task_.group) {
+    throw InputError("The state has walks from " + std::to_string(before.sums->size()) + " origins, here are " +
+                     std::to_string(task_.origins) +
+                     " (allowed: the same number). The state is not one of this room; run anew.");
+  }
+  if (!context_.record.only_read()) check_whole(settings_, together_, before, task_.name);
+  found_.sums = before.sums.use_count() > 1 ? std::make_shared<std::vector<BackwardSums>>(*before.sums)
+                                            : std::const_pointer_cast<std::vector<BackwardSums>>(before.sums);
+  count_ = before.count;
+  found_.rounds = before.size();
+  before_ = before.ranges;
+  range_.first = before_.back().first;
+  range_.last = std::max(range_.last, before_.back().last);
+  before_.pop_back();
+  rounds_before_ = count_of(before_);
+  reporter_.set_before(histories_of(found_.rounds));
+}
+
+Walked& BackwardWork::write_to(StateData& data) {
+  std::optional<BackwardState>& slot = data.*task_.slot;
+  BackwardState& state = slot ? *slot : slot.emplace();
+  state.group = task_.group;
+  state.ranges = before_;
+  state.ranges.push_back({range_.first, range_.first + found_.rounds - rounds_before_});
+  state.count = count_;
+  state.sums = found_.sums;
+  return state;
+}
+
+Pilot BackwardWork::pilot() {
+  Pilot pilot;
+  pilot.estimator = settings_.estimator;
+  pilot.flights = static_cast<double>(count_.traced.rays);
+  for (std::size_t k = 0; k < found_.sums->size(); ++k) {
+    pilot.values.push_back(found_.direct[k].value + found_.indirect(k));
+    pilot.errors.push_back(found_.indirect_error(k));
+  }
+  return pilot;
+}
+
+// One step of some tenths of a second, after which the sums are complete.
+void BackwardWork::simulate_towards(std::uint64_t rounds) {
+  constexpr double step_seconds = 0.5;
+  const double began = context_.watch.seconds();
+  const std::uint64_t step = std::min(step_, rounds - found_.rounds);
+  if (!simulate_step(found_.rounds + step)) return;
+  const double took = context_.watch.seconds() - began;
+  if (step == step_ || took > step_seconds) {
+    const double factor = std::min(4.0, step_seconds / std::max(took, 1e-6));
+    step_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(static_cast<double>(step) * factor));
+  }
+  broadcast(context_.control.communicator, step_);
+}
+
+// A part of a step that a stop interrupts is discarded: every origin has the same rounds. Returns whether the step was
+// completed. Ranks agree after each step.
+bool BackwardWork::simulate_step(std::uint64_t rounds) {
+  std::vector<BackwardSums> sums(task_.origins);
+  BackwardCount count;
+  next_ = 0;
+  context_.watch.run_on_threads(context_.threads, [&](unsigned) { take_rounds(found_.rounds, rounds, sums, count); });
+  context_.watch.agree();
+  if (context_.watch.reason()) return false;
+  reduce(context_.control.communicator, sums);
+  reduce(context_.control.communicator, count);
+  if (found_.sums.use_count() > 1) found_.sums = std::make_shared<std::vector<BackwardSums>>(*found_.sums);
+  add_fields(*found_.sums, sums);
+  add_fields(count_, count);
+  found_.rounds = rounds;
+  return true;
+}
+
+void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, std::vector<BackwardSums>& step_sums,
+                               BackwardCount& step_count) {
+  const std::unique_ptr<BackwardWalk> walk = task_.make_walk(settings_);
+  const std::uint64_t rounds = last - first;
+  // Many origins with few rounds, or one origin with some of its rounds.
+  const std::uint64_t rounds_at_a_time = histories_at_a_time / task_.group;
+  const std::uint64_t together = std::max<std::uint64_t>(1, rounds_at_a_time / rounds);
+  const std::uint64_t parts = together > 1 ? 1 : (rounds + rounds_at_a_time - 1) / rounds_at_a_time;
+  // A member of a team takes its part of the pieces.
+  const Part mine = part_of(context_.control.communicator, (task_.origins + together - 1) / together * parts);
+  const std::uint64_t skipped = range_.first - rounds_before_;  // rounds are numbered from the run's first
+  std::vector<BackwardSums> sums;
+  while (!context_.watch.wants_to_stop()) {
+    const std::uint64_t piece = mine.first + next_.fetch_add(1);
+    if (piece >= mine.last) break;
+    WalkBlock work;
+    work.first = piece / parts * together;
+    work.last = std::min<std::uint64_t>(task_.origins, work.first + together);
+    work.first_sample = (skipped + first + rounds * (piece % parts) / parts) * task_.group;
+    work.last_sample = (skipped + first + rounds * (piece % parts + 1) / parts) * task_.group;
+    sums.assign(work.last - work.first, {});
+    BackwardCount count;
+    walk->simulate(work, sums, count, [this] {
+      reporter_.add(0, 0);
+      return context_.watch.wants_to_stop();
+    });
+    {
+      const std::lock_guard lock(mutex_);
+      for (std::size_t k = 0; k < sums.size(); ++k) add_fields(step_sums[work.first + k], sums[k]);
+      add_fields(step_count, count);
+    }
+    const std::uint64_t walks = (work.last - work.first) * (work.last_sample - work.first_sample);
+    const unsigned alike = size_of(context_.control.communicator);  // the others are as far as this member
+    reporter_.add(walks * alike, count.traced.rays * alike);
+  }
+}
+
+std::vector<DirectIrradiance> direct_light_of(std::size_t origins,
+                                              const std::function<DirectIrradiance(std::size_t, TraceCount&)>& direct,
+                                              const Control& control, unsigned threads, StopWatch& watch,
+                                              TraceCount& traced) {
+  constexpr std::size_t at_a_time = 64;
+  std::vector<DirectIrradiance> found(origins);
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  ProgressReporter reporter(control, watch, Progress::Stage::direct_light, origins);
+  const Part mine = part_of(control.communicator, origins);
+  next = mine.first;
+  BackwardCount traced_here;
+  watch.run_on_threads(threads, [&](unsigned) {
+    TraceCount count;
+    while (!watch.wants_to_stop()) {
+      const std::size_t first = next.fetch_add(at_a_time);
+      if (first >= mine.last) break;
+      const std::size_t last = std::min<std::size_t>(mine.last, first + at_a_time);
+      for (std::size_t k = first; k < last; ++k) found[k] = direct(k, count);
+      reporter.add(last - first, 0);
+    }
+    const std::lock_guard lock(mutex);
+    traced_here.traced.add(count);
+  });
+  watch.agree();
+  if (watch.reason()) refuse_too_short();
+  combine(control.communicator, found);
+  reduce(control.communicator, traced_here);
+  traced.add(traced_here.traced);
+  return found;
+}
+
+double OriginEstimates::indirect(std::size_t k) const {
+  return static_cast<double>((*sums)[k].sum) / static_cast<double>(rounds * group) * unit;
+}
+
+// Rounds are independent: the variance of their mean from their own spread.
+double OriginEstimates::indirect_error(std::size_t k) const {
+  if (rounds < 2) return std::numeric_limits<double>::quiet_NaN();
+  const auto n = static_cast<long double>(rounds);
+  const auto sum = static_cast<long double>((*sums)[k].sum);
+  const long double between = static_cast<long double>((*sums)[k].squares) - sum / n * sum;
+  return static_cast<double>(std::sqrt(std::max(between, 0.0L) / (n - 1) / n)) / group * unit;
+}
+
+namespace {
+
+class BackwardMeasurement final : public Measurement {
+ public:
+  BackwardMeasurement(const RunContext& context, const BackwardTask& task) : context_(context), task_(task) {
+    const bool continues = stored(context.record.data()) != nullptr;
+    if (!continues) check_rounds(context.settings, task.origins * task.group, task.name);
+    direct_seconds_ = outside_time_limit(context, continues, [&] {
+      direct_ =
+          direct_light_of(task.origins, task.direct, context.control, context.threads, context.watch, direct_count_);
+    });
+  }
+
+  std::string name() const override { return task_.name; }
+  Walked* stored(StateData& data) const override { return data.*task_.slot ? &*(data.*task_.slot) : nullptr; }
+  std::unique_ptr<Work> make_work(Estimator estimator, Progress::Stage stage) override {
+    return std::make_unique<BackwardWork>(context_, task_, estimator, stage, direct_);
+  }
+  std::uint64_t pilot_count(Estimator estimator) const override {
+    return BackwardWork::pilot_rounds(context_, task_, estimator);
+  }
+  bool keeps_pilot() const override { return false; }
+  Choice judge(std::vector<Pilot>& pilots) override {
+    return choose_best(pilots, pooled_values(pilots), task_.weights, task_.name);
+  }
+
+  void add_direct(WalkReport& report) const {
+    report.rays += direct_count_.rays;
+    report.shadow_rays += direct_count_.shadow_rays;
+    report.direct_seconds = direct_seconds_;
+  }
+
+ private:
+  const RunContext& context_;
+  const BackwardTask& task_;
+  std::vector<DirectIrradiance> direct_;
+  TraceCount direct_count_;
+  double direct_seconds_ = 0.0;
+};
+
+}  // namespace
+
+BackwardOutcome walk_backward(const RunContext& context, const BackwardTask& task) {
+  BackwardMeasurement measurement(context, task);
+  Driven driven = drive(context, measurement);
+  const OriginEstimates& found = static_cast<const BackwardWork&>(*driven.work).estimates();
+  if (found.rounds == 0) refuse_too_short();
+  BackwardOutcome outcome{found, std::move(driven.report)};
+  measurement.add_direct(outcome.report);
+  finish_report(outcome.report, task.error(found));
+  return outcome;
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,113 @@
+// Backward walks from many origins (receivers, or faces of tiles) with one estimator, as work for the run driver.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/context.hpp"
+#include "run/progress_reporter.hpp"
+#include "run/work.hpp"
+#include "walk/backward.hpp"
+#include "walk/direct_light.hpp"
+
+namespace lichtmc {
+
+// Direct light and reflected light of every origin.
+struct OriginEstimates {
+  std::vector<DirectIrradiance> direct;             // per origin
+  std::shared_ptr<std::vector<BackwardSums>> sums;  // per origin, of all rounds
+  std::uint64_t rounds = 0;                         // per origin
+  std::uint32_t group = 1;                          // walks in a round
+  double unit = 1.0;                                // of the sums, W/m² or lx
+
+  std::uint64_t histories() const { return rounds * group * sums->size(); }
+  // Irradiance at origin k by light that was reflected, and its standard error: NaN where fewer than two rounds were
+  // simulated.
+  double indirect(std::size_t k) const;
+  double indirect_error(std::size_t k) const;
+};
+
+// The origins that backward walks start from.
+struct BackwardTask {
+  Progress::Stage stage = Progress::Stage::receivers;
+  std::size_t origins = 0;
+  std::uint32_t group = 1;                                                  // as make_walk's origins have
+  double unit = 1.0;                                                        // as make_walk's scale has
+  std::function<DirectIrradiance(std::size_t, TraceCount&)> direct;         // light of origin k, rays counted
+  std::function<std::unique_ptr<BackwardWalk>(const Settings&)> make_walk;  // one for each thread
+  std::function<double(const OriginEstimates&)> error;  // what Settings::target_error is compared with
+  std::vector<double> weights;  // of the origins in the mean of squares that `error` is the root of
+  std::string name;             // of the origins
+  std::optional<BackwardState> StateData::*slot = nullptr;  // where a state has these walks
+};
+
+class BackwardWork final : public Work {
+ public:
+  // direct: of every origin. Context, task and direct must outlive the work.
+  BackwardWork(const RunContext& context, const BackwardTask& task, Estimator estimator, Progress::Stage stage,
+               const std::vector<DirectIrradiance>& direct);
+
+  std::uint64_t done() const override { return found_.rounds; }
+  std::uint64_t histories_of(std::uint64_t rounds) const override;
+  CheckSchedule schedule() const override;
+  void restore(StateData& data) override;
+  void begin() override {}
+  void simulate_towards(std::uint64_t rounds) override;
+  void complete() override {}
+  double error() override { return task_.error(found_); }
+  Pilot pilot() override;
+  WorkCounts counts() override { return {found_.histories(), count_.impacts, count_.traced}; }
+  Walked& write_to(StateData& data) override;
+  void release(StateData& data) override { (data.*task_.slot)->sums.reset(); }
+  void show(double rms_relative_error, double histories_to_target) override {
+    reporter_.set_error(rms_relative_error, histories_to_target);
+  }
+
+  const OriginEstimates& estimates() const { return found_; }
+
+  // Rounds of a pilot of this many histories.
+  static std::uint64_t pilot_rounds(const RunContext& context, const BackwardTask& task, Estimator estimator);
+
+ private:
+  bool simulate_step(std::uint64_t rounds);
+  void take_rounds(std::uint64_t first, std::uint64_t last, std::vector<BackwardSums>& step_sums,
+                   BackwardCount& step_count);
+
+  const RunContext& context_;
+  const BackwardTask& task_;
+  Settings settings_;                 // with the estimator of this work
+  std::uint64_t together_;            // walks in a round of all origins
+  HistoryRange range_;                // of rounds, to simulate
+  std::vector<HistoryRange> before_;  // earlier ranges than the one that grows
+  std::uint64_t rounds_before_ = 0;   // in them
+  ProgressReporter reporter_;
+  OriginEstimates found_;
+  BackwardCount count_;
+  std::uint64_t step_ = 2;  // rounds of the next step
+  std::atomic<std::uint64_t> next_{0};
+  std::mutex mutex_;  // guards the sums and counts of a step
+};
+
+// The direct light of every origin, computed by all threads of all ranks; rays are added to `traced`. Throws
+// StoppedTooSoon where the watch says stop before all are done.
+std::vector<DirectIrradiance> direct_light_of(std::size_t origins,
+                                              const std::function<DirectIrradiance(std::size_t, TraceCount&)>& direct,
+                                              const Control& control, unsigned threads, StopWatch& watch,
+                                              TraceCount& traced);
+
+// Runs backward walks through the driver: what was found, and how. Throws StoppedTooSoon where the run is stopped
+// before the first round is complete.
+struct BackwardOutcome {
+  OriginEstimates estimates;
+  WalkReport report;  // finished
+};
+BackwardOutcome walk_backward(const RunContext& context, const BackwardTask& task);
+
+}  // namespace lichtmc

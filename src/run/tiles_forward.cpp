@@ -1,0 +1,89 @@
+#include "run/tiles_forward.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "lichtmc/error.hpp"
+#include "run/drive.hpp"
+#include "run/forward_work.hpp"
+#include "run/pilot.hpp"
+#include "run/surface_results.hpp"
+#include "run/tile_light.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+class ForwardTiles final : public Measurement {
+ public:
+  explicit ForwardTiles(const RunContext& context) : context_(context) {
+    if (context.settings.direct != Direct::analytic) return;
+    direct_seconds_ = outside_time_limit(context, stored(context.record.data()) != nullptr, [&] {
+      const TileLight light(context.room, context.tiling, context.scene, context.settings, WalkDirection::forward);
+      direct_ = light.of_tiles(context.control, context.threads, context.watch, direct_count_);
+    });
+  }
+
+  std::string name() const override { return "the tiles"; }
+  Walked* stored(StateData& data) const override { return data.photons ? &*data.photons : nullptr; }
+  std::unique_ptr<Work> make_work(Estimator estimator, Progress::Stage stage) override {
+    return std::make_unique<ForwardWork>(context_, estimator, stage, direct_);
+  }
+  std::uint64_t pilot_count(Estimator estimator) const override {
+    const std::uint64_t photons = context_.settings.photons;
+    return std::min(pilot_histories(photons, estimator), photons);
+  }
+  bool keeps_pilot() const override { return true; }
+  Choice judge(std::vector<Pilot>& pilots) override {
+    CountedTiles tiles;
+    tiles.maps = context_.tiling.maps.size();
+    for (const Tile& tile : context_.tiling.tiles) {
+      tiles.areas.push_back(tile.area_m2);
+      tiles.map.push_back(tile.map);
+    }
+    std::vector<double> means = likely_values(pilots, tiles);
+    make_errors_likely(pilots, means, tiles);
+    for (std::size_t t = 0; t < direct_.size(); ++t) means[t] += direct_[t].front + direct_[t].behind;
+    return choose_best(pilots, means, tiles.areas, name());
+  }
+
+  // Adds the rays and the time of direct light.
+  void add_direct(WalkReport& report) const {
+    report.rays += direct_count_.rays;
+    report.shadow_rays += direct_count_.shadow_rays;
+    report.direct_seconds = direct_seconds_;
+  }
+
+ private:
+  const RunContext& context_;
+  std::vector<TileDirect> direct_;  // of every tile, where it is integrated
+  TraceCount direct_count_;
+  double direct_seconds_ = 0.0;
+};
+
+}  // namespace
+
+TileMeasurement measure_tiles_forward(const RunContext& context) {
+  ForwardTiles tiles(context);
+  Driven driven = drive(context, tiles);
+  auto& work = static_cast<ForwardWork&>(*driven.work);
+  const Totals& totals = work.totals();
+  if (totals.histories == 0) {
+    throw RuntimeError(
+        "The run was stopped before the first photon was simulated: there is no result. Give it more time.");
+  }
+  TileMeasurement measured;
+  measured.report = std::move(driven.report);
+  tiles.add_direct(measured.report);
+  measured.lost_histories = totals.ends.lost_histories;
+  measured.balance = work.scores().balance(totals);
+  work.scores().incident(totals, measured.incident, measured.incident_standard_error);
+  measured.tiles = work.scores().tiles(totals);
+  measured.surfaces = work.scores().surfaces(totals, measured.tiles);
+  finish_report(measured.report, rms_relative_error(context.tiling, measured.tiles));
+  return measured;
+}
+
+}  // namespace lichtmc

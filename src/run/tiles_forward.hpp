@@ -1,0 +1,12 @@
+// Tiles measured by photons from the emitters.
+#pragma once
+
+#include "run/context.hpp"
+#include "run/measured_tiles.hpp"
+
+namespace lichtmc {
+
+// Throws RuntimeError where the run is stopped before the first photon is simulated.
+TileMeasurement measure_tiles_forward(const RunContext& context);
+
+}  // namespace lichtmc
