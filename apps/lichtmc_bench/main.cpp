@@ -117,7 +117,7 @@ Measured two_threads(const Options& options) {
       settings.threads = threads;
       // Long enough that starting threads does not count.
       settings.photons = static_cast<std::uint64_t>(5.0 * options.impacts());
-      return static_cast<double>(simulate(paper_cube(0.6), settings).impacts);
+      return static_cast<double>(simulate(paper_cube(0.6), settings).walk.impacts);
     };
   };
   const Ratio ratio = compare_speeds(speed(2), speed(1), options.turns());

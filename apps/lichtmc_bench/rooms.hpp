@@ -7,6 +7,7 @@
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/tiles.hpp"
+#include "walk/choose_policy.hpp"
 #include "walk/scene.hpp"
 #include "walk/tally.hpp"
 #include "walk/walk.hpp"

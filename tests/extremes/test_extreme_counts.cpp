@@ -7,6 +7,7 @@
 
 #include "chance/stream.hpp"
 #include "extremes.hpp"
+#include "walk/choose_policy.hpp"
 #include "walk/launcher.hpp"
 #include "walk/scene.hpp"
 #include "walk/walk.hpp"
@@ -57,7 +58,7 @@ TEST_CASE("extreme: a run of no history is refused, and one history has no known
     CHECK(message.find("photons") != std::string::npos);
     for (const Estimator estimator : all_estimators) {
       const Result one = simulate(room, settings_of(estimator, engine, 1, 1));
-      CHECK(one.histories == 1);
+      CHECK(one.walk.histories == 1);
       CHECK(std::isnan(one.incident_standard_error));
       for (const TileResult& tile : one.tiles) {
         REQUIRE(std::isfinite(tile.power));
@@ -75,8 +76,8 @@ TEST_CASE("extreme: each of 2²⁴ + 1 photons is counted") {
   Settings settings = settings_of(Estimator::collision, Engine::cuboid, 1, 1, 1.0);
   settings.photons = photons;
   const Result result = simulate(unit_cube(0.0, lambert({0.5, 0.5, 0.5}, {0, -1, 0}, 1e30)), settings);
-  CHECK(result.histories == photons);
-  CHECK(result.impacts == photons);
+  CHECK(result.walk.histories == photons);
+  CHECK(result.walk.impacts == photons);
   CHECK(surface_named(result, "floor").hits == photons);
   CHECK(result.incident == 1.0);
   CHECK(result.balance.absorbed == 1.0);

@@ -115,7 +115,7 @@ TEST_CASE("extreme: a beam at a corner, an edge or a diagonal is counted exactly
                                  glm::dvec3(0.5, 0, 0.5), glm::dvec3(0.25, 0, 0.25), glm::dvec3(0.25, 0, 0.75)}) {
       const glm::dvec3 from(0.5, 0.5, 0.5);
       const Result result = simulate_in(beam(from, to - from), engine);
-      CHECK(result.impacts == n);
+      CHECK(result.walk.impacts == n);
       CHECK(result.incident == 1.0);
       CHECK(result.lost_histories == 0);
     }

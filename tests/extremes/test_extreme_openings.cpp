@@ -77,7 +77,7 @@ TEST_CASE("extreme: a room without surfaces is refused, a room whose surfaces re
   const Result missed = walk_in(room_of(one_triangle(0.5), lambert({0, 1, 0}, {0, 1, 0}, 1.0)));
   CHECK(missed.balance.escaped == 1.0);
   CHECK(missed.incident == 0.0);
-  CHECK(missed.impacts == 0);
+  CHECK(missed.walk.impacts == 0);
   CHECK_FALSE(missed.warnings.empty());
 }
 

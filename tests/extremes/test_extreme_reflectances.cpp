@@ -18,8 +18,8 @@ TEST_CASE("extreme: black surfaces end every history at its first impact, and th
     for (const Estimator estimator : all_estimators)
       results.push_back(simulate(unit_cube(0.0, centre), settings_of(estimator, engine, 1e5, 29)));
     for (const Result& result : results) {
-      CHECK(result.impacts == result.histories);
-      CHECK(result.rays == result.histories);
+      CHECK(result.walk.impacts == result.walk.histories);
+      CHECK(result.walk.rays == result.walk.histories);
       for (std::size_t k = 0; k < result.tiles.size(); ++k) {
         REQUIRE(result.tiles[k].irradiance == results[0].tiles[k].irradiance);
         REQUIRE(result.tiles[k].hits == results[0].tiles[k].hits);

@@ -116,7 +116,7 @@ TEST_CASE("extreme: a million tiles on one wall count all of its hits") {
   std::uint64_t hits = 0;
   for (const TileResult& tile : result.tiles) hits += tile.hits;
   CHECK(hits == surface_named(result, "floor").hits);
-  CHECK(hits == result.impacts);
+  CHECK(hits == result.walk.impacts);
 }
 
 TEST_CASE("extreme: texture coordinates that are all the same") {

@@ -72,7 +72,7 @@ std::vector<Compared> against(const Result& result, const std::string& tile_map,
   std::vector<Compared> figures;
   Compared pool;  // powers; the error's square
   double pool_area = 0.0;
-  const double hits_per_power = static_cast<double>(result.histories) / result.balance.emitted;
+  const double hits_per_power = static_cast<double>(result.walk.histories) / result.balance.emitted;
   for (std::size_t i = 0; i < result.tiles.size(); ++i) {
     const Tile& tile = result.tiling.tiles[i];
     if (result.tiling.maps[tile.map].name != tile_map) continue;

@@ -43,8 +43,9 @@ bool same_figures(const Result& a, const Result& b) {
         !same_bits(a.receiver_results[i].standard_error, b.receiver_results[i].standard_error))
       return false;
   }
-  return a.histories == b.histories && a.impacts == b.impacts && a.receiver_walk.histories == b.receiver_walk.histories &&
-         same_bits(a.incident, b.incident) && same_bits(a.incident_standard_error, b.incident_standard_error) &&
+  return a.walk.histories == b.walk.histories && a.walk.impacts == b.walk.impacts &&
+         a.receiver_walk.histories == b.receiver_walk.histories && same_bits(a.incident, b.incident) &&
+         same_bits(a.incident_standard_error, b.incident_standard_error) &&
          same_bits(a.balance.absorbed, b.balance.absorbed) && same_bits(a.balance.residual, b.balance.residual);
 }
 

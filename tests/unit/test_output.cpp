@@ -222,8 +222,8 @@ TEST_CASE("summary.json has a unit for every column that has one") {
 TEST_CASE("summary.json is valid JSON for names of any bytes and for the shortest run") {
   Result result = make_result();
   result.room = "r\xFFm\n\"\\";
-  result.seconds = 0.0;
-  result.impacts = 0;
+  result.walk.seconds = 0.0;
+  result.walk.impacts = 0;
   result.settings.max_bounces.reset();
   const Json summary = Json::parse(summary_json(make_room(), result));
   CHECK(summary["room"] == "r\xEF\xBF\xBDm\n\"\\");

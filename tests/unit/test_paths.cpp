@@ -59,7 +59,7 @@ TEST_CASE("paths: with openings, emissive surfaces and textures too") {
       escaped += path.end == PathEnd::escaped ? 1 : 0;
       for (const PathPoint& point : path.points) CHECK(std::isfinite(point.place.x + point.place.y + point.place.z));
     }
-    CHECK(flights == run.impacts);
+    CHECK(flights == run.walk.impacts);
     CHECK(static_cast<double>(escaped) / 4096.0 == Approx(run.balance.escaped / run.balance.emitted));
   }
 }

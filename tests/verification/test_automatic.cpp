@@ -13,7 +13,7 @@ using namespace lichtmc::test;
 namespace {
 
 bool same_tiles(const Result& a, const Result& b) {
-  if (a.histories != b.histories || a.tiles.size() != b.tiles.size()) return false;
+  if (a.walk.histories != b.walk.histories || a.tiles.size() != b.tiles.size()) return false;
   for (std::size_t t = 0; t < a.tiles.size(); ++t) {
     if (a.tiles[t].power != b.tiles[t].power || a.tiles[t].standard_error != b.tiles[t].standard_error) return false;
   }
@@ -22,7 +22,7 @@ bool same_tiles(const Result& a, const Result& b) {
 
 // Variance for the same number of flights.
 double cost_of_tiles(const Result& result) {
-  return std::pow(result.rms_relative_error, 2) * static_cast<double>(result.rays);
+  return std::pow(result.walk.rms_relative_error, 2) * static_cast<double>(result.walk.rays);
 }
 
 }  // namespace
@@ -33,17 +33,17 @@ TEST_CASE("automatic: the figures are those of the estimator chosen, for any num
     Settings settings = settings_of(Estimator::automatic, Engine::automatic, 200'000, 3);
     settings.threads = 1;
     const Result chosen = simulate(room, settings);
-    CHECK(chosen.estimator != Estimator::automatic);
+    CHECK(chosen.walk.estimator != Estimator::automatic);
     REQUIRE(chosen.choices.size() == 1);
-    CHECK(chosen.choices[0].find(std::string(to_string(chosen.estimator))) != std::string::npos);
+    CHECK(chosen.choices[0].find(std::string(to_string(chosen.walk.estimator))) != std::string::npos);
     Settings fixed = settings;
-    fixed.estimator = chosen.estimator;
+    fixed.estimator = chosen.walk.estimator;
     CHECK(same_tiles(chosen, simulate(room, fixed)));
     CHECK(simulate(room, fixed).choices.empty());
     for (const unsigned threads : {2U, 7U}) {
       settings.threads = threads;
       const Result overrides = simulate(room, settings);
-      CHECK(overrides.estimator == chosen.estimator);
+      CHECK(overrides.walk.estimator == chosen.walk.estimator);
       CHECK(overrides.choices == chosen.choices);
       CHECK(same_tiles(chosen, overrides));
     }
@@ -67,7 +67,7 @@ TEST_CASE("automatic: within a tenth of the best, by variance for the same numbe
     const Result chosen = simulate(room, settings_of(Estimator::automatic, Engine::automatic, 1e6, 6, tile));
     INFO(scene << ": " << chosen.choices[0]);
     for (const auto& [estimator, cost] : costs) WARN(scene << ", " << to_string(estimator) << ": " << cost / best);
-    CHECK(costs[chosen.estimator] <= 1.1 * best);
+    CHECK(costs[chosen.walk.estimator] <= 1.1 * best);
   }
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("automatic: receivers and tiles with backward walks have separate choi
   settings.tile_walk = WalkDirection::backward;
   const Result walked = simulate(room, settings);
   REQUIRE(walked.choices.size() == 1);
-  settings.estimator = walked.estimator;
+  settings.estimator = walked.walk.estimator;
   CHECK(same_tiles(walked, simulate(room, settings)));
 }
 
@@ -95,6 +95,6 @@ TEST_CASE("automatic: if a surface absorbs nothing, absorption is no candidate, 
   Room room = unit_cube(0.5, paper_emitter());
   room.surfaces[4].reflectance = 1.0;
   const Result result = simulate(room, settings_of(Estimator::automatic, Engine::automatic, 100'000, 3));
-  CHECK(result.estimator != Estimator::absorption);
+  CHECK(result.walk.estimator != Estimator::absorption);
   CHECK(result.choices[0].find("absorption") == std::string::npos);
 }

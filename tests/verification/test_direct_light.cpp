@@ -69,7 +69,7 @@ TEST_CASE("CIE 171 case 5.2: a point source over a plane") {
   const Verdict verdict = compare(figures);
   INFO(verdict.text);
   CHECK(verdict.agrees);
-  CHECK(result.impacts + static_cast<std::uint64_t>(std::llround(result.balance.escaped / (1000.0 * pi) * 4e6)) ==
+  CHECK(result.walk.impacts + static_cast<std::uint64_t>(std::llround(result.balance.escaped / (1000.0 * pi) * 4e6)) ==
         4'000'000);
   // A source 1 % higher must be rejected.
   const auto higher = against(result, "floor", [&](const Tile& tile) {
@@ -132,7 +132,7 @@ TEST_CASE("a spot light has its specified falloff inside its cone") {
 TEST_CASE("an emitter in a black cube: shares of the faces") {
   const auto floor_share = [](const Emitter& emitter, Engine engine) {
     const Result result = simulate(unit_cube(0.0, emitter), settings_of(Estimator::collision, engine, 2e6, 56));
-    CHECK(result.impacts == result.histories);
+    CHECK(result.walk.impacts == result.walk.histories);
     return share(result, 0.0);
   };
   for (const Engine engine : {Engine::cuboid, Engine::embree}) {
@@ -158,7 +158,7 @@ TEST_CASE("in a black room the three estimators are equal") {
     const Result collision = simulate(room, settings_of(Estimator::collision, engine, 50000, 57));
     for (const Estimator estimator : {Estimator::weight, Estimator::absorption}) {
       const Result other = simulate(room, settings_of(estimator, engine, 50000, 57));
-      CHECK(other.impacts == 50000);
+      CHECK(other.walk.impacts == 50000);
       bool same = true;
       for (std::size_t i = 0; i < other.tiles.size(); ++i)
         same = same && other.tiles[i].irradiance == collision.tiles[i].irradiance;

@@ -204,7 +204,7 @@ TEST_CASE("L-room: the end walls exchange no direct light") {
   CHECK(surface_named(result, "end_wall_x2").hits == 0);
   CHECK(result.balance.escaped == 0.0);
   CHECK(result.lost_histories == 0);
-  CHECK(result.impacts == result.histories);
+  CHECK(result.walk.impacts == result.walk.histories);
 }
 
 TEST_CASE("parallel plates exchange light by their form factor") {

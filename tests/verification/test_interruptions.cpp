@@ -54,7 +54,7 @@ TEST_CASE("a stopped run that is resumed has the figures of an uninterrupted run
   Settings stopped_early = settings;
   stopped_early.max_seconds = 0.05;
   const Result stopped = simulate(room, stopped_early);
-  REQUIRE(stopped.stopped_by == StopReason::max_time);
+  REQUIRE(stopped.walk.stopped_by == StopReason::max_time);
   CHECK(same_figures(whole, resume(room, stopped.state, settings)));
   // By the caller, at the first report of progress.
   StopAt tiles(Progress::Stage::tiles);
@@ -62,8 +62,8 @@ TEST_CASE("a stopped run that is resumed has the figures of an uninterrupted run
   longer.photons = 1'000'000;
   const Result interrupted = simulate(room, longer, tiles.control());
   REQUIRE(tiles.came());
-  CHECK(interrupted.histories < longer.photons);
-  CHECK(interrupted.stopped_by == StopReason::interrupt);
+  CHECK(interrupted.walk.histories < longer.photons);
+  CHECK(interrupted.walk.stopped_by == StopReason::interrupt);
   CHECK(same_figures(simulate(room, longer), resume(room, interrupted.state, longer)));
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("a stop within the first backward walks from the receivers keeps the t
   StopAt receivers(Progress::Stage::receivers);
   const Result stopped = simulate(room, settings, receivers.control());
   REQUIRE(receivers.came());
-  CHECK(stopped.histories == 1);
+  CHECK(stopped.walk.histories == 1);
   CHECK(stopped.receiver_results.empty());
   REQUIRE_FALSE(stopped.warnings.empty());
   CHECK_THAT(stopped.warnings.back(), ContainsSubstring("were not measured"));
@@ -117,7 +117,7 @@ TEST_CASE("a stop before the choice of the estimator does not affect the choice 
   StopAt pilots(Progress::Stage::pilot);
   const Result stopped = simulate(room, settings, pilots.control());
   REQUIRE(pilots.came());
-  CHECK(stopped.histories > 0);
+  CHECK(stopped.walk.histories > 0);
   REQUIRE(stopped.choices.size() == 1);
   CHECK_THAT(stopped.choices.front(), ContainsSubstring("begins the run anew"));
   const State state = written_and_read(stopped.state);
@@ -150,7 +150,7 @@ TEST_CASE("all ranks stop together when the time limit is reached") {
     Control control;
     control.communicator = &communicator;
     Result result = simulate(room, settings, control);
-    histories[communicator.rank()] = result.histories;
+    histories[communicator.rank()] = result.walk.histories;
     if (communicator.rank() == 0) state = result.state;
   });
   CHECK(histories[0] > 0);
@@ -180,14 +180,15 @@ TEST_CASE("a stop request to any rank stops all ranks together, in any stage") {
       if (communicator.rank() == 0) control.checkpoint = [&](const State& /*state*/) { source.request_stop(); };
       const Result result = simulate(room, settings, control);
       states[communicator.rank()] = result.state;
-      reasons[communicator.rank()] = ways == Measured::receivers ? result.receiver_walk.stopped_by : result.stopped_by;
+      reasons[communicator.rank()] =
+          ways == Measured::receivers ? result.receiver_walk.stopped_by : result.walk.stopped_by;
     });
     CHECK(reasons == std::vector<StopReason>(3, StopReason::interrupt));
     Settings as_far = settings;
     as_far.photons = 1;
     const Result first = resume(room, states[0], as_far);
     CHECK(same_figures(first, resume(room, states[2], as_far)));
-    as_far.photons = ways == Measured::receivers ? first.receiver_walk.histories : first.histories;
+    as_far.photons = ways == Measured::receivers ? first.receiver_walk.histories : first.walk.histories;
     CHECK(same_figures(first, simulate(room, as_far)));
   }
 }

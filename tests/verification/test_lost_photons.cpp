@@ -29,9 +29,9 @@ TEST_CASE("lost is 0 in a billion impacts in the closed cuboid by Embree") {
   // wall would count as a hit from behind.
   const Room room = unit_cube(0.9, isotropic({0.5, 0.5, 0.5}));
   const Result result = simulate(room, settings_of(Estimator::collision, Engine::embree, 1.001e8, 1));
-  REQUIRE(result.impacts >= 1'000'000'000);
-  WARN(result.impacts << " impacts, lost " << result.lost_histories << ", traced again " << result.retraced << ", "
-                      << result.seconds << " s");
+  REQUIRE(result.walk.impacts >= 1'000'000'000);
+  WARN(result.walk.impacts << " impacts, lost " << result.lost_histories << ", traced again " << result.walk.retraced
+                           << ", " << result.walk.seconds << " s");
   CHECK(result.lost_histories == 0);
   CHECK(result.balance.lost == 0.0);
   CHECK(result.balance.escaped == 0.0);
@@ -96,6 +96,6 @@ TEST_CASE("an emitter on a wall that emits into the room loses no flux") {
     const Result result = simulate(unit_cube(0.0, lambert({0.5, 1.0, 0.5}, {0, -1, 0}, 1.0)),
                                    settings_of(Estimator::collision, engine, 1e6, 6));
     CHECK(surface_named(result, "ceiling").hits == 0);
-    CHECK(result.impacts == 1'000'000);
+    CHECK(result.walk.impacts == 1'000'000);
   }
 }

@@ -37,7 +37,7 @@ TEST_CASE("a truncated walk in an enclosure without absorption reports the resid
   settings.max_bounces = 7;
   const Result result = simulate(unit_cube(1.0, isotropic(glm::dvec3(0.5))), settings);
   CHECK(result.balance.residual == 1.0);
-  CHECK(result.impacts == 7 * 5000);
+  CHECK(result.walk.impacts == 7 * 5000);
 }
 
 TEST_CASE("perfect reflectors with something that absorbs or an opening are simulated") {
@@ -46,5 +46,5 @@ TEST_CASE("perfect reflectors with something that absorbs or an opening are simu
   // With one wall missing all light escapes: exactly, photon by photon.
   const Result open = simulate(without_surface(unit_cube(1.0, isotropic(glm::dvec3(0.5))), "ceiling"), short_run());
   CHECK(open.balance.escaped == 1.0);
-  CHECK(open.impacts > 5000);
+  CHECK(open.walk.impacts > 5000);
 }

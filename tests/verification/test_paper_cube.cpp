@@ -58,7 +58,7 @@ void check_cube(double reflectance, const std::string& rho, std::uint64_t seed) 
     const Result result = simulate_cube(reflectance, each.estimator, each.engine, seed++);
     const Verdict maps = compare(figures(result, rho));
     const Verdict total = compare({{result.incident, result.incident_standard_error, 1.0 / (1.0 - reflectance), 0.0}});
-    INFO(to_string(each.estimator) << ", " << to_string(each.engine) << ", " << result.histories
+    INFO(to_string(each.estimator) << ", " << to_string(each.engine) << ", " << result.walk.histories
                                    << " histories\nmaps: " << maps.text << "\ntotal: " << total.text);
     CHECK(maps.agrees);
     CHECK(result.balance.lost == 0.0);
@@ -118,7 +118,7 @@ TEST_CASE("paper cube: the residual of a truncated walk is exactly the missing p
     const double rest = std::pow(0.6, flights);
     CHECK(std::abs(result.incident - (1.0 - rest) / 0.4) < flights * 0x1p-25);
     CHECK(std::abs(result.balance.residual - rest) < flights * 0x1p-25);
-    CHECK(result.impacts == 20000ULL * flights);
+    CHECK(result.walk.impacts == 20000ULL * flights);
     // No variance in the total; the estimate of it from sums rounded to 64 bits leaves this much.
     CHECK(result.incident_standard_error < 1e-8);
   }

@@ -20,7 +20,8 @@ bool same_bits(double a, double b) {
 }
 
 bool same_digits(const Result& a, const Result& b) {
-  if (a.tiles.size() != b.tiles.size() || a.histories != b.histories || a.impacts != b.impacts) return false;
+  if (a.tiles.size() != b.tiles.size() || a.walk.histories != b.walk.histories || a.walk.impacts != b.walk.impacts)
+    return false;
   for (std::size_t i = 0; i < a.tiles.size(); ++i) {
     if (!same_bits(a.tiles[i].power, b.tiles[i].power) ||
         !same_bits(a.tiles[i].standard_error, b.tiles[i].standard_error) || a.tiles[i].hits != b.tiles[i].hits) {
@@ -47,7 +48,7 @@ TEST_CASE("results are the same to the last digit for 1 and 2 and 7 threads") {
       Settings settings = settings_of(estimator, engine, 100'001, 7);
       settings.threads = 1;
       const Result one = simulate(uneven_room(), settings);
-      CHECK(one.histories == 100'001);
+      CHECK(one.walk.histories == 100'001);
       for (const unsigned threads : {2U, 7U}) {
         settings.threads = threads;
         CHECK(same_digits(one, simulate(uneven_room(), settings)));
@@ -63,8 +64,8 @@ TEST_CASE("a target error ends the run at the same history for any number of thr
   settings.target_error = 0.05;
   settings.threads = 1;
   const Result one = simulate(uneven_room(), settings);
-  CHECK(one.stopped_by == StopReason::target_error);
-  CHECK(one.rms_relative_error <= 0.05);
+  CHECK(one.walk.stopped_by == StopReason::target_error);
+  CHECK(one.walk.rms_relative_error <= 0.05);
   settings.threads = 3;
   CHECK(same_digits(one, simulate(uneven_room(), settings)));
 }
@@ -97,11 +98,11 @@ TEST_CASE("progress is reported and a stop request keeps what was simulated") {
   };
   const Result result = simulate(uneven_room(), settings, control);
   CHECK(calls >= 3);
-  CHECK(result.stopped_by == StopReason::interrupt);
-  CHECK(result.histories > 0);
-  CHECK(result.histories % 1024 == 0);
+  CHECK(result.walk.stopped_by == StopReason::interrupt);
+  CHECK(result.walk.histories > 0);
+  CHECK(result.walk.histories % 1024 == 0);
   // What was simulated is the first part of the run: the same as a run with only this part.
-  settings.photons = result.histories;
+  settings.photons = result.walk.histories;
   CHECK(same_digits(result, simulate(uneven_room(), settings)));
 }
 
@@ -109,8 +110,8 @@ TEST_CASE("a time limit ends the run") {
   Settings settings = settings_of(Estimator::collision, Engine::cuboid, 1e12, 5);
   settings.max_seconds = 0.3;
   const Result result = simulate(uneven_room(), settings);
-  CHECK(result.stopped_by == StopReason::max_time);
-  CHECK(result.seconds >= 0.3);
+  CHECK(result.walk.stopped_by == StopReason::max_time);
+  CHECK(result.walk.seconds >= 0.3);
 }
 
 TEST_CASE("an exception from the progress callback leaves the simulation") {
@@ -123,8 +124,8 @@ TEST_CASE("an exception from the progress callback leaves the simulation") {
 
 TEST_CASE("one history has an irradiance but no error") {
   const Result result = simulate(uneven_room(), settings_of(Estimator::collision, Engine::cuboid, 1, 5));
-  CHECK(result.histories == 1);
-  CHECK(result.impacts >= 1);
+  CHECK(result.walk.histories == 1);
+  CHECK(result.walk.impacts >= 1);
   CHECK(std::isnan(result.incident_standard_error));
   for (const TileResult& tile : result.tiles) CHECK(std::isnan(tile.standard_error) == (tile.hits > 0));
 }

@@ -49,7 +49,7 @@ std::vector<Result> by_all_estimators(const Room& room, double photons, double t
     results.push_back(simulate(room, settings_of(estimator, Engine::automatic, photons, seed++, tile_edge_m)));
     const Result& result = results.back();
     check_balance(result);
-    WARN(to_string(estimator) << ": " << result.impacts << " impacts in " << result.seconds << " s, escaped "
+    WARN(to_string(estimator) << ": " << result.walk.impacts << " impacts in " << result.walk.seconds << " s, escaped "
                               << result.balance.escaped << ", lost " << result.lost_histories
                               << " histories, tiles not hit " << result.tiles_without_hits << " of "
                               << result.tiles.size());

@@ -57,14 +57,14 @@ TEST_CASE("a smaller target error ends where a run with it from the start ends")
   settings.measured = Measured::all;
   settings.target_error = 0.06;
   const Result begun = simulate(room, settings);
-  REQUIRE(begun.stopped_by == StopReason::target_error);
+  REQUIRE(begun.walk.stopped_by == StopReason::target_error);
   // Nothing is left to do.
   const Result overrides = resume(room, begun.state, settings);
-  CHECK(overrides.stopped_by == StopReason::target_error);
+  CHECK(overrides.walk.stopped_by == StopReason::target_error);
   CHECK(same_figures(begun, overrides));
   settings.target_error = 0.03;
   const Result whole = simulate(room, settings);
-  CHECK(whole.histories > begun.histories);
+  CHECK(whole.walk.histories > begun.walk.histories);
   CHECK(same_figures(whole, resume(room, begun.state, settings)));
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("a run with an automatic estimator keeps its choice and its error chec
   REQUIRE(first);
   const Result resumed = resume(room, *first, settings);
   CHECK(same_figures(whole, resumed));
-  CHECK(resumed.estimator == whole.estimator);
+  CHECK(resumed.walk.estimator == whole.walk.estimator);
   CHECK(resumed.receiver_walk.estimator == whole.receiver_walk.estimator);
 }
 
@@ -172,7 +172,7 @@ TEST_CASE("states that do not belong together are refused with their difference"
   const State gap = merge({one, part(room, settings, 20'480, 30'720).state}, {"one.h5", "two.h5"});
   CHECK_THROWS_WITH(resume(room, gap, settings),
                     ContainsSubstring("gaps: nothing is there of histories 10240 … 20479"));
-  CHECK(result_of(room, gap).histories == 20'480);
+  CHECK(result_of(room, gap).walk.histories == 20'480);
   // A part begins with a batch.
   CHECK_THROWS_WITH(part(room, settings, 1000, 20'480), ContainsSubstring("Begin at 0 or 1024"));
   other = settings;
@@ -193,7 +193,7 @@ TEST_CASE("a sum without the backward walks from the receivers cannot be resumed
     data.receivers.reset();
     some[missing] = State(std::make_shared<const StateData>(data));
     const State sum = merge(some, {"a", "b", "c"});
-    CHECK(result_of(room, sum).histories == 30'720);
+    CHECK(result_of(room, sum).walk.histories == 30'720);
     CHECK_THROWS_WITH(resume(room, sum, settings),
                       ContainsSubstring(missing == 0 ? "rounds 0 … 5119" : "rounds 5120 … 10239"));
   }

@@ -53,7 +53,7 @@ TEST_CASE("tiles: the direct light of the paper's cube, integrated") {
   for (const Engine engine : {Engine::cuboid, Engine::embree}) {
     const Result result = simulate(unit_cube(0.6, paper_emitter()), analytic(Estimator::collision, engine, 2048, 1));
     CHECK(direct_is_apart(result));
-    CHECK(result.shadow_rays == 0);
+    CHECK(result.walk.shadow_rays == 0);
     CHECK(surface_named(result, "floor").mean_direct == Approx(0.908183296).epsilon(1e-6));
     CHECK(surface_named(result, "ceiling").mean_direct == 0.0);
     CHECK(surface_named(result, "wall_x0").mean_direct == Approx(0.022954176).epsilon(1e-6));
@@ -143,7 +143,7 @@ TEST_CASE("tiles: forward walks, integrated direct light and backward walks agre
       const std::string name = std::string(one.scene) + ", " + std::string(to_string(estimator));
       const Result integrated =
           simulate(room, analytic(estimator, Engine::automatic, 0.25 * one.counted, 32, one.tile));
-      CHECK(integrated.shadow_rays > 0);
+      CHECK(integrated.walk.shadow_rays > 0);
       const Verdict by_integral = compare(well_counted(counted, integrated));
       check(name + ", direct integrated", by_integral);
       CHECK(by_integral.smallest_bias < 0.02);
@@ -211,9 +211,9 @@ TEST_CASE("tiles: a target error ends both walks, and impossible settings are re
                             from_tiles(Estimator::collision, Engine::automatic, 1e9, 62)}) {
     settings.target_error = 0.05;
     const Result result = simulate(room, settings);
-    CHECK(result.stopped_by == StopReason::target_error);
-    CHECK(result.rms_relative_error <= 0.05);
-    CHECK(result.rms_relative_error > 0.02);
+    CHECK(result.walk.stopped_by == StopReason::target_error);
+    CHECK(result.walk.rms_relative_error <= 0.05);
+    CHECK(result.walk.rms_relative_error > 0.02);
   }
   Settings settings = from_tiles(Estimator::collision, Engine::automatic, 1e4, 63);
   settings.measured = Measured::receivers;
