@@ -46,7 +46,7 @@ endfunction()
 function(lichtmc_precompiled_options target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -fpch-preprocess)  # for ccache
-    # With a precompiled <string> GCC 12 warns wrongly of std::string's operator+ (GCC bug 105329). The presets without
+    # With a precompiled <string> GCC 12 gives more false warnings of std::string's operator+. The presets without
     # precompiled headers keep these warnings.
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
   elseif(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
