@@ -46,9 +46,11 @@ endfunction()
 function(lichtmc_precompiled_options target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -fpch-preprocess)  # for ccache
-    # With a precompiled <string> GCC 12 gives more false warnings of std::string's operator+. The presets without
-    # precompiled headers keep these warnings.
-    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
+    if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+      # With a precompiled <string> GCC 12 reports overlaps and overflows in std::string that do not exist. The presets
+      # without precompiled headers keep these warnings.
+      target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+    endif()
   elseif(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     target_compile_options(${target} PRIVATE "SHELL:-Xclang -fno-pch-timestamp")  # for ccache
   endif()
