@@ -28,6 +28,7 @@ SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
 # errors never stand here.
 EXCEPTIONS = {
     "version": "names the program, not a figure; tile images have it in their header, too",
+    "settings": "the settings as asked for, which 0.1.0 did not list",
 }
 # The same for keys of single runs.
 EXCEPTIONS_OF_RUNS = {

@@ -66,7 +66,7 @@ double ProgressLine::fraction_done(const Progress& progress) const {
 std::string ProgressLine::work(const Progress& progress) const {
   const bool receivers = progress.stage == Progress::Stage::receivers;
   const bool backward = receivers || settings_.tile_walk == WalkDirection::backward;
-  const bool limited = progress.target < std::uint64_t{1} << 62;
+  const bool limited = progress.target < no_photon_limit;
   return short_count(static_cast<double>(progress.histories)) +
          (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") +
          (receivers  ? " backward histories from receivers, "

@@ -95,8 +95,7 @@ void parse_histories(const std::string& text, const StopOptions& stop, Settings&
 
 void apply_stop_options(const StopOptions& options, Settings& settings) {
   // With another stop rule the number of photons has no limit by default.
-  constexpr std::uint64_t no_limit = std::uint64_t{1} << 62;
-  if (options.target_error || options.max_time) settings.photons = no_limit;
+  if (options.target_error || options.max_time) settings.photons = no_photon_limit;
   if (options.photons) settings.photons = parse_count(*options.photons, "--photons");
   if (options.target_error) settings.target_error = parse_fraction(*options.target_error, "--target-error");
   if (options.max_time) settings.max_seconds = parse_seconds(*options.max_time, "--max-time");

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "lichtmc/result.hpp"
+
 namespace lichtmc {
 
 // A figure that two results contain: irradiance of a tile or at a receiver, W/m² or lx.
@@ -59,5 +61,8 @@ inline constexpr double comparison_false_alarm = 1e-6;
 // Throws InputError if a folder contains no result, the units differ, the tiles or receivers are not the same, or
 // nothing can be compared.
 std::vector<Comparison> compare_results(const std::filesystem::path& a, const std::filesystem::path& b);
+
+// The same for two results in memory, called "a" and "b" in messages.
+std::vector<Comparison> compare(const Result& a, const Result& b);
 
 }  // namespace lichtmc

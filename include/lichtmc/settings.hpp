@@ -45,6 +45,9 @@ std::string_view to_string(Engine engine);
 std::string_view to_string(Measured measured);
 std::string_view to_string(Direct direct);
 
+// For Settings::photons: other stop rules alone end the run.
+inline constexpr std::uint64_t no_photon_limit = std::uint64_t{1} << 62;
+
 // The first stop rule to be met ends the run.
 struct Settings {
   Estimator estimator = Estimator::collision;

@@ -91,29 +91,29 @@ Comparison Comparer::finish() {
   return std::move(result_);
 }
 
-std::string name_of(const StoredTile& tile) {
+std::string name_of(const ComparableTile& tile) {
   return tile.surface + ", column " + std::to_string(tile.column) + ", row " + std::to_string(tile.row);
 }
 
-std::string name_of(const StoredReceiver& receiver) {
+std::string name_of(const ComparableReceiver& receiver) {
   return "receiver " + receiver.name;
 }
 
-[[noreturn]] void refuse_different(const StoredResult& a, const StoredResult& b, const std::string& what,
+[[noreturn]] void refuse_different(const ComparableResult& a, const ComparableResult& b, const std::string& what,
                                    const std::string& difference, const std::string& advice) {
-  throw InputError("The results in " + in_quotes(a.folder) + " and " + in_quotes(b.folder) + " have other " + what +
-                   ": " + difference + " (allowed: the same). " + advice);
+  throw InputError("The results in " + in_quotes(a.name) + " and " + in_quotes(b.name) + " have other " + what + ": " +
+                   difference + " (allowed: the same). " + advice);
 }
 
-Comparison compare_tiles(const StoredResult& a, const StoredResult& b) {
+Comparison compare_tiles(const ComparableResult& a, const ComparableResult& b) {
   const char* advice = "Run both with the same room and the same --tile.";
   if (a.tiles.size() != b.tiles.size()) {
     refuse_different(a, b, "tiles", std::to_string(a.tiles.size()) + " and " + std::to_string(b.tiles.size()), advice);
   }
   Comparer comparer(ComparisonOf::tiles, a.tile_freedom, b.tile_freedom);
   for (std::size_t k = 0; k < a.tiles.size(); ++k) {
-    const StoredTile& one = a.tiles[k];
-    const StoredTile& other = b.tiles[k];
+    const ComparableTile& one = a.tiles[k];
+    const ComparableTile& other = b.tiles[k];
     if (one.surface != other.surface || one.column != other.column || one.row != other.row) {
       refuse_different(
           a, b, "tiles",
@@ -126,11 +126,11 @@ Comparison compare_tiles(const StoredResult& a, const StoredResult& b) {
 }
 
 // Places and directions are written with all digits.
-bool same_place(const StoredReceiver& a, const StoredReceiver& b) {
+bool same_place(const ComparableReceiver& a, const ComparableReceiver& b) {
   return a.position == b.position && a.normal == b.normal;
 }
 
-Comparison compare_receivers(const StoredResult& a, const StoredResult& b) {
+Comparison compare_receivers(const ComparableResult& a, const ComparableResult& b) {
   const char* advice = "Run both with the same receivers.";
   if (a.receivers.size() != b.receivers.size()) {
     refuse_different(a, b, "receivers",
@@ -138,8 +138,8 @@ Comparison compare_receivers(const StoredResult& a, const StoredResult& b) {
   }
   Comparer comparer(ComparisonOf::receivers, a.receiver_freedom, b.receiver_freedom);
   for (std::size_t k = 0; k < a.receivers.size(); ++k) {
-    const StoredReceiver& one = a.receivers[k];
-    const StoredReceiver& other = b.receivers[k];
+    const ComparableReceiver& one = a.receivers[k];
+    const ComparableReceiver& other = b.receivers[k];
     if (!same_place(one, other)) {
       refuse_different(a, b, "receivers",
                        "number " + std::to_string(k) + ", " + in_quotes(one.name) + " and " + in_quotes(other.name) +
@@ -157,31 +157,31 @@ Place place_of(const glm::dvec3& point, double grid) {
   return {std::llround(point.x / grid), std::llround(point.y / grid), std::llround(point.z / grid)};
 }
 
-double largest_coordinate(const std::vector<StoredTile>& tiles) {
+double largest_coordinate(const std::vector<ComparableTile>& tiles) {
   double largest = 0.0;
-  for (const StoredTile& tile : tiles)
+  for (const ComparableTile& tile : tiles)
     largest = std::max({largest, std::abs(tile.point.x), std::abs(tile.point.y), std::abs(tile.point.z)});
   return largest;
 }
 
 // The tiles of `a` with the receivers of `b`, or the other way round: the pairs keep a first.
-Comparison compare_across(const StoredResult& a, const StoredResult& b, bool tiles_first) {
-  const StoredResult& with_tiles = tiles_first ? a : b;
-  const StoredResult& with_receivers = tiles_first ? b : a;
+Comparison compare_across(const ComparableResult& a, const ComparableResult& b, bool tiles_first) {
+  const ComparableResult& with_tiles = tiles_first ? a : b;
+  const ComparableResult& with_receivers = tiles_first ? b : a;
   constexpr double rounding = 1e-6;
   const double grid = std::max(rounding * largest_coordinate(with_tiles.tiles), std::numeric_limits<double>::min());
-  std::multimap<Place, const StoredTile*> tiles;
-  for (const StoredTile& tile : with_tiles.tiles) tiles.insert({place_of(tile.point, grid), &tile});
+  std::multimap<Place, const ComparableTile*> tiles;
+  for (const ComparableTile& tile : with_tiles.tiles) tiles.insert({place_of(tile.point, grid), &tile});
   Comparer comparer(ComparisonOf::tiles_at_receivers,
                     tiles_first ? with_tiles.tile_freedom : with_receivers.receiver_freedom,
                     tiles_first ? with_receivers.receiver_freedom : with_tiles.tile_freedom);
-  for (const StoredReceiver& receiver : with_receivers.receivers) {
+  for (const ComparableReceiver& receiver : with_receivers.receivers) {
     const auto [first, last] = tiles.equal_range(place_of(receiver.position, grid));
     if (first == last || std::next(first) != last) {
       comparer.leave_out();
       continue;
     }
-    const StoredTile& tile = *first->second;
+    const ComparableTile& tile = *first->second;
     FigurePair pair{name_of(tile) + " and " + name_of(receiver),
                     tile.irradiance,
                     tile.standard_error,
@@ -216,9 +216,9 @@ std::string to_string(ComparisonOf what) {
   return "";
 }
 
-std::vector<Comparison> compare_results(const std::filesystem::path& folder_a, const std::filesystem::path& folder_b) {
-  const StoredResult a = read_results(folder_a);
-  const StoredResult b = read_results(folder_b);
+namespace {
+
+std::vector<Comparison> compare_figures(const ComparableResult& a, const ComparableResult& b) {
   if (a.unit != b.unit) {
     refuse_different(a, b, "units", a.unit + " and " + b.unit, "Run both with the same --unit.");
   }
@@ -230,12 +230,22 @@ std::vector<Comparison> compare_results(const std::filesystem::path& folder_a, c
     return comparison.figures.empty() && comparison.dark == 0;
   });
   if (nothing) {
-    throw InputError("Nothing in " + in_quotes(a.folder) + " can be compared with " + in_quotes(b.folder) +
+    throw InputError("Nothing in " + in_quotes(a.name) + " can be compared with " + in_quotes(b.name) +
                      " (allowed: the same tiles, the same receivers, or receivers at the points x, y, z of the other's "
                      "tiles.csv, all with known errors). Run one of them again, with more photons or at the other's "
                      "points.");
   }
   return comparisons;
+}
+
+}  // namespace
+
+std::vector<Comparison> compare_results(const std::filesystem::path& folder_a, const std::filesystem::path& folder_b) {
+  return compare_figures(read_results(folder_a), read_results(folder_b));
+}
+
+std::vector<Comparison> compare(const Result& a, const Result& b) {
+  return compare_figures(comparable(a, "a"), comparable(b, "b"));
 }
 
 }  // namespace lichtmc

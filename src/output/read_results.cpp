@@ -13,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/message.hpp"
-#include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
 
 namespace lichtmc {
@@ -38,14 +37,14 @@ Number parse(const fs::path& file, const std::string& text) {
 template <unsigned columns>
 using Table = io::CSVReader<columns, io::trim_chars<' '>, io::double_quote_escape<',', '"'>>;
 
-std::vector<StoredTile> read_tiles(const fs::path& file) {
-  std::vector<StoredTile> tiles;
+std::vector<ComparableTile> read_tiles(const fs::path& file) {
+  std::vector<ComparableTile> tiles;
   try {
     Table<8> table(file.string());
     table.read_header(io::ignore_extra_column, "surface", "column", "row", "x", "y", "z", "irradiance",
                       "standard_error");
     std::string column, row, x, y, z, irradiance, error;
-    StoredTile tile;
+    ComparableTile tile;
     while (table.read_row(tile.surface, column, row, x, y, z, irradiance, error)) {
       tile.column = parse<std::uint32_t>(file, column);
       tile.row = parse<std::uint32_t>(file, row);
@@ -60,13 +59,13 @@ std::vector<StoredTile> read_tiles(const fs::path& file) {
   return tiles;
 }
 
-std::vector<StoredReceiver> read_receivers(const fs::path& file) {
-  std::vector<StoredReceiver> receivers;
+std::vector<ComparableReceiver> read_receivers(const fs::path& file) {
+  std::vector<ComparableReceiver> receivers;
   try {
     Table<9> table(file.string());
     table.read_header(io::ignore_extra_column, "name", "x", "y", "z", "nx", "ny", "nz", "irradiance", "standard_error");
     std::string x, y, z, nx, ny, nz, irradiance, error;
-    StoredReceiver receiver;
+    ComparableReceiver receiver;
     while (table.read_row(receiver.name, x, y, z, nx, ny, nz, irradiance, error)) {
       receiver.position = {parse<double>(file, x), parse<double>(file, y), parse<double>(file, z)};
       receiver.normal = {parse<double>(file, nx), parse<double>(file, ny), parse<double>(file, nz)};
@@ -88,21 +87,17 @@ nlohmann::json read_summary(const fs::path& file) {
   return summary;
 }
 
-// Degrees of freedom of the standard errors: they are computed from batches of photons (forward) or rounds of walks
-// (backward).
 double tile_freedom(const nlohmann::json& summary) {
-  const auto histories = summary.at("histories").get<std::uint64_t>();
-  if (summary.value("tiles_by", "forward") == "forward") return static_cast<double>(batches_of(histories)) - 1.0;
-  constexpr double walks_in_a_round = 4.0;
-  const double faces = std::max(1.0, 2.0 * summary.at("tiles_count").get<double>());  // at most
-  return static_cast<double>(histories) / faces / walks_in_a_round - 1.0;
+  const bool backward = summary.value("tiles_by", "forward") == "backward";
+  return freedom_of_tiles(backward ? WalkDirection::backward : WalkDirection::forward,
+                          summary.at("histories").get<std::uint64_t>(), summary.at("tiles_count").get<std::size_t>());
 }
 
 }  // namespace
 
-StoredResult read_results(const fs::path& folder) {
-  StoredResult result;
-  result.folder = folder.string();
+ComparableResult read_results(const fs::path& folder) {
+  ComparableResult result;
+  result.name = folder.string();
   const fs::path file = folder / "summary.json";
   const nlohmann::json summary = read_summary(file);
   try {
@@ -115,8 +110,8 @@ StoredResult read_results(const fs::path& folder) {
   if (!fs::exists(folder / "receivers.csv")) return result;
   result.receivers = read_receivers(folder / "receivers.csv");
   try {
-    const auto walks = summary.at("backward").at("histories").get<double>();
-    result.receiver_freedom = walks / static_cast<double>(result.receivers.size()) - 1.0;
+    result.receiver_freedom =
+        freedom_of_receivers(summary.at("backward").at("histories").get<std::uint64_t>(), result.receivers.size());
   } catch (const nlohmann::json::exception& fault) {
     refuse(file, fault.what());
   }

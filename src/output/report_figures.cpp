@@ -176,7 +176,8 @@ std::string convergence_section(const Result& result) {
   chart.x_label = "photons (tiles), or walks from all receivers (receivers)";
   chart.y_label = "relative standard error (rms), %";
   if (!result.tiles.empty()) chart.series.push_back(series_of("tiles", result.walk.convergence));
-  if (!result.receiver_results.empty()) chart.series.push_back(series_of("receivers", result.receiver_walk.convergence));
+  if (!result.receiver_results.empty())
+    chart.series.push_back(series_of("receivers", result.receiver_walk.convergence));
   const bool known = std::any_of(chart.series.begin(), chart.series.end(), [](const ChartSeries& series) {
     return std::any_of(series.points.begin(), series.points.end(),
                        [](const ChartPoint& p) { return std::isfinite(p.y) && p.y > 0.0; });

@@ -9,8 +9,28 @@
 #include "output/html.hpp"
 #include "output/json.hpp"
 #include "output/readable.hpp"
+#include "room/settings_fields.hpp"
 
 namespace lichtmc {
+
+namespace {
+
+// What was asked for, setting by setting.
+std::string settings_table(const Settings& settings) {
+  std::string rows;
+  visit_fields(
+      [&rows](const Field& field, const auto& value) {
+        if (field.role == FieldRole::machine) return;
+        std::string text = setting_text(value);
+        if (*field.unit != '\0' && text != "none") text += std::string(" ") + field.unit;
+        rows += "<tr>" + text_cell(field.label) + text_cell(text) + text_cell(field.option) + "</tr>\n";
+      },
+      settings);
+  return text_element("p", "Settings as asked for:") +
+         element("table", table_head({"setting", "value", "option"}) + element("tbody", rows), " id=\"settings\"");
+}
+
+}  // namespace
 
 std::string settings_section(const Room& room, const Result& result) {
   const Settings& s = result.settings;
@@ -18,30 +38,26 @@ std::string settings_section(const Room& room, const Result& result) {
   const auto row = [&rows](std::string_view name, const std::string& value) {
     rows += "<tr>" + text_cell(name) + text_cell(value) + "</tr>\n";
   };
-  row("estimator", std::string(to_string(result.tiles.empty() ? result.receiver_walk.estimator : result.walk.estimator)));
+  row("estimator",
+      std::string(to_string(result.tiles.empty() ? result.receiver_walk.estimator : result.walk.estimator)));
   row("engine", std::string(to_string(result.engine)));
-  row("seed", std::to_string(s.seed));
   if (!result.tiles.empty()) {
-    row("edge of a tile", short_number(s.tile_edge_m) + " m");
     row("tiles measured",
-        s.tile_walk == WalkDirection::forward ? "by photons from the emitters" : "by walks back from the tiles");
+        s.tile_walk == WalkDirection::forward ? "by photons from the emitters" : "by backward walks from the tiles");
     row("direct light", direct_is_apart(result) ? "integrated" : "counted with all other light");
     row("photons", std::to_string(result.walk.histories));
     row("impacts", std::to_string(result.walk.impacts));
     row("ended by", std::string(to_string(result.walk.stopped_by)));
   }
   if (!result.receiver_results.empty()) {
-    row("walks from receivers", std::to_string(result.receiver_walk.histories));
+    row("backward walks from receivers", std::to_string(result.receiver_walk.histories));
     row("ended by (receivers)", std::string(to_string(result.receiver_walk.stopped_by)));
   }
-  if (s.target_error) row("target error", percent(*s.target_error));
-  if (s.max_seconds) row("time limit", short_number(*s.max_seconds) + " s");
-  if (s.max_bounces) row("cut off after", std::to_string(*s.max_bounces) + " flights");
   row("threads", std::to_string(result.threads));
   std::string emitters;
   for (const Emitter& e : room.emitters)
     emitters += "<tr>" + text_cell(e.name) + text_cell(kind_of(e)) + number_cell(e.power) + "</tr>\n";
-  std::string html = heading("What was simulated") + element("table", rows);
+  std::string html = heading("What was simulated") + element("table", rows) + settings_table(s);
   if (!result.choices.empty()) html += list_of(result.choices);
   if (!result.mended.empty()) html += text_element("p", "Changed after reading:") + list_of(result.mended);
   return html + heading("Emitters") +

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <concepts>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -7,6 +9,7 @@
 #include "output/json.hpp"
 #include "output/summary.hpp"
 #include "output/tile_image.hpp"
+#include "room/settings_fields.hpp"
 
 namespace lichtmc {
 
@@ -125,7 +128,8 @@ void add_run(const Result& result, Json& summary) {
   summary["room"] = result.room;
   summary["unit"] = std::string(power_unit(result.quantity));
   summary["engine"] = std::string(to_string(result.engine));
-  summary["estimator"] = std::string(to_string(result.tiles.empty() ? result.receiver_walk.estimator : result.walk.estimator));
+  summary["estimator"] =
+      std::string(to_string(result.tiles.empty() ? result.receiver_walk.estimator : result.walk.estimator));
   summary["seed"] = result.settings.seed;
   summary["threads"] = result.threads;
   summary["histories"] = result.walk.histories;
@@ -156,6 +160,36 @@ void add_results(const Result& result, Json& summary) {
   summary["ignored"] = texts_of(result.ignored);
 }
 
+Json json_of(bool value) {
+  return value;
+}
+Json json_of(double value) {
+  return number(value);
+}
+template <std::unsigned_integral Number>
+requires(!std::same_as<Number, bool>) Json json_of(Number value) {
+  return value;
+}
+template <class Choice>
+requires std::is_enum_v<Choice> Json json_of(Choice value) {
+  return std::string(to_string(value));
+}
+template <class Value>
+Json json_of(const std::optional<Value>& value) {
+  return value ? json_of(*value) : Json(nullptr);
+}
+
+// Every setting as asked for, by the names of its fields.
+Json settings_of(const Settings& settings) {
+  Json json;
+  visit_fields(
+      [&json](const Field& field, const auto& value) {
+        if (field.role != FieldRole::machine) json[field.name] = json_of(value);
+      },
+      settings);
+  return json;
+}
+
 // Details added to the format later, after the keys above.
 void add_details(const Room& room, const Result& result, Json& summary) {
   summary["processes"] = result.processes;
@@ -175,6 +209,7 @@ void add_details(const Room& room, const Result& result, Json& summary) {
   summary["retraced"] = result.walk.retraced;
   summary["lost_histories"] = result.lost_histories;
   summary["units"] = units_of(result);
+  summary["settings"] = settings_of(result.settings);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ inline std::string setting_text(double value) {
 }
 template <std::unsigned_integral Number>
 requires(!std::same_as<Number, bool>) std::string setting_text(Number value) {
-  return std::to_string(value);
+  return value == no_photon_limit ? "no limit" : std::to_string(value);
 }
 template <class Choice>
 requires std::is_enum_v<Choice> std::string setting_text(Choice value) {

@@ -225,7 +225,7 @@ const Reference& Studying::reference_for(double edge, double share) {
   Settings settings = settings_with(Estimator::collision);
   settings.tile_edge_m = edge;
   settings.seed = options_->seed ^ 0x9E3779B97F4A7C15U;
-  settings.photons = std::uint64_t{1} << 62;
+  settings.photons = no_photon_limit;
   settings.max_seconds = share * options_->seconds;
   Reference reference = make_reference(simulate(*room_, settings, control()));
   if (reference.result.walk.histories < 2 * reference_factor * batch_histories) {

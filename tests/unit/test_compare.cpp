@@ -91,6 +91,29 @@ TEST_CASE("compare: receivers with receivers, and with the tiles at their positi
   CHECK(back.largest_z == Approx(-across.largest_z).epsilon(1e-12));
 }
 
+TEST_CASE("compare: two results in memory give the figures of their files") {
+  Room room = unit_cube(0.6, paper_emitter());
+  room.receivers.push_back({"desk", {0.5, 0.2, 0.4}, {0, 1, 0}, 90.0, 1.0});
+  Settings settings = seeded(7);
+  settings.measured = Measured::all;
+  const Folder file_a("memory_a", room, settings);
+  const Result a = simulate(room, settings);
+  settings.seed = 8;
+  const Folder file_b("memory_b", room, settings);
+  const Result b = simulate(room, settings);
+  const std::vector<Comparison> of_files = compare_results(file_a.path(), file_b.path());
+  const std::vector<Comparison> in_memory = compare(a, b);
+  REQUIRE(in_memory.size() == 2);
+  REQUIRE(of_files.size() == 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    CHECK(in_memory[k].what == of_files[k].what);
+    CHECK(in_memory[k].figures.size() == of_files[k].figures.size());
+    CHECK(in_memory[k].chi_square == of_files[k].chi_square);
+    CHECK(in_memory[k].largest_z == of_files[k].largest_z);
+    CHECK(in_memory[k].chi_square_chance == of_files[k].chi_square_chance);
+  }
+}
+
 TEST_CASE("compare: results that cannot be compared are refused with the reason") {
   Room room = unit_cube(0.6, paper_emitter());
   const Folder a("a", room, seeded(1));
