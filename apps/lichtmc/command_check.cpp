@@ -145,7 +145,7 @@ int check(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check_command(CLI::App& program, int& status) {
+void add_check_command(CLI::App& program, const Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("check", "Check a room: what will be modelled, what is probably wrong, what to do");
   auto options = std::make_shared<CheckOptions>();
@@ -164,7 +164,7 @@ void add_check_command(CLI::App& program, int& status) {
                   "Exit status: 0 the room can be simulated, perhaps with warnings; 1 with --strict: there are "
                   "warnings; 2 the room "
                   "cannot be simulated.");
-  command->callback([options, &status] { status = check(*options); });
+  command->callback([options, &invocation] { *invocation.status = check(*options); });
 }
 
 }  // namespace lichtmc::app

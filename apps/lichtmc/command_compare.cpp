@@ -118,7 +118,7 @@ void compare(const CompareOptions& options, int& status) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& program, int& status) {
+void add_compare_command(CLI::App& program, const Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("compare", "Compare two results: do they agree within their standard errors?");
   auto options = std::make_shared<CompareOptions>();
@@ -138,7 +138,7 @@ void add_compare_command(CLI::App& program, int& status) {
       "  lichtmc run room.glb --seed 1 -o one\n"
       "  lichtmc run room.glb --seed 2 --tiles backward -o two\n"
       "  lichtmc compare one two");
-  command->callback([options, &status] { compare(*options, status); });
+  command->callback([options, &invocation] { compare(*options, *invocation.status); });
 }
 
 }  // namespace lichtmc::app

@@ -51,7 +51,7 @@ void write_cuboid(const CuboidOptions& options) {
 
 }  // namespace
 
-void add_cuboid_command(CLI::App& program) {
+void add_cuboid_command(CLI::App& program, const Invocation& /*invocation*/) {
   CLI::App* command = program.add_subcommand("cuboid", "Write an empty cuboid room as a glTF file");
   auto options = std::make_shared<CuboidOptions>();
   command->add_option("--size", options->size, "Edges along X, Y (height) and Z in metres, for example --size 5 2.6 4")

@@ -55,7 +55,7 @@ void run(const PathsCommand& command) {
 
 }  // namespace
 
-void add_paths_command(CLI::App& program) {
+void add_paths_command(CLI::App& program, const Invocation& /*invocation*/) {
   CLI::App* command = program.add_subcommand("paths", "Trace a few photons and show their paths");
   auto options = std::make_shared<PathsCommand>();
   add_room_argument(*command, options->reading);

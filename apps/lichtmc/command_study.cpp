@@ -84,7 +84,7 @@ void run(const StudyCommand& command) {
 
 }  // namespace
 
-void add_study_command(CLI::App& program) {
+void add_study_command(CLI::App& program, const Invocation& /*invocation*/) {
   CLI::App* command = program.add_subcommand("study", "Measure time against error in a room, and recommend settings");
   auto options = std::make_shared<StudyCommand>();
   add_room_argument(*command, options->reading);

@@ -1,7 +1,8 @@
-// The commands of the program: one file each, which adds the command and its options to the command line. A command
-// with more outcomes than done or failed sets the exit status.
+// The commands of the program: one file each, with a function that adds the command and its options to the command
+// line. A new command is a function here and an entry in the list.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,15 +17,20 @@ struct Invocation {
   std::string command_line;              // quoted for a shell
   std::vector<std::string> arguments;    // after the name of the command
   Communicator* communicator = nullptr;  // the processes that share a run with this one
+  int* status = nullptr;                 // exit status, for commands with more outcomes than done or failed
 };
 
 void add_run_command(CLI::App& program, const Invocation& invocation);
 void add_resume_command(CLI::App& program, const Invocation& invocation);
 void add_merge_command(CLI::App& program, const Invocation& invocation);
-void add_cuboid_command(CLI::App& program);
-void add_paths_command(CLI::App& program);
-void add_study_command(CLI::App& program);
-void add_check_command(CLI::App& program, int& status);
-void add_compare_command(CLI::App& program, int& status);
+void add_paths_command(CLI::App& program, const Invocation& invocation);
+void add_study_command(CLI::App& program, const Invocation& invocation);
+void add_cuboid_command(CLI::App& program, const Invocation& invocation);
+void add_check_command(CLI::App& program, const Invocation& invocation);
+void add_compare_command(CLI::App& program, const Invocation& invocation);
+
+// In the order of --help.
+inline constexpr std::array all_commands{add_run_command,   add_resume_command, add_merge_command, add_paths_command,
+                                         add_study_command, add_cuboid_command, add_check_command, add_compare_command};
 
 }  // namespace lichtmc::app

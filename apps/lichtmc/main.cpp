@@ -84,14 +84,8 @@ int run_program(int argc, char** argv, lichtmc::Communicator* communicator) {
   invocation.command_line = command_line(argc, argv);
   if (argc > 2) invocation.arguments.assign(argv + 2, argv + argc);
   invocation.communicator = communicator;
-  lichtmc::app::add_run_command(program, invocation);
-  lichtmc::app::add_resume_command(program, invocation);
-  lichtmc::app::add_merge_command(program, invocation);
-  lichtmc::app::add_paths_command(program);
-  lichtmc::app::add_study_command(program);
-  lichtmc::app::add_cuboid_command(program);
-  lichtmc::app::add_check_command(program, status);
-  lichtmc::app::add_compare_command(program, status);
+  invocation.status = &status;
+  for (const auto add_command : lichtmc::app::all_commands) add_command(program, invocation);
   try {
     check_command(program, argc, argv);
     check_ranks_agree(argc, argv, communicator);

@@ -81,17 +81,18 @@ void print_tiles(const Result& result) {
   const bool forward = result.settings.tile_walk == WalkDirection::forward;
   std::cerr << short_count(static_cast<double>(result.walk.histories))
             << (forward ? " photons, " : " backward histories from the tiles, ")
-            << short_count(static_cast<double>(result.walk.impacts)) << " impacts in " << four_digits(result.walk.seconds)
-            << " s (" << describe(result.walk.stopped_by) << "; engine " << to_string(result.engine) << ", estimator "
-            << to_string(result.walk.estimator) << (direct_is_apart(result) ? ", direct light integrated" : "") << ").\n";
+            << short_count(static_cast<double>(result.walk.impacts)) << " impacts in "
+            << four_digits(result.walk.seconds) << " s (" << describe(result.walk.stopped_by) << "; engine "
+            << to_string(result.engine) << ", estimator " << to_string(result.walk.estimator)
+            << (direct_is_apart(result) ? ", direct light integrated" : "") << ").\n";
   if (forward) print_balance(result);
   std::cerr << result.tiles.size() << " tiles, relative standard error " << percent(result.walk.rms_relative_error)
             << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of the tiles with hits)" : ")");
   if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " without hits";
   std::cerr << ".\n";
   warn_of_missed_target(result.settings, result.walk.stopped_by, result.walk.rms_relative_error,
-                        static_cast<double>(result.walk.histories), result.walk.histories_to_target, result.walk.seconds,
-                        ", or larger tiles");
+                        static_cast<double>(result.walk.histories), result.walk.histories_to_target,
+                        result.walk.seconds, ", or larger tiles");
 }
 
 void print_receivers(const Result& result) {
