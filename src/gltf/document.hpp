@@ -1,7 +1,6 @@
 // A glTF file parsed by tinygltf, with the checks that tinygltf does not make.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,15 +15,6 @@ struct Document {
       images;                         // the files of Model::images, not decoded; empty if a file is missing
   std::vector<std::string> warnings;  // of the parser, one line each
 };
-
-// Parses a .gltf or .glb file; the first bytes determine the format. Loads buffers and images. Decompresses meshes
-// (EXT_meshopt_compression, KHR_draco_mesh_compression).
-// Throws InputError if the file cannot be opened, is not glTF 2.x or requires an unknown extension, if its GLB
-// container or compressed data is damaged, or if a buffer is missing.
-Document load_document(const std::filesystem::path& file);
-
-// Whether an extension is read completely, or has no influence on the simulation.
-bool is_known_extension(const std::string& name);
 
 // "node 'lamp'"; "node 3" without a name.
 std::string label(const char* kind, const std::string& name, std::size_t index);

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/message.hpp"
+#include "gltf/luminance.hpp"
 #include "gltf/materials.hpp"
 
 namespace lichtmc {

@@ -1,4 +1,5 @@
 #include "gltf/materials.hpp"
+#include "gltf/luminance.hpp"
 
 #include <cmath>
 
@@ -69,11 +70,6 @@ std::optional<Emission> read_emission(const Document& document, const tinygltf::
 }
 
 }  // namespace
-
-double luminance(double red, double green, double blue) {
-  // ITU-R BT.709: 0.2126 R + 0.7152 G + 0.0722 B, in a form that keeps the value of greys exactly.
-  return green + 0.2126 * (red - green) + 0.0722 * (blue - green);
-}
 
 std::optional<double> power_in(const Document& document, const tinygltf::Value& extras, const std::string& where) {
   if (!extras.IsObject() || !extras.Has("power")) return std::nullopt;

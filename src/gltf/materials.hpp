@@ -13,9 +13,6 @@
 
 namespace lichtmc {
 
-// Luminance of a linear colour with Rec. 709 primaries.
-double luminance(double red, double green, double blue);
-
 // A power as given by a file: radiant flux (W) or luminous flux (lm).
 struct FilePower {
   double value = 0.0;

@@ -9,6 +9,7 @@
 #include "gltf/document.hpp"
 #include "gltf/geometry.hpp"
 #include "gltf/lights.hpp"
+#include "gltf/load_document.hpp"
 #include "gltf/materials.hpp"
 #include "gltf/nodes.hpp"
 #include "lichtmc/gltf.hpp"

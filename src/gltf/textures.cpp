@@ -10,7 +10,7 @@
 
 #include "base/message.hpp"
 #include "base/png.hpp"
-#include "gltf/materials.hpp"
+#include "gltf/luminance.hpp"
 
 namespace lichtmc {
 

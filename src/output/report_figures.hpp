@@ -4,7 +4,7 @@
 #include <string>
 
 #include "lichtmc/result.hpp"
-#include "output/report.hpp"
+#include "output/report_content.hpp"
 
 namespace lichtmc {
 

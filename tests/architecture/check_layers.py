@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that a folder of src/ includes only folders below it, and that a library is included in its own folder only.
+"""Checks that a folder of src/ includes only folders below it, that the files of a folder do not include each other in a
+circle, and that a library is included in its own folder only.
 
 Usage: check_layers.py PROJECT_DIR
 """
@@ -71,9 +72,25 @@ def faults(project):
                         yield f"{file}: includes <{include}>, which only {', '.join(homes)} may"
 
 
+def cycles(project):
+    """Files of one folder that include each other in a circle; a header and its source count as one."""
+    for folder in sorted(path for path in project.glob("src/*") if path.is_dir()):
+        below = {}
+        for file in folder.glob("*.[ch]pp"):
+            found = re.findall(rf'#include "{folder.name}/([^"]+)\.hpp"', file.read_text())
+            below.setdefault(file.stem, set()).update(set(found) - {file.stem})
+        while True:
+            leaves = {name for name, others in below.items() if not others & below.keys()}
+            if not leaves:
+                break
+            below = {name: others for name, others in below.items() if name not in leaves}
+        if below:
+            yield f"{folder}: these files include each other in a circle, or include such files: {', '.join(sorted(below))}"
+
+
 def main():
     project = pathlib.Path(sys.argv[1])
-    found = list(faults(project))
+    found = list(faults(project)) + list(cycles(project))
     print("\n".join(found) or "every include points downwards")
     return 1 if found else 0
 

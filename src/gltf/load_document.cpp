@@ -1,0 +1,230 @@
+#include "gltf/load_document.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "base/message.hpp"
+#include "base/wide.hpp"
+#include "gltf/decompress.hpp"
+#include "gltf/prepare.hpp"
+#include "lichtmc/error.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr const char* export_again = " Export the file again.";
+
+// Extensions that are read, or that have no influence on the room.
+constexpr std::array<const char*, 8> known_extensions{"EXT_mesh_gpu_instancing",         "EXT_meshopt_compression",
+                                                      "KHR_draco_mesh_compression",      "KHR_lights_punctual",
+                                                      "KHR_materials_emissive_strength", "KHR_materials_unlit",
+                                                      "KHR_mesh_quantization",           "KHR_texture_transform"};
+
+std::string read_bytes(const std::filesystem::path& path, const std::string& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    throw InputError("Cannot read " + file + " (it is a folder). Give the name of a .gltf or .glb file.");
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError("Cannot open " + file + " (" + std::strerror(errno) + "). Check the name of the file.");
+  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (in.bad()) throw InputError("Cannot read " + file + ". Check the disk that contains it.");
+  if (bytes.empty()) throw InputError(file + ": the file is empty. Give the name of a .gltf or .glb file.");
+  return bytes;
+}
+
+std::uint32_t word_at(const std::string& bytes, std::size_t offset) {
+  std::uint32_t word = 0;
+  for (std::size_t k = 0; k < 4; ++k) word |= std::uint32_t{static_cast<unsigned char>(bytes[offset + k])} << (8 * k);
+  return word;
+}
+
+bool is_binary(const std::string& bytes) {
+  return bytes.compare(0, 4, "glTF") == 0;
+}
+
+// The container: a header of 12 bytes, then chunks, each with a header of 8 bytes and its data (glTF 2.0
+// specification, section 4).
+void check_container(const std::string& bytes, const std::string& file) {
+  const auto require = [&file](bool sound, const std::string& what) {
+    if (!sound) throw InputError(file + ": the GLB container is damaged (" + what + ")." + export_again);
+  };
+  constexpr std::uint32_t json_chunk = 0x4E4F534A;
+  require(bytes.size() >= 20, "it ends within its header");
+  require(word_at(bytes, 4) == 2, "its version is " + std::to_string(word_at(bytes, 4)) + " (allowed: 2)");
+  const std::size_t length = word_at(bytes, 8);
+  require(length <= bytes.size(),
+          "it ends after " + std::to_string(bytes.size()) + " of " + std::to_string(length) + " bytes");
+  require(length >= 20, "its header states a length of " + std::to_string(length) + " bytes");
+  require(word_at(bytes, 16) == json_chunk, "its first chunk is not JSON");
+  for (std::size_t offset = 12; offset < length;) {
+    require(length - offset >= 8, "a chunk ends within its header");
+    const std::size_t size = word_at(bytes, offset);
+    require(size <= length - offset - 8, "a chunk is longer than the file");
+    offset += 8 + size;
+  }
+}
+
+using Images = std::vector<std::vector<unsigned char>>;
+
+// Stores an image undecoded: only base colour images are decoded, and later. The parser has not yet checked the buffer
+// view of an image in a buffer: store_images_in_buffers() does that.
+bool store_image(tinygltf::Image* image, const int index, std::string* /*error*/, std::string* /*warning*/,
+                 int /*width*/, int /*height*/, const unsigned char* bytes, int size, void* user) {
+  Images& images = *static_cast<Images*>(user);
+  const auto k = static_cast<std::size_t>(index);
+  if (images.size() <= k) images.resize(k + 1);
+  if (image->bufferView < 0 && bytes != nullptr && size > 0) images[k].assign(bytes, bytes + size);
+  return true;
+}
+
+void store_images_in_buffers(Document& document) {
+  const auto& model = document.model;
+  for (std::size_t k = 0; k < model.images.size(); ++k) {
+    if (model.images[k].bufferView < 0) continue;
+    const std::string where = label("image", model.images[k].name, k);
+    const auto& view = model.bufferViews[checked_index(document, model.images[k].bufferView, model.bufferViews.size(),
+                                                       "the buffer view of " + where)];
+    const auto& bytes =
+        model.buffers[checked_index(document, view.buffer, model.buffers.size(), "the buffer of " + where)].data;
+    if (static_cast<uint128>(view.byteOffset) + view.byteLength > bytes.size())
+      refuse(document, where + " reaches beyond its buffer." + export_again);
+    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
+    document.images[k].assign(begin, begin + static_cast<std::ptrdiff_t>(view.byteLength));
+  }
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.empty()) lines.push_back(line);
+  }
+  return lines;
+}
+
+std::string joined(const std::string& text) {
+  std::string all;
+  for (const std::string& line : lines_of(text)) all += (all.empty() ? "" : "; ") + line;
+  return all.empty() ? "unknown reason" : all;
+}
+
+// The strings in an array of the file; none if the JSON is invalid: the parser reports that later.
+std::vector<std::string> names_in(const nlohmann::json& json, const char* list) {
+  std::vector<std::string> names;
+  if (!json.is_object() || !json.contains(list) || !json[list].is_array()) return names;
+  for (const auto& name : json[list]) {
+    if (name.is_string()) names.push_back(name.get<std::string>());
+  }
+  return names;
+}
+
+// Called before parsing: the parser reports an unknown required extension less clearly.
+void check_extensions(const Document& document, const nlohmann::json& json) {
+  for (const std::string& name : names_in(json, "extensionsRequired")) {
+    if (is_known_extension(name)) continue;
+    std::string known;
+    for (const char* k : known_extensions) known += (known.empty() ? "" : ", ") + std::string(k);
+    refuse(document, "the file requires the extension " + in_quotes(name) +
+                         ", which lichtmc does not support (allowed: " + known +
+                         "). Export the file without this extension.");
+  }
+}
+
+void check_version(const Document& document) {
+  const std::string& version = document.model.asset.version;
+  const std::string& least = document.model.asset.minVersion;
+  const auto is_2 = [](const std::string& v) {
+    return v.size() >= 3 && v.compare(0, 2, "2.") == 0 && v.find_first_not_of("0123456789", 2) == std::string::npos;
+  };
+  if (!is_2(version)) refuse(document, "the glTF version is '" + version + "' (allowed: 2.0)." + export_again);
+  if (!least.empty() && least != "2.0")
+    refuse(document, "the file requires glTF version '" + least + "' (allowed: 2.0)." + export_again);
+}
+
+// Position of the JSON in the bytes of the file.
+struct JsonText {
+  std::size_t offset = 0;
+  std::size_t size = 0;
+};
+
+void set_word(std::string& bytes, std::size_t offset, std::size_t value) {
+  for (std::size_t k = 0; k < 4; ++k) bytes[offset + k] = static_cast<char>(value >> (8 * k) & 0xFF);
+}
+
+// Replaces the JSON of the file; the chunks after it stay unchanged.
+void replace_json(std::string& bytes, bool binary, const JsonText& old, std::string text) {
+  if (binary) {
+    text.resize((text.size() + 3) / 4 * 4, ' ');  // chunks end at multiples of four bytes
+    const std::size_t length = word_at(bytes, 8) - old.size + text.size();
+    set_word(bytes, 12, text.size());
+    set_word(bytes, 8, length);
+  }
+  bytes.replace(old.offset, old.size, text);
+}
+
+// Parses the bytes; the checks before parsing have passed.
+void parse(Document& document, const std::string& bytes, bool binary, const std::string& folder) {
+  constexpr std::size_t largest = std::numeric_limits<std::int32_t>::max();  // the parser counts bytes in 32 bits
+  if (bytes.size() > largest) {
+    refuse(document,
+           "the file has " + std::to_string(bytes.size()) + " bytes (allowed: up to 2147483647). Split the room.");
+  }
+  tinygltf::TinyGLTF parser;
+  parser.SetImageLoader(store_image, &document.images);
+  std::string error;
+  std::string warning;
+  const auto size = static_cast<unsigned int>(bytes.size());
+  bool parsed = false;
+  try {
+    parsed = binary ? parser.LoadBinaryFromMemory(&document.model, &error, &warning,
+                                                  reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
+                    : parser.LoadASCIIFromString(&document.model, &error, &warning, bytes.data(), size, folder);
+  } catch (const std::exception& reason) {
+    error += reason.what();
+  }
+  if (!parsed) refuse(document, "the file is not valid glTF 2.0 (" + joined(error) + ")." + export_again);
+  document.warnings = lines_of(warning);
+  document.images.resize(document.model.images.size());
+  store_images_in_buffers(document);
+}
+
+}  // namespace
+
+bool is_known_extension(const std::string& name) {
+  return std::any_of(known_extensions.begin(), known_extensions.end(),
+                     [&](const char* known) { return name == known; });
+}
+
+Document load_document(const std::filesystem::path& path) {
+  Document document;
+  document.file = path.string();
+  std::string bytes = read_bytes(path, document.file);
+  const bool binary = is_binary(bytes);
+  if (binary) check_container(bytes, document.file);
+  const JsonText text = binary ? JsonText{20, word_at(bytes, 12)} : JsonText{0, bytes.size()};
+  if (nests_too_deep(bytes.data() + text.offset, bytes.data() + text.offset + text.size))
+    refuse(document, "the JSON is nested deeper than 256 levels (the limit)." + std::string(export_again));
+  const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(text.offset);
+  nlohmann::json json = nlohmann::json::parse(begin, begin + static_cast<std::ptrdiff_t>(text.size), nullptr, false);
+  check_extensions(document, json);
+  if (make_readable(json)) replace_json(bytes, binary, text, json.dump());
+  parse(document, bytes, binary, path.parent_path().string());
+  check_version(document);
+  decompress_views(document);
+  decompress_primitives(document);
+  return document;
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,29 @@
+// What the page of a report is made of.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lichtmc/inspect.hpp"
+#include "lichtmc/picture.hpp"
+#include "lichtmc/result.hpp"
+#include "lichtmc/room.hpp"
+
+namespace lichtmc {
+
+// The content of the page. Pictures are SVG; empty pictures are left out.
+struct ReportContent {
+  const Room* room = nullptr;
+  const Result* result = nullptr;
+  ColourScale scale;
+  std::string command;
+  Inspection inspection;
+  std::string room_picture;
+  std::string above_picture;
+  std::string paths_picture;
+  std::vector<SurfacePlan> plans;
+  std::vector<std::string> plan_pictures;
+  std::string lit_room;  // room_lit.glb
+};
+
+}  // namespace lichtmc
