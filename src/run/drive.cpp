@@ -91,9 +91,10 @@ class Driver {
   // Where the run decides to stop: photons, target error, time, interrupt, whichever comes first.
   StopReason simulate() {
     const std::optional<double>& target = context_.settings.target_error;
-    CheckSchedule schedule = work_->schedule();
-    schedule.skip(work_->done());
+    const std::uint64_t done_before = work_->done();  // of an earlier session, or of the pilot
     work_->begin();
+    CheckSchedule schedule = work_->schedule();
+    schedule.skip(done_before);
     Forecast forecast;
     for (;; schedule.advance()) {
       simulate_up_to(*work_, schedule.next(), records_);

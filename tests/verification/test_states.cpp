@@ -59,9 +59,9 @@ TEST_CASE("a smaller target error ends where a run with it from the start ends")
   const Result begun = simulate(room, settings);
   REQUIRE(begun.walk.stopped_by == StopReason::target_error);
   // Nothing is left to do.
-  const Result overrides = resume(room, begun.state, settings);
-  CHECK(overrides.walk.stopped_by == StopReason::target_error);
-  CHECK(same_figures(begun, overrides));
+  const Result repeated = resume(room, begun.state, settings);
+  CHECK(repeated.walk.stopped_by == StopReason::target_error);
+  CHECK(same_figures(begun, repeated));
   settings.target_error = 0.03;
   const Result whole = simulate(room, settings);
   CHECK(whole.walk.histories > begun.walk.histories);
@@ -132,10 +132,10 @@ TEST_CASE("states that do not belong together are refused with their difference"
   refused(one, "overlap");
   Settings other = settings;
   other.seed = 2;
-  refused(after(room, other), "seeds 1 and 2");
+  refused(after(room, other), "'seed' (--seed): 1 and 2");
   other = settings;
   other.tile_edge_m = 0.2;
-  refused(after(room, other), "tiles of 0.1 m and 0.2 m");
+  refused(after(room, other), "'edge of a tile' (--tile): 0.1 and 0.2");
   other = settings;
   other.estimator = Estimator::weight;
   refused(after(room, other), "estimators collision and weight");
