@@ -90,7 +90,7 @@ void print_facts(const Room& room, const Inspection& facts) {
                                 (facts.convex ? "convex, " : "not convex, ") +
                                 (facts.closed ? "closed" : "not closed"));
   std::cout << row("Receivers", std::to_string(room.receivers.size()));
-  for (const std::string& change : room.mended) std::cout << row("Override", change);
+  for (const std::string& change : room.overrides) std::cout << row("Override", change);
   print_materials(facts);
   print_emitters(room);
 }

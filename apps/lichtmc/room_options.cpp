@@ -94,7 +94,7 @@ Room read_room(const RoomOptions& options) {
     read.numbered_materials.push_back(reflectances.back().material);
   }
   Room room = read_gltf(options.file, read);
-  if (options.unit) room.mended.push_back("The powers of the file are interpreted in " + *options.unit + ".");
+  if (options.unit) room.overrides.push_back("The powers of the file are interpreted in " + *options.unit + ".");
   for (const NewReflectance& change : reflectances) set_reflectance(room, change.material, change.value);
   if (options.max_reflectance) limit_reflectance(room, parse_number(*options.max_reflectance, "--max-reflectance"));
   add_lights(room, options.lights);

@@ -30,8 +30,8 @@ struct ReadOptions {
 // Reflectance: material extras.reflectance, else the Rec. 709 luminance of the base colour factor times the base colour
 // texture, point by point. Emitters: KHR_lights_punctual point and spot; node or light extras lambert_exponent, power,
 // unit; emissive materials (radiant or luminous flux = exitance · area in m²). Receivers: nodes with extras.receiver.
-// Room::ignored lists what the file contains beyond that; Room::mended lists scale and up axis if they differ from the
-// default.
+// Room::ignored lists what the file contains beyond that; Room::overrides lists scale and up axis if they differ from
+// the default.
 //
 // read_gltf() does not check whether the room can be simulated (check_room() does) or is plausible (inspect() does).
 // Throws InputError, with the name of the file and of the node, mesh, material or accessor, if the file cannot be read,

@@ -1,5 +1,5 @@
 // Input overrides: values of a room file that are replaced or added on request before the simulation. Each change is
-// recorded in Room::mended.
+// recorded in Room::overrides.
 #pragma once
 
 #include <string>

@@ -124,7 +124,7 @@ struct Result {
   std::vector<Receiver> receivers;               // the room's
   std::vector<ReceiverResult> receiver_results;  // of each; none where only the forward walk was run
   std::vector<Ignored> ignored;                  // Room::ignored, and what of the room this run did not use
-  std::vector<std::string> mended;               // Room::mended
+  std::vector<std::string> overrides;            // Room::overrides
   State state;                                   // to go on from, or to merge with others
   std::vector<std::string>
       warnings;  // what may make the figures mean something else than is thought, a sentence or two each

@@ -127,8 +127,8 @@ struct Room {
   std::vector<Emitter> emitters;
   std::vector<Receiver> receivers;
   std::vector<ReflectanceMap> reflectance_maps;
-  std::vector<Ignored> ignored;     // what the source holds and this room does not model
-  std::vector<std::string> mended;  // what was changed on request after reading, one sentence each
+  std::vector<Ignored> ignored;        // what the source holds and this room does not model
+  std::vector<std::string> overrides;  // what was changed on request after reading, one sentence each
 };
 
 // Whether a room can be simulated: at least one triangle with an area and one emitter; 0 ≤ ρ ≤ 1; finite positions;

@@ -191,8 +191,8 @@ class RoomReader {
   }
 
   void note_overrides() {
-    if (options_->scale != 1.0) room_.mended.push_back("Lengths multiplied by " + to_text(options_->scale) + ".");
-    if (options_->up == UpAxis::z) room_.mended.push_back("Rotated from Z-up to Y-up.");
+    if (options_->scale != 1.0) room_.overrides.push_back("Lengths multiplied by " + to_text(options_->scale) + ".");
+    if (options_->up == UpAxis::z) room_.overrides.push_back("Rotated from Z-up to Y-up.");
   }
 
   const Document* document_;

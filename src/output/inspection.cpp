@@ -115,7 +115,7 @@ std::string inspection_json(const Room& room, const Inspection& inspection) {
                   {"surfaces", surfaces_of(inspection)},
                   {"emitters", emitters_of(room)},
                   {"receivers", receivers_of(room)},
-                  {"mended", room.mended},
+                  {"mended", room.overrides},
                   {"findings", findings_of(inspection)}};
   return json_text(json);
 }

@@ -59,7 +59,7 @@ std::string settings_section(const Room& room, const Result& result) {
     emitters += "<tr>" + text_cell(e.name) + text_cell(kind_of(e)) + number_cell(e.power) + "</tr>\n";
   std::string html = heading("What was simulated") + element("table", rows) + settings_table(s);
   if (!result.choices.empty()) html += list_of(result.choices);
-  if (!result.mended.empty()) html += text_element("p", "Changed after reading:") + list_of(result.mended);
+  if (!result.overrides.empty()) html += text_element("p", "Changed after reading:") + list_of(result.overrides);
   return html + heading("Emitters") +
          element("table",
                  table_head({"emitter", "kind", "power, " + std::string(power_unit(result.quantity))}) +

@@ -200,7 +200,7 @@ void add_details(const Room& room, const Result& result, Json& summary) {
   summary["choices"] = result.choices;
   summary["backward"] = backward_of(result);
   summary["warnings"] = result.warnings;
-  summary["mended"] = result.mended;
+  summary["mended"] = result.overrides;
   summary["emitters"] = emitters_of(room);
   summary["tile_edge_m"] = result.settings.tile_edge_m;
   summary["tiles_count"] = result.tiles.size();

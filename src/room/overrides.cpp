@@ -42,8 +42,8 @@ void set_reflectance(Room& room, const std::string& material, double reflectance
     throw InputError("There is no material " + in_quotes(material) + " in " + room.source + " (it has " +
                      materials_of(room) + "). Give one of these names.");
   }
-  room.mended.push_back("Material " + in_quotes(material) + ": reflectance set to " + to_text(reflectance) + " on " +
-                        to_text(changed, "surface") + ".");
+  room.overrides.push_back("Material " + in_quotes(material) + ": reflectance set to " + to_text(reflectance) + " on " +
+                           to_text(changed, "surface") + ".");
 }
 
 void limit_reflectance(Room& room, double highest) {
@@ -65,8 +65,8 @@ void limit_reflectance(Room& room, double highest) {
     if (above.count(&surface) == 0) continue;
     surface.reflectance = surface.reflectance_map ? mean_reflectance(room, surface) : highest;
   }
-  room.mended.push_back("Reflectances above " + to_text(highest) + " lowered to it on " +
-                        to_text(above.size(), "surface") + ".");
+  room.overrides.push_back("Reflectances above " + to_text(highest) + " lowered to it on " +
+                           to_text(above.size(), "surface") + ".");
 }
 
 void add_emitter(Room& room, Emitter emitter, Quantity quantity) {
@@ -76,8 +76,8 @@ void add_emitter(Room& room, Emitter emitter, Quantity quantity) {
                      ", the emitters of " + room.source + " are in " + std::string(power_unit(room.quantity)) +
                      " (allowed: one unit for all). Give its power in " + std::string(power_unit(room.quantity)) + ".");
   }
-  room.mended.push_back("Emitter " + in_quotes(emitter.name) + " added: " + to_text(emitter.power) + " " +
-                        std::string(power_unit(quantity)) + ".");
+  room.overrides.push_back("Emitter " + in_quotes(emitter.name) + " added: " + to_text(emitter.power) + " " +
+                           std::string(power_unit(quantity)) + ".");
   room.emitters.push_back(std::move(emitter));
 }
 

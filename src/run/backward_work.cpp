@@ -152,7 +152,7 @@ void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, std::vec
   const Part mine = part_of(context_.control.communicator, (task_.origins + together - 1) / together * parts);
   const std::uint64_t skipped = range_.first - rounds_before_;  // rounds are numbered from the run's first
   std::vector<BackwardSums> sums;
-  while (!context_.watch.wants_to_stop()) {
+  while (!context_.watch.would_stop()) {
     const std::uint64_t piece = mine.first + next_.fetch_add(1);
     if (piece >= mine.last) break;
     WalkBlock work;
@@ -164,7 +164,7 @@ void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, std::vec
     BackwardCount count;
     walk->simulate(work, sums, count, [this] {
       reporter_.add(0, 0);
-      return context_.watch.wants_to_stop();
+      return context_.watch.would_stop();
     });
     {
       const std::lock_guard lock(mutex_);
@@ -172,8 +172,8 @@ void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, std::vec
       add_fields(step_count, count);
     }
     const std::uint64_t walks = (work.last - work.first) * (work.last_sample - work.first_sample);
-    const unsigned alike = size_of(context_.control.communicator);  // the others are as far as this member
-    reporter_.add(walks * alike, count.traced.rays * alike);
+    const unsigned ranks = size_of(context_.control.communicator);  // the others are as far as this member
+    reporter_.add(walks * ranks, count.traced.rays * ranks);
   }
 }
 
@@ -191,7 +191,7 @@ std::vector<DirectIrradiance> direct_light_of(std::size_t origins,
   BackwardCount traced_here;
   watch.run_on_threads(threads, [&](unsigned) {
     TraceCount count;
-    while (!watch.wants_to_stop()) {
+    while (!watch.would_stop()) {
       const std::size_t first = next.fetch_add(at_a_time);
       if (first >= mine.last) break;
       const std::size_t last = std::min<std::size_t>(mine.last, first + at_a_time);

@@ -73,35 +73,35 @@ std::vector<double> likely_values(const std::vector<Pilot>& pilots, const Counte
 void make_errors_likely(std::vector<Pilot>& pilots, const std::vector<double>& likely, const CountedTiles& tiles) {
   constexpr double enough_hits = 4000.0;  // of all pilots together: rare large weights make a few hundred too few
   const std::vector<double> hits = hits_of_all(pilots);
-  std::vector<std::size_t> by_brightness(likely.size());
-  std::iota(by_brightness.begin(), by_brightness.end(), std::size_t{0});
-  std::stable_sort(by_brightness.begin(), by_brightness.end(),
+  std::vector<std::size_t> by_irradiance(likely.size());
+  std::iota(by_irradiance.begin(), by_irradiance.end(), std::size_t{0});
+  std::stable_sort(by_irradiance.begin(), by_irradiance.end(),
                    [&](std::size_t a, std::size_t b) { return likely[a] < likely[b]; });
   // Groups from the darkest on; what is left at the end joins the last.
   std::vector<std::size_t> ends;
   double sum = 0.0;
   double left = std::accumulate(hits.begin(), hits.end(), 0.0);
-  for (std::size_t k = 0; k < by_brightness.size(); ++k) {
-    sum += hits[by_brightness[k]];
+  for (std::size_t k = 0; k < by_irradiance.size(); ++k) {
+    sum += hits[by_irradiance[k]];
     if (sum < enough_hits || left - sum < enough_hits) continue;
     ends.push_back(k + 1);
     left -= sum;
     sum = 0.0;
   }
-  ends.push_back(by_brightness.size());
+  ends.push_back(by_irradiance.size());
   for (Pilot& pilot : pilots) {
     std::size_t begin = 0;
     for (const std::size_t end : ends) {
       double variance = 0.0;
       double power = 0.0;
       for (std::size_t k = begin; k < end; ++k) {
-        const std::size_t t = by_brightness[k];
+        const std::size_t t = by_irradiance[k];
         if (!(hits[t] > 0.0)) continue;
         variance += std::pow(pilot.errors[t] * tiles.areas[t], 2);
         power += likely[t] * tiles.areas[t];
       }
       for (std::size_t k = begin; k < end && power > 0.0; ++k) {
-        const std::size_t t = by_brightness[k];
+        const std::size_t t = by_irradiance[k];
         pilot.errors[t] = hits[t] > 0.0 ? std::sqrt(variance / power * likely[t] / tiles.areas[t]) : 0.0;
       }
       begin = end;
@@ -130,9 +130,9 @@ Choice choose_best(const std::vector<Pilot>& pilots, const std::vector<double>& 
   choice.best = static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
   choice.reason = "The estimator '" + std::string(to_string(pilots[choice.best].estimator)) + "' was chosen for " +
                   of_what + ": for the same error, ";
-  for (std::size_t k = 0, told = 0; k < pilots.size(); ++k) {
+  for (std::size_t k = 0, listed = 0; k < pilots.size(); ++k) {
     if (k == choice.best) continue;
-    choice.reason += std::string(told++ > 0 ? " and '" : "'") + std::string(to_string(pilots[k].estimator)) +
+    choice.reason += std::string(listed++ > 0 ? " and '" : "'") + std::string(to_string(pilots[k].estimator)) +
                      "' needs " + short_number(costs[k] / costs[choice.best]) + " times as many flights";
   }
   choice.reason += " (by a short pilot).";

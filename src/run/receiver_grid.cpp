@@ -41,7 +41,7 @@ std::size_t points_along(double length_m, double spacing_m) {
 }
 
 // Whether a surface lies straight below each point.
-std::vector<bool> over_something(const Room& room, const std::vector<Receiver>& points) {
+std::vector<bool> above_surfaces(const Room& room, const std::vector<Receiver>& points) {
   const auto tracer = make_embree_tracer(room, make_tiling(room, std::numeric_limits<double>::max()));
   Rays rays(points.size());
   rays.size = points.size();
@@ -79,7 +79,7 @@ std::vector<Receiver> receiver_grid(const Room& room, double height_m, double sp
                         1.0});
     }
   }
-  const std::vector<bool> over = over_something(room, points);
+  const std::vector<bool> over = above_surfaces(room, points);
   // A room that is a closed shell is about all of its points; furniture about some of them.
   const Enclosure enclosure(room);
   std::vector<std::size_t> shells(points.size(), 0);

@@ -37,7 +37,7 @@ void RunRecord::checkpoint(const std::function<void(StateData&)>& fill_in) {
   next_ = now + std::max(seconds(control_->checkpoint_seconds), cost_factor * (now - began));
 }
 
-void RunRecord::book(double cost) {
+void RunRecord::add_cost(double cost) {
   next_ += cost_factor * seconds(cost);
   spent_ += cost;
 }

@@ -33,7 +33,7 @@ class RunRecord {
   void checkpoint(const std::function<void(StateData&)>& fill_in);
 
   // What the last checkpoint has cost besides, in seconds: the next one waits longer for it. Not while threads ask.
-  void book(double seconds);
+  void add_cost(double seconds);
 
   // Seconds that all checkpoints have cost so far.
   double spent() const { return spent_; }

@@ -66,7 +66,7 @@ void complete(Result& result, const Room& room) {
   result.quantity = room.quantity;
   result.receivers = room.receivers;
   result.ignored = ignored_by_run(room, result.settings.measured);
-  result.mended = room.mended;
+  result.overrides = room.overrides;
   for (const WalkReport* report : {&result.walk, &result.receiver_walk}) {
     if (!report->choice.empty()) result.choices.push_back(report->choice);
   }
@@ -89,23 +89,23 @@ double seconds_of(const std::optional<Walk>& walk) {
 }
 
 // What earlier sessions have walked for the tiles, and for the receivers.
-struct WalkedBefore {
-  explicit WalkedBefore(const StateData& data)
+struct EarlierSeconds {
+  explicit EarlierSeconds(const StateData& data)
       : tiles(seconds_of(data.photons) + seconds_of(data.tile_walks)), receivers(seconds_of(data.receivers)) {}
   double tiles = 0.0;      // s
   double receivers = 0.0;  // s
 };
 
 // Where both are measured each gets half of the time of all sessions, as if the run had not been interrupted.
-std::optional<double> half_of_time(const Settings& settings, const WalkedBefore& before, double mine) {
+std::optional<double> half_of_time(const Settings& settings, const EarlierSeconds& earlier, double mine) {
   if (!settings.max_seconds) return std::nullopt;
-  const double half = 0.5 * (before.tiles + before.receivers + *settings.max_seconds);
+  const double half = 0.5 * (earlier.tiles + earlier.receivers + *settings.max_seconds);
   return std::clamp(half - mine, 0.0, *settings.max_seconds);
 }
 
 // Which walks a run has. A state that is only read may hold one of them, or both.
-struct Walks {
-  Walks(const Room& room, const Settings& settings, const RunRecord& record) {
+struct PlannedWalks {
+  PlannedWalks(const Room& room, const Settings& settings, const RunRecord& record) {
     const StateData& data = record.data();
     tiles = settings.measured != Measured::receivers && (!record.only_read() || data.photons || data.tile_walks);
     receivers =
@@ -144,8 +144,8 @@ class Run {
         settings_(settings),
         control_(control),
         record_(record),
-        walks_(room, settings, record),
-        before_(record.data()),
+        planned_(room, settings, record),
+        earlier_(record.data()),
         receivers_in_state_(record.data().receivers.has_value()) {
     result_.settings = settings;
     result_.threads = threads_for(settings);
@@ -158,8 +158,8 @@ class Run {
 
   Result simulate() {
     check();
-    if (walks_.tiles) measure_tiles();
-    if (walks_.receivers) measure_receivers_after_tiles();
+    if (planned_.tiles) measure_tiles();
+    if (planned_.receivers) measure_receivers_after_tiles();
     complete(result_, room_);
     warn_of_missing();
     result_.checkpoint_seconds = record_.spent();
@@ -174,12 +174,12 @@ class Run {
     check_memory(room_, result_.tiling, settings_, tallies, result_.processes, scene_->has_reflectance_maps());
     if (!settings_.max_bounces && has_non_absorbing_enclosure(*scene_, settings_.seed))
       refuse_non_absorbing_enclosure(room_);
-    if (walks_.both() && !receivers_in_state_) check_receiver_rounds(room_, settings_);
+    if (planned_.both() && !receivers_in_state_) check_receiver_rounds(room_, settings_);
   }
 
   // Where tiles and receivers are measured each gets half of the time.
   std::optional<double> time_for(double mine) const {
-    return walks_.both() ? half_of_time(settings_, before_, mine) : settings_.max_seconds;
+    return planned_.both() ? half_of_time(settings_, earlier_, mine) : settings_.max_seconds;
   }
 
   RunContext context(StopWatch& watch) const {
@@ -187,7 +187,7 @@ class Run {
   }
 
   void measure_tiles() {
-    StopWatch watch(time_for(before_.tiles), control_.stop, before_.tiles, control_.communicator);
+    StopWatch watch(time_for(earlier_.tiles), control_.stop, earlier_.tiles, control_.communicator);
     const RunContext tiles_context = context(watch);
     TileMeasurement measured = settings_.tile_walk == WalkDirection::forward ? measure_tiles_forward(tiles_context)
                                                                              : measure_tiles_backward(tiles_context);
@@ -204,24 +204,24 @@ class Run {
 
   // Where a stop comes before there is a result of the receivers, the tiles' result is kept.
   void measure_receivers_after_tiles() {
-    if (walks_.tiles && count_votes(control_.communicator, control_.stop.stop_requested()) > 0) {
+    if (planned_.tiles && count_votes(control_.communicator, control_.stop.stop_requested()) > 0) {
       result_.walk.stopped_by = StopReason::interrupt;
       return;
     }
-    StopWatch watch(time_for(before_.receivers), control_.stop, before_.receivers, control_.communicator);
+    StopWatch watch(time_for(earlier_.receivers), control_.stop, earlier_.receivers, control_.communicator);
     try {
       ReceiverMeasurement measured = measure_receivers(context(watch));
       result_.receiver_results = std::move(measured.receivers);
       result_.receiver_walk = std::move(measured.report);
     } catch (const StoppedTooSoon&) {
-      if (!walks_.tiles) throw;
+      if (!planned_.tiles) throw;
       result_.walk.stopped_by = watch.reason().value_or(StopReason::interrupt);
     }
   }
 
   void warn_of_missing() {
-    if (settings_.measured != Measured::receivers && !walks_.tiles) result_.warnings.emplace_back(tiles_left_out);
-    if (walks_.receivers && result_.receiver_results.empty())
+    if (settings_.measured != Measured::receivers && !planned_.tiles) result_.warnings.emplace_back(tiles_left_out);
+    if (planned_.receivers && result_.receiver_results.empty())
       result_.warnings.emplace_back(receivers_in_state_ ? receivers_left_out : receivers_not_measured);
   }
 
@@ -229,8 +229,8 @@ class Run {
   const Settings& settings_;
   const Control& control_;
   RunRecord& record_;
-  Walks walks_;
-  WalkedBefore before_;
+  PlannedWalks planned_;
+  EarlierSeconds earlier_;
   bool receivers_in_state_;
   Result result_;
   std::unique_ptr<Scene> scene_;

@@ -11,7 +11,7 @@
 
 namespace lichtmc {
 
-std::optional<StopReason> StopWatch::asked() const {
+std::optional<StopReason> StopWatch::own_reason() const {
   if (max_seconds_ && limit_began_ && since(*limit_began_) >= *max_seconds_) return StopReason::max_time;
   if (stop_token_.stop_requested()) return StopReason::interrupt;
   return std::nullopt;
@@ -26,19 +26,19 @@ void StopWatch::stop_for(StopReason reason) {
 bool StopWatch::should_stop() {
   if (stop_) return true;
   if (communicator_ != nullptr) return false;
-  const std::optional<StopReason> reason = asked();
+  const std::optional<StopReason> reason = own_reason();
   if (reason) stop_for(*reason);
   return reason.has_value();
 }
 
-bool StopWatch::wants_to_stop() {
-  return should_stop() || (communicator_ != nullptr && asked().has_value());
+bool StopWatch::would_stop() {
+  return should_stop() || (communicator_ != nullptr && own_reason().has_value());
 }
 
 // Votes are added up, so that all hear the same whoever has got the signal, and whose clock is ahead.
 void StopWatch::agree() {
   if (communicator_ == nullptr || stop_) return;
-  const std::optional<StopReason> mine = asked();
+  const std::optional<StopReason> mine = own_reason();
   std::array<std::uint64_t, 2> votes{mine == StopReason::interrupt, mine == StopReason::max_time};
   communicator_->sum(votes);
   if (votes[0] > 0) {

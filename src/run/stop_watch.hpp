@@ -34,7 +34,7 @@ class StopWatch {
 
   // Whether this member would stop, though the team has not agreed yet: what it is at need not be completed, if all
   // agree() behind it and throw it away where the answer is to stop. Alone the same as should_stop().
-  bool wants_to_stop();
+  bool would_stop();
 
   // Why should_stop() has said true; none where it has not, or where a thread failed.
   std::optional<StopReason> reason() const;
@@ -58,7 +58,7 @@ class StopWatch {
 
   static double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
   double elapsed() const { return since(began_); }
-  std::optional<StopReason> asked() const;
+  std::optional<StopReason> own_reason() const;
   void stop_for(StopReason reason);
 
   std::optional<double> max_seconds_;

@@ -104,9 +104,9 @@ double usual_edge(const Room& room) {
   return std::stod(short_number(std::ceil(edge / digit - 1e-9) * digit));
 }
 
-class Studying {
+class StudyRun {
  public:
-  Studying(const Room& room, const StudyOptions& options) : room_(&room), options_(&options) {
+  StudyRun(const Room& room, const StudyOptions& options) : room_(&room), options_(&options) {
     edge_ = options.tile_edge_m.value_or(usual_edge(room));
   }
 
@@ -128,7 +128,7 @@ class Studying {
   bool measure_once(const Plan& plan, const Reference& reference, std::uint64_t photons, double& seconds_left);
   void begin(const std::string& what);
   double seconds() const;
-  void tell() const;
+  void report_progress() const;
   Control control() const;
 
   const Room* room_;
@@ -138,12 +138,12 @@ class Studying {
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::string what_;
   std::size_t begun_ = 0;
-  std::uint64_t rung_ = 0;  // histories of the ladder's last run
+  std::uint64_t last_histories_ = 0;  // histories of the ladder's last run
   std::size_t of_ = 0;
   Study study_;
 };
 
-Settings Studying::settings_with(Estimator estimator, Engine engine) const {
+Settings StudyRun::settings_with(Estimator estimator, Engine engine) const {
   Settings settings;
   settings.estimator = estimator;
   settings.engine = engine;
@@ -162,7 +162,7 @@ std::string name_of(const Settings& settings) {
   return name + ", tiles of " + short_number(settings.tile_edge_m) + " m";
 }
 
-std::vector<Studying::Plan> Studying::plans() const {
+std::vector<StudyRun::Plan> StudyRun::plans() const {
   std::vector<Plan> plans;
   const auto add = [&](const Settings& settings, bool ladder, double share) {
     plans.push_back({name_of(settings), settings, ladder, share});
@@ -198,28 +198,28 @@ std::vector<Studying::Plan> Studying::plans() const {
   return plans;
 }
 
-double Studying::seconds() const {
+double StudyRun::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
 }
 
-void Studying::tell() const {
+void StudyRun::report_progress() const {
   if (options_->progress) options_->progress({what_, begun_ - 1, of_, seconds(), options_->seconds});
 }
 
-void Studying::begin(const std::string& what) {
+void StudyRun::begin(const std::string& what) {
   what_ = what;
   ++begun_;
-  tell();
+  report_progress();
 }
 
-Control Studying::control() const {
+Control StudyRun::control() const {
   Control control;
-  control.progress = [this](const Progress&) { tell(); };
+  control.progress = [this](const Progress&) { report_progress(); };
   control.stop = options_->stop;
   return control;
 }
 
-const Reference& Studying::reference_for(double edge, double share) {
+const Reference& StudyRun::reference_for(double edge, double share) {
   if (const auto found = references_.find(edge); found != references_.end()) return found->second;
   begin("reference, tiles of " + short_number(edge) + " m");
   Settings settings = settings_with(Estimator::collision);
@@ -230,8 +230,9 @@ const Reference& Studying::reference_for(double edge, double share) {
   Reference reference = make_reference(simulate(*room_, settings, control()));
   if (reference.result.walk.histories < 2 * reference_factor * batch_histories) {
     throw InputError("The time of " + short_number(options_->seconds) + " s is too short to study " + room_->source +
-                     ": its reference came to " + std::to_string(reference.result.walk.histories) + " photons (allowed: " +
-                     std::to_string(2 * reference_factor * batch_histories) + " or more). Give --max-time more.");
+                     ": its reference came to " + std::to_string(reference.result.walk.histories) +
+                     " photons (allowed: " + std::to_string(2 * reference_factor * batch_histories) +
+                     " or more). Give --max-time more.");
   }
   study_.references.push_back(reference.facts);
   study_.threads = reference.result.threads;
@@ -240,23 +241,23 @@ const Reference& Studying::reference_for(double edge, double share) {
 
 // Returns whether the run came to its end, in time. One that the time has cut shorter than the rung before says nothing
 // new.
-bool Studying::measure_once(const Plan& plan, const Reference& reference, std::uint64_t photons, double& seconds_left) {
+bool StudyRun::measure_once(const Plan& plan, const Reference& reference, std::uint64_t photons, double& seconds_left) {
   Settings settings = plan.settings;
   settings.photons = photons;
   settings.max_seconds = seconds_left;
   const auto began = std::chrono::steady_clock::now();
   const Result result = simulate(*room_, settings, control());
   seconds_left -= std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  const bool longer = !plan.ladder || result.walk.histories > rung_;
-  rung_ = result.walk.histories;
+  const bool longer = !plan.ladder || result.walk.histories > last_histories_;
+  last_histories_ = result.walk.histories;
   if (longer) study_.rows.push_back(row_of(result, reference));
   return result.walk.stopped_by == StopReason::photons && seconds_left > 0.0;
 }
 
-void Studying::measure(const Plan& plan) {
+void StudyRun::measure(const Plan& plan) {
   constexpr double for_other_sizes = 0.05;
   double seconds_left = plan.share * options_->seconds;
-  rung_ = 0;
+  last_histories_ = 0;
   try {
     const Reference& reference = reference_for(plan.settings.tile_edge_m, for_other_sizes);
     begin(plan.name);
@@ -274,7 +275,7 @@ void Studying::measure(const Plan& plan) {
   }
 }
 
-Study Studying::run() {
+Study StudyRun::run() {
   study_.room = room_->source;
   constexpr double for_reference = 0.35;
   reference_for(edge_, for_reference);
@@ -296,7 +297,7 @@ Study study(const Room& room, const StudyOptions& options) {
     throw InputError("The time for the study is " + to_text(options.seconds) +
                      " s (allowed: 5 s or more). Give --max-time a time, for example 10min.");
   }
-  return Studying(room, options).run();
+  return StudyRun(room, options).run();
 }
 
 }  // namespace lichtmc

@@ -91,14 +91,14 @@ void WorkerThreads::make_tally(Worker& worker) const {
   if (worker.tally) return;
   const double began = watch_->seconds();
   worker.tally.emplace(scene_->first_tile, hits_);
-  worker.making = watch_->seconds() - began;
+  worker.tally_seconds = watch_->seconds() - began;
 }
 
 // New tallies are a part of what a checkpoint costs.
-void WorkerThreads::book_making() {
+void WorkerThreads::count_tally_time() {
   double longest = 0.0;
-  for (Worker& worker : workers_) longest = std::max(longest, std::exchange(worker.making, 0.0));
-  if (std::exchange(after_checkpoint_, false)) record_->book(longest);
+  for (Worker& worker : workers_) longest = std::max(longest, std::exchange(worker.tally_seconds, 0.0));
+  if (std::exchange(after_checkpoint_, false)) record_->add_cost(longest);
 }
 
 // Threads come back early when a checkpoint is due. What they have taken they finish.
@@ -106,7 +106,7 @@ void WorkerThreads::simulate_alone(std::uint64_t end) {
   next_ = range_.last;
   watch_->run_on_threads(static_cast<unsigned>(workers_.size()), [&](unsigned k) { work(workers_[k], end, true); });
   range_.last = std::min(next_.load(), end);
-  book_making();
+  count_tally_time();
 }
 
 // A round: every member simulates its part of the batches whatever happens, so that there is no gap.
@@ -118,7 +118,7 @@ void WorkerThreads::simulate_in_ranks(std::uint64_t end) {
   const std::uint64_t my_end = range_.last + part.last * batch_histories;
   watch_->run_on_threads(static_cast<unsigned>(workers_.size()), [&](unsigned k) { work(workers_[k], my_end, false); });
   range_.last += batches * batch_histories;
-  book_making();
+  count_tally_time();
   // Nobody runs ahead: all wait for the slowest here.
   std::uint64_t impacts = round_impacts_.exchange(0);
   communicator_->sum(std::span(&impacts, 1));
@@ -134,10 +134,10 @@ void WorkerThreads::simulate_in_ranks(std::uint64_t end) {
 
 void WorkerThreads::work(Worker& worker, std::uint64_t end, bool may_pause) {
   make_tally(worker);
-  std::uint64_t told = worker.tally->counts().impacts;
-  const auto tell = [&](std::uint64_t histories) {
-    const std::uint64_t impacts = worker.tally->counts().impacts - told;
-    told += impacts;
+  std::uint64_t reported = worker.tally->counts().impacts;
+  const auto report = [&](std::uint64_t histories) {
+    const std::uint64_t impacts = worker.tally->counts().impacts - reported;
+    reported += impacts;
     if (communicator_ == nullptr) {
       reporter_.add(histories, impacts);
     } else {
@@ -148,10 +148,10 @@ void WorkerThreads::work(Worker& worker, std::uint64_t end, bool may_pause) {
     const std::uint64_t first = next_.fetch_add(batch_histories);
     if (first >= end) break;
     worker.abandoned |= !worker.walk->simulate_batch(first, batch_histories, *worker.tally, [&] {
-      tell(0);
+      report(0);
       return watch_->should_stop();
     });
-    tell(batch_histories);
+    report(batch_histories);
   }
 }
 
@@ -163,15 +163,15 @@ bool WorkerThreads::abandoned() const {
 void WorkerThreads::collect() {
   if (ends_ > 0 || abandoned()) return;
   whole_ = own(std::move(whole_));
-  const auto hand_over = [this](Totals& sum) {
+  const auto add_tallies = [this](Totals& sum) {
     for (Worker& worker : workers_) {
       if (worker.tally) worker.tally->add_to(sum);
       worker.tally.reset();
     }
   };
-  if (communicator_ == nullptr) return hand_over(*whole_);
+  if (communicator_ == nullptr) return add_tallies(*whole_);
   Totals of_all_ranks(whole_->tiles.size(), whole_->tile_maps.size(), hits_);
-  hand_over(of_all_ranks);
+  add_tallies(of_all_ranks);
   reduce(communicator_, of_all_ranks);
   whole_->add(of_all_ranks);
 }

@@ -61,7 +61,7 @@ class WorkerThreads {
   struct Worker {
     std::unique_ptr<Walk> walk;
     std::optional<Tally> tally;  // of what was not collected yet; its memory is taken when there is something
-    double making = 0.0;         // seconds that it took to make the tally
+    double tally_seconds = 0.0;  // seconds that it took to make the tally
     bool abandoned = false;      // a batch of it, because of a stop: it counts for the result, not for the state
   };
 
@@ -69,7 +69,7 @@ class WorkerThreads {
   void simulate_in_ranks(std::uint64_t end);
   void work(Worker& worker, std::uint64_t end, bool may_pause);
   void make_tally(Worker& worker) const;
-  void book_making();
+  void count_tally_time();
   void simulate_part(HistoryRange range);
   bool abandoned() const;
   void collect();

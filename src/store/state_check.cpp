@@ -81,10 +81,10 @@ void check_walked(const Settings& settings, const Walked& walked, const TraceCou
     refuse(group + " has the estimator '" + estimator + "', and its settings a number of bounces");
   const auto is_time = [](double seconds) { return std::isfinite(seconds) && seconds >= 0.0; };
   if (!is_time(walked.seconds)) refuse(group + " took " + to_text(walked.seconds) + " s");
-  for (const ConvergencePoint& look : walked.convergence) {
-    if (!is_time(look.seconds) || look.rms_relative_error < 0.0)
-      refuse("in convergence of " + group + " is an error of " + to_text(look.rms_relative_error) + " after " +
-             to_text(look.seconds) + " s");
+  for (const ConvergencePoint& point : walked.convergence) {
+    if (!is_time(point.seconds) || point.rms_relative_error < 0.0)
+      refuse("in convergence of " + group + " is an error of " + to_text(point.rms_relative_error) + " after " +
+             to_text(point.seconds) + " s");
   }
   if (traced.retraced > traced.rays || traced.shadow_rays > traced.rays - traced.retraced)
     refuse(group + " has " + std::to_string(traced.rays) + " rays, fewer than of some kinds");

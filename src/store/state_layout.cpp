@@ -98,8 +98,8 @@ class Writer {
   void field(const char* name, const std::shared_ptr<const Thing>& thing) {
     field(name, *thing);
   }
-  template <std::derived_from<Walked> Walks>
-  void field(const char* name, const std::optional<Walks>& walks) {
+  template <std::derived_from<Walked> WalkState>
+  void field(const char* name, const std::optional<WalkState>& walks) {
     if (!walks) return;
     file_.enter(std::string("/") + name);
     fields(*walks);
@@ -196,8 +196,8 @@ class Reader {
     field(name, *read);
     thing = read;
   }
-  template <std::derived_from<Walked> Walks>
-  void field(const char* name, std::optional<Walks>& walks) {
+  template <std::derived_from<Walked> WalkState>
+  void field(const char* name, std::optional<WalkState>& walks) {
     const std::string group = std::string("/") + name;
     if (!file_.has_group(group)) return;
     file_.enter(group);

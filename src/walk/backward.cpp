@@ -113,7 +113,7 @@ class BackwardGoal : public GoalBase {
     for (std::size_t k = 0; k < light_->light_samples_per_point(); ++k) {
       shadow_rays_.clear();
       pending_.clear();
-      for (std::size_t i = 0; i < rays.size; ++i) take_light_sample(wave, flight, i, k);
+      for (std::size_t i = 0; i < rays.size; ++i) add_light_sample(wave, flight, i, k);
       if (shadow_rays_.size == 0) continue;
       scene_->tracer->find_blocked(shadow_rays_, count_->traced);
       for (std::size_t n = 0; n < pending_.size(); ++n) {
@@ -139,7 +139,7 @@ class BackwardGoal : public GoalBase {
 
  private:
   // Takes light sample k for photon i; where something may cast a shadow, adds a shadow ray to the wave of them.
-  void take_light_sample(const Wave& wave, std::uint32_t flight, std::size_t i, std::size_t k) {
+  void add_light_sample(const Wave& wave, std::uint32_t flight, std::size_t i, std::size_t k) {
     const Rays& rays = wave.rays;
     const Tracer& tracer = *scene_->tracer;
     const glm::dvec3 start(rays.start(i));

@@ -26,16 +26,16 @@ constexpr std::size_t most_triangles = 64;
 using Leaves = std::vector<IntegratedTriangle>;
 
 // Integrates light(outlook) over the pieces of a face that may get some.
-template <class Light, class Lit, class Coarse, class Dark>
-Leaves integrate_face(const TileFaces& faces, std::size_t face, const Light& light, const Lit& lit,
-                      const Coarse& coarse, const Dark& dark, double relative, double absolute) {
+template <class Light, class MayReceive, class Coarse, class IsZero>
+Leaves integrate_face(const TileFaces& faces, std::size_t face, const Light& light, const MayReceive& may_receive,
+                      const Coarse& coarse, const IsZero& is_zero, double relative, double absolute) {
   const Surface& surface = faces.surface(face);
   const std::span<const TilePiece> pieces = faces.pieces().of(faces[face].tile);
   Leaves leaves;
   for (std::size_t n = 0; n < pieces.size(); ++n) {
     const TilePiece& piece = pieces[n];
     ReferencePoint reference = faces.reference(face, {piece.triangle, piece.weights[0]});
-    if (!lit(reference)) continue;
+    if (!may_receive(reference)) continue;
     const auto at = [&](const glm::dvec3& point) {
       reference.point = point;
       return light(reference);
@@ -44,7 +44,7 @@ Leaves integrate_face(const TileFaces& faces, std::size_t face, const Light& lig
                             point_at(surface, piece.triangle, piece.weights[1]),
                             point_at(surface, piece.triangle, piece.weights[2])};
     const std::size_t before = leaves.size();
-    integrate(triangle, at, coarse, dark, relative, absolute, leaves);
+    integrate(triangle, at, coarse, is_zero, relative, absolute, leaves);
     for (std::size_t k = before; k < leaves.size(); ++k) leaves[k].part = n;
   }
   return leaves;
@@ -81,7 +81,7 @@ struct InBeam {
     return std::max(0.0, angle - half_size);
   }
 
-  bool dark(const Triangle& t) const {
+  bool is_outside(const Triangle& t) const {
     double half_size = 0.0;
     return angle_off(t, half_size) > source.extent().half_angle;
   }
@@ -97,29 +97,29 @@ struct InBeam {
 };
 
 // What of a face's light is seen: the mean over pairs of points in s × s strata.
-struct Seen {
-  double share = 1.0;
+struct VisibleFraction {
+  double value = 1.0;
   double standard_error = 0.0;
 };
 
 struct Sample {
   double weight = 0.0;  // light that it stands for, relative to the others'
-  bool seen = false;
+  bool visible = false;
 };
 
 // The ratio Σ weight·seen/Σ weight over pairs, two samples in each stratum, and its error by the differences within
 // the pairs.
-Seen ratio_of(const std::vector<Sample>& samples) {
+VisibleFraction ratio_of(const std::vector<Sample>& samples) {
   double all = 0.0;
-  double seen = 0.0;
+  double visible = 0.0;
   for (const Sample& sample : samples) {
     all += sample.weight;
-    if (sample.seen) seen += sample.weight;
+    if (sample.visible) visible += sample.weight;
   }
   if (!(all > 0.0)) return {};
-  Seen result{seen / all, 0.0};
+  VisibleFraction result{visible / all, 0.0};
   const auto residual = [&](const Sample& sample) {
-    return sample.weight * ((sample.seen ? 1.0 : 0.0) - result.share);
+    return sample.weight * ((sample.visible ? 1.0 : 0.0) - result.value);
   };
   double squares = 0.0;
   for (std::size_t k = 0; k + 1 < samples.size(); k += 2) {
@@ -170,12 +170,13 @@ class LitPoints {
 };
 
 // Samples in ever finer strata until the error is small enough. take(u, v, n): sample n at a point of the unit square.
-// Where all samples are seen, or none, sure(all) tells whether that is to be believed.
-template <class Take, class Sure>
-Seen share_seen(const Take& take, const Sure& sure, const Stream& stream, std::uint64_t number, double allowed) {
+// Where all samples are seen, or none, confirms(all) tells whether that is to be believed.
+template <class SampleAt, class Confirm>
+VisibleFraction visible_fraction(const SampleAt& sample_at, const Confirm& confirms, const Stream& stream,
+                                 std::uint64_t number, double allowed) {
   constexpr std::uint32_t coarsest = 8;  // strata along each side
   constexpr std::uint32_t finest = 32;
-  Seen result;
+  VisibleFraction result;
   std::vector<Sample> samples;
   std::uint32_t drawn = 0;
   for (std::uint32_t s = coarsest; s <= finest; s *= 2) {
@@ -184,12 +185,12 @@ Seen share_seen(const Take& take, const Sure& sure, const Stream& stream, std::u
       const Words words = stream.draw(number, drawn, Purpose::direct_place);
       const std::uint32_t column = k / 2 % s;
       const std::uint32_t row = k / 2 / s;
-      samples.push_back(take((column + unit_open(words[0])) / s, (row + unit_open(words[1])) / s, drawn));
+      samples.push_back(sample_at((column + unit_open(words[0])) / s, (row + unit_open(words[1])) / s, drawn));
     }
     result = ratio_of(samples);
     if (result.standard_error > allowed) continue;
-    const bool unanimous = result.share == 0.0 || result.share == 1.0;
-    if (s > coarsest || !unanimous || sure(result.share == 1.0)) break;
+    const bool unanimous = result.value == 0.0 || result.value == 1.0;
+    if (s > coarsest || !unanimous || confirms(result.value == 1.0)) break;
   }
   return result;
 }
@@ -201,9 +202,9 @@ DirectTiles::DirectTiles(const DirectLight& light, const TileFaces& faces, const
     : light_(&light), faces_(&faces), tracer_(&tracer), stream_(stream), relative_(relative), level_(level) {}
 
 // The light of the leaves less what is kept from them. seen(outlook, n): sample n at a point of the face.
-template <class AskSeen>
+template <class SampleAt>
 DirectIrradiance DirectTiles::shadowed(const Leaves& leaves, std::size_t face, std::uint64_t number,
-                                       const AskSeen& seen) const {
+                                       const SampleAt& sample_at) const {
   if (leaves.empty()) return {};
   const double unshadowed = sum_of(leaves) / faces_->area_m2(face);
   const double by_rules = error_of(leaves) / faces_->area_m2(face);
@@ -211,7 +212,7 @@ DirectIrradiance DirectTiles::shadowed(const Leaves& leaves, std::size_t face, s
   const LitPoints points(leaves, *faces_, face);
   // The edge of a shadow, or of a patch of light, that takes part of a tile mostly goes through its rim: points close
   // to it, some on each side of each triangle, tell.
-  const auto sure = [&](bool all) {
+  const auto confirms = [&](bool all) {
     constexpr double to_rim = 0.99;
     constexpr int on_side = 6;
     std::uint32_t n = std::uint32_t{1} << 24;  // beyond the numbers of the samples
@@ -221,21 +222,22 @@ DirectIrradiance DirectTiles::shadowed(const Leaves& leaves, std::size_t face, s
         const glm::dvec3 side = leaf.triangle[(k + 1) % 3] - leaf.triangle[k];
         for (int i = 0; i < on_side; ++i) {
           const glm::dvec3 rim = leaf.triangle[k] + (static_cast<double>(i) / on_side) * side;
-          const Sample sample = seen(points.reference(leaf, middle + to_rim * (rim - middle)), n++);
-          if (sample.weight > 0.0 && sample.seen != all) return false;
+          const Sample sample = sample_at(points.reference(leaf, middle + to_rim * (rim - middle)), n++);
+          if (sample.weight > 0.0 && sample.visible != all) return false;
         }
       }
     }
     return true;
   };
-  const auto take = [&](double u, double v, std::uint32_t n) {
+  const auto weighted_sample = [&](double u, double v, std::uint32_t n) {
     const LitPoint chosen = points.at(u, v);
-    Sample sample = seen(chosen.reference, n);
+    Sample sample = sample_at(chosen.reference, n);
     sample.weight /= chosen.density;
     return sample;
   };
-  const Seen share = share_seen(take, sure, stream_, number, relative_ * std::max(1.0, level_ / unshadowed));
-  return {unshadowed * share.share, std::hypot(unshadowed * share.standard_error, share.share * by_rules)};
+  const VisibleFraction fraction =
+      visible_fraction(weighted_sample, confirms, stream_, number, relative_ * std::max(1.0, level_ / unshadowed));
+  return {unshadowed * fraction.value, std::hypot(unshadowed * fraction.standard_error, fraction.value * by_rules)};
 }
 
 DirectIrradiance DirectTiles::by_point(const PointLight& source, std::size_t face, std::uint64_t number,
@@ -246,13 +248,13 @@ DirectIrradiance DirectTiles::by_point(const PointLight& source, std::size_t fac
       [&](const ReferencePoint& reference) {
         return glm::dot(source.position() - reference.point, reference.normal) > 0.0;
       },
-      [&](const Triangle& t) { return beam.coarse(t); }, [&](const Triangle& t) { return beam.dark(t); }, relative_,
-      relative_ * level_);
-  const auto seen = [&](const ReferencePoint& reference, std::uint32_t) {
+      [&](const Triangle& t) { return beam.coarse(t); }, [&](const Triangle& t) { return beam.is_outside(t); },
+      relative_, relative_ * level_);
+  const auto sample_at = [&](const ReferencePoint& reference, std::uint32_t) {
     return Sample{source.sample_light(reference).irradiance,
                   !is_blocked(*tracer_, reference, source.position(), count)};
   };
-  return shadowed(leaves, face, number, seen);
+  return shadowed(leaves, face, number, sample_at);
 }
 
 DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::uint64_t number,
@@ -276,7 +278,7 @@ DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::u
   // them, which meet it with the probability of its share of the hemisphere.
   constexpr double close = 0.1;
   const double whole_hemisphere = pi * source.radiance(1.0);
-  const auto seen = [&](const ReferencePoint& reference, std::uint32_t n) {
+  const auto sample_at = [&](const ReferencePoint& reference, std::uint32_t n) {
     const Words words = stream_.draw(number, n, Purpose::direct_point);
     if (source.polygon_irradiance(reference) > close * whole_hemisphere) {
       const glm::dvec3 local(sample_lambert(words[0], words[1]));
@@ -291,7 +293,7 @@ DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::u
     if (!(sample.irradiance > 0.0)) return Sample{};
     return Sample{sample.irradiance, !is_blocked(*tracer_, reference, sample.target, count)};
   };
-  return shadowed(leaves, face, number, seen);
+  return shadowed(leaves, face, number, sample_at);
 }
 
 DirectIrradiance DirectTiles::mean(std::size_t face, TraceCount& count) const {

@@ -33,9 +33,9 @@ class DirectTiles {
   DirectIrradiance mean(std::size_t face, TraceCount& count) const;
 
  private:
-  template <class AskSeen>
+  template <class SampleAt>
   DirectIrradiance shadowed(const std::vector<IntegratedTriangle>& leaves, std::size_t face, std::uint64_t number,
-                            const AskSeen& seen) const;
+                            const SampleAt& sample_at) const;
   DirectIrradiance by_point(const PointLight& source, std::size_t face, std::uint64_t number, TraceCount& count) const;
   DirectIrradiance by_surface(std::size_t k, std::size_t face, std::uint64_t number, TraceCount& count) const;
 

@@ -43,7 +43,7 @@ struct CollisionPolicy {
     return false;
   }
   static void choose(const Scene& scene, Wave& wave, Ends& ends, Survivors& survivors) {
-    choose_by_chance(wave, scene.survival_of.data(), survivors);
+    choose_survivors(wave, scene.survival_of.data(), survivors);
     ends.absorbed += static_cast<int128>(wave.rays.size - survivors.count);
   }
 };

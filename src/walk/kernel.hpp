@@ -52,7 +52,7 @@ class Kernel {
     bool ended = true;
     for (std::uint32_t flight = 1; wave_.rays.size > 0; ++flight) {
       scene_->tracer->trace(wave_.rays, goal.misses(), goal.traced());
-      lose_what_escaped(goal);
+      remove_escaped(goal);
       goal.split(wave_);
       fill_up_lanes();
       goal.land(wave_);
@@ -61,7 +61,7 @@ class Kernel {
       survive_or_be_absorbed(goal);
       scatter(goal);
       goal.reflect(wave_, flight);
-      const bool abandoned = flight % abandon_interval == 0 && abandon() && flight > patience;
+      const bool abandoned = flight % abandon_interval == 0 && abandon() && flight > abandon_after;
       if (abandoned || flight == max_flights_) cut_off(goal);
       if (abandoned) ended = false;
     }
@@ -70,7 +70,7 @@ class Kernel {
 
  private:
   static constexpr std::uint32_t abandon_interval = 1024;  // flights between two calls
-  static constexpr std::uint32_t patience = 100'000;       // flights after which its result counts
+  static constexpr std::uint32_t abandon_after = 100'000;  // flights after which its result counts
 
   // Photons start, each with weight 1.
   void launch(std::uint32_t n, Goal& goal) {
@@ -84,7 +84,7 @@ class Kernel {
   }
 
   // A photon that meets no surface has left through an opening; where there is none it is lost to rounding.
-  void lose_what_escaped(Goal& goal) {
+  void remove_escaped(Goal& goal) {
     Rays& rays = wave_.rays;
     if (none_escaped(rays)) return;
     std::size_t kept = 0;
@@ -119,14 +119,14 @@ class Kernel {
   // The surface that was hit decides what becomes of the photon; the survivors form a compact wave again.
   void survive_or_be_absorbed(Goal& goal) {
     if constexpr (Goal::in_lanes && Reflectance::of_facet) {
-      survive_together(goal);
+      survive_in_lanes(goal);
     } else {
       survive_one_by_one(goal);
     }
   }
 
   // As below, several photons at a time.
-  void survive_together(Goal& goal) {
+  void survive_in_lanes(Goal& goal) {
     const std::size_t n = wave_.rays.size;
     Policy::choose(*scene_, wave_, goal.ends(), survivors_);
     if (survivors_.count == n) return;

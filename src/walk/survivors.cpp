@@ -154,7 +154,7 @@ HWY_EXPORT(ChooseByChance);
 HWY_EXPORT(ListEnded);
 HWY_EXPORT(CompactWave);
 
-void choose_by_chance(const Wave& wave, const std::int64_t* survival_of, Survivors& survivors) {
+void choose_survivors(const Wave& wave, const std::int64_t* survival_of, Survivors& survivors) {
   HWY_DYNAMIC_DISPATCH(ChooseByChance)(wave, survival_of, survivors);
 }
 

@@ -17,7 +17,7 @@ struct Survivors {
 };
 
 // Those whose chance (see draw_many()), counted in 2⁻⁵³, is below the survival of the surface that they are on.
-void choose_by_chance(const Wave& wave, const std::int64_t* survival_of, Survivors& survivors);
+void choose_survivors(const Wave& wave, const std::int64_t* survival_of, Survivors& survivors);
 
 // Those marked with 1 in an array that reaches to whole_lanes() of the wave; the others with 0.
 void choose_marked(const std::uint8_t* marks, std::size_t n, Survivors& survivors);

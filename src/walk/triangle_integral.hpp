@@ -65,13 +65,13 @@ IntegratedTriangle integrate_once(const Triangle& t, const Function& f) {
 // Divides a triangle into four until the error of each part is at most `relative` of its integral or `absolute` times
 // its area; appends the parts to `leaves`.
 // coarse(triangle): whether the function may do something between the points that they would not tell, so that the
-// triangle must be divided; dark(triangle): whether the function is 0 all over it.
-template <class Function, class Coarse, class Dark>
-void integrate(const Triangle& t, const Function& f, const Coarse& coarse, const Dark& dark, double relative,
+// triangle must be divided; is_zero(triangle): whether the function is 0 all over it.
+template <class Function, class Coarse, class IsZero>
+void integrate(const Triangle& t, const Function& f, const Coarse& coarse, const IsZero& is_zero, double relative,
                double absolute, std::vector<IntegratedTriangle>& leaves, int depth = 0) {
   constexpr int deepest = 40;         // a triangle of 10⁻¹² of the first one's size
   constexpr int deepest_smooth = 10;  // kinks run through few triangles of 10⁻³ of the size: what is left is small
-  if (dark(t)) return;
+  if (is_zero(t)) return;
   const bool divide = depth < deepest && coarse(t);
   if (!divide) {
     const IntegratedTriangle leaf = integrate_once(t, f);
@@ -85,7 +85,7 @@ void integrate(const Triangle& t, const Function& f, const Coarse& coarse, const
   const glm::dvec3 bc = 0.5 * (t[1] + t[2]);
   const glm::dvec3 ca = 0.5 * (t[2] + t[0]);
   const Triangle parts[] = {{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {ab, bc, ca}};
-  for (const Triangle& part : parts) integrate(part, f, coarse, dark, relative, absolute, leaves, depth + 1);
+  for (const Triangle& part : parts) integrate(part, f, coarse, is_zero, relative, absolute, leaves, depth + 1);
 }
 
 }  // namespace lichtmc

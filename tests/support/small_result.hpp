@@ -94,7 +94,7 @@ inline Result make_result() {
   result.surfaces.push_back(
       {"lamp.back", "", 0.1, 0.5, 1, 0.2, 0.2, 0.2, std::numeric_limits<double>::quiet_NaN(), 0.1, 1.0, 105});
   result.ignored = {{"A camera 'x' is not modelled.", Effect::none}};
-  result.mended = {"A lamp was added."};
+  result.overrides = {"A lamp was added."};
   return result;
 }
 

@@ -104,7 +104,7 @@ TEST_CASE("the source of a room does not change its fingerprint") {
   const Fingerprint whole = fingerprint(room);
   room.source = "elsewhere/room.glb";
   room.ignored.push_back({"a camera", Effect::none});
-  room.mended.emplace_back("a reflectance was lowered");
+  room.overrides.emplace_back("a reflectance was lowered");
   room.surfaces[0].without_area = 3;
   room.reflectance_maps[0].name = "another picture";
   CHECK(fingerprint(room) == whole);

@@ -228,8 +228,8 @@ TEST_CASE("a file in centimetres is read in metres, its emissive surfaces with t
   CHECK(distance(std::get<IsotropicEmitter>(room.emitters[1].shape).position, {0.002, 0.01, 0.002}) < 1e-9);
   CHECK(room.emitters[1].power == 4.0 * pi * 10.0);                     // a point light's intensity does not change
   CHECK(room.emitters[0].power == Approx(pi * 0.5e-4).epsilon(1e-12));  // 1 cd/m² times π times half a cm²
-  REQUIRE(room.mended.size() == 1);
-  CHECK(room.mended[0] == "Lengths multiplied by 0.01.");
+  REQUIRE(room.overrides.size() == 1);
+  CHECK(room.overrides[0] == "Lengths multiplied by 0.01.");
   for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
     options.scale = wrong;
     CHECK_THROWS_AS(read_with(document, options), InputError);
@@ -248,7 +248,7 @@ TEST_CASE("a file with Z up is rotated to Y up") {
   CHECK(room.surfaces[0].positions[2] == glm::dvec3(0, 2, -1));
   CHECK(first_normal(room.surfaces[0]) == glm::dvec3(0, 1, 0));
   CHECK(std::get<IsotropicEmitter>(room.emitters[0].shape).position == glm::dvec3(0.2, 0.2, -1));
-  CHECK(room.mended == std::vector<std::string>{"Rotated from Z-up to Y-up."});
+  CHECK(room.overrides == std::vector<std::string>{"Rotated from Z-up to Y-up."});
 }
 
 TEST_CASE("deeply nested JSON is refused before it is parsed") {

@@ -175,7 +175,7 @@ TEST_CASE("summary.json has its keys in order with exact numbers and null for un
   CHECK(summary["receivers"] == Json::array());
   REQUIRE(summary["ignored"].size() == result.ignored.size());
   CHECK(summary["ignored"][0] == result.ignored[0].what);
-  CHECK(summary["mended"] == Json(result.mended));
+  CHECK(summary["mended"] == Json(result.overrides));
   CHECK(summary["retraced"] == 1);
   CHECK(summary["lost_histories"] == 2);
   CHECK(summary["tiles_count"] == 6);

@@ -116,9 +116,9 @@ TEST_CASE("input overrides change reflectance maps") {
   CHECK(reflectance_at(room.reflectance_maps[0], 0.75, 0.75) <= 0.9);
   CHECK(reflectance_at(room.reflectance_maps[0], 0.75, 0.75) == Approx(0.9).epsilon(1e-6));
   CHECK(room.surfaces[0].reflectance == Approx((0.25 + 0.5 + 0.9) / 4.0).margin(0.002));
-  CHECK(room.mended.size() == 1);
+  CHECK(room.overrides.size() == 1);
   limit_reflectance(room, 0.9);
-  CHECK(room.mended.size() == 1);  // nothing is above the limit any more
+  CHECK(room.overrides.size() == 1);  // nothing is above the limit any more
   set_reflectance(room, "tiles", 0.4);
   CHECK(!room.surfaces[0].reflectance_map);
   CHECK(room.surfaces[0].reflectance == 0.4);
