@@ -35,14 +35,25 @@ const Surface* surface_that_absorbs_nothing(const Room& room) {
   return found == room.surfaces.end() ? nullptr : &*found;
 }
 
-void check_settings(const Settings& settings) {
+namespace {
+
+void check_histories(const Settings& settings) {
   if (settings.photons == 0) {
     throw InputError("The number of photons is 0 (allowed: 1 or more). Give --photons a number, for example 1e6.");
   }
+  constexpr std::uint64_t most_histories = std::uint64_t{1} << 63;
+  if (settings.photons > most_histories || settings.first_history > most_histories - settings.photons) {
+    throw InputError("The histories end at " + std::to_string(settings.first_history) + " + " +
+                     std::to_string(settings.photons) + " (allowed: up to 2^63). Give smaller numbers.");
+  }
+}
+
+// A part of a run: whole batches of histories, and an estimator that is the same for all parts.
+void check_part(const Settings& settings) {
   if (settings.first_history % batch_histories != 0) {
     const std::uint64_t below = settings.first_history / batch_histories * batch_histories;
     throw InputError("The first history is " + std::to_string(settings.first_history) +
-                     " (allowed: multiples of 1024, for histories are simulated in batches of so many). Begin at " +
+                     " (allowed: multiples of 1024, the number of histories in a batch). Begin at " +
                      std::to_string(below) + " or " + std::to_string(below + batch_histories) + ".");
   }
   if (settings.first_history > 0 && !settings.part) {
@@ -51,22 +62,23 @@ void check_settings(const Settings& settings) {
   }
   if (settings.part && settings.estimator == Estimator::automatic) {
     throw InputError(
-        "The estimator is 'auto' for a part of a run (allowed: weight, collision, absorption): parts must have one "
-        "and the same. Give --estimator the one that a short run with 'auto' has chosen.");
+        "The estimator is 'auto' for a part of a run (allowed: weight, collision, absorption): all parts require the "
+        "same estimator. Give --estimator the one that a short run with 'auto' has chosen.");
   }
-  constexpr std::uint64_t most_histories = std::uint64_t{1} << 63;
-  if (settings.photons > most_histories || settings.first_history > most_histories - settings.photons) {
-    throw InputError("The histories end at " + std::to_string(settings.first_history) + " + " +
-                     std::to_string(settings.photons) + " (allowed: up to 2^63). Give smaller numbers.");
-  }
+}
+
+void check_stop_rules(const Settings& settings) {
   if (settings.target_error && !positive(*settings.target_error)) {
     throw InputError("The target error is " + to_text(*settings.target_error) +
-                     " (allowed: a finite number above 0). Give --target-error a share, for example 1% or 0.01.");
+                     " (allowed: a finite number above 0). Give --target-error a number, for example 1% or 0.01.");
   }
   if (settings.max_seconds && !positive(*settings.max_seconds)) {
     throw InputError("The time limit is " + to_text(*settings.max_seconds) +
                      " s (allowed: a finite number above 0). Give --max-time a time, for example 60s.");
   }
+}
+
+void check_max_bounces(const Settings& settings) {
   if (settings.max_bounces && *settings.max_bounces == 0) {
     throw InputError("The number of bounces is 0 (allowed: 1 or more). Give --max-bounces a number, for example 20.");
   }
@@ -74,15 +86,32 @@ void check_settings(const Settings& settings) {
     throw InputError("A number of bounces is given for the estimator '" + std::string(to_string(settings.estimator)) +
                      "' (only 'weight' is cut off). Leave out --max-bounces or use --estimator weight.");
   }
+}
+
+void check_tile_edge(const Settings& settings) {
   if (!positive(settings.tile_edge_m)) {
     throw InputError("The tile edge is " + to_text(settings.tile_edge_m) +
                      " m (allowed: a finite number above 0). Give --tile a length in metres, for example 0.1.");
   }
+}
+
+void check_threads(const Settings& settings) {
   constexpr unsigned most_threads = 4096;
   if (settings.threads > most_threads) {
     throw InputError("The number of threads is " + std::to_string(settings.threads) + " (allowed: 1 to " +
                      std::to_string(most_threads) + "). Give --threads a smaller number.");
   }
+}
+
+}  // namespace
+
+void check_settings(const Settings& settings) {
+  check_part(settings);
+  check_histories(settings);
+  check_stop_rules(settings);
+  check_max_bounces(settings);
+  check_tile_edge(settings);
+  check_threads(settings);
 }
 
 namespace {

@@ -16,8 +16,8 @@ namespace lichtmc {
 
 namespace {
 
-// Whether a surface emitter's light starts inside a closed shell. Looked at in front of some of its triangles, spread
-// over it.
+// Whether photons of a surface emitter start inside a closed shell. This is tested in front of some of its triangles,
+// distributed over it.
 bool emits_inside(const Surface& surface, const Enclosure& enclosure) {
   constexpr std::size_t samples = 16;
   const std::size_t stride = std::max<std::size_t>(1, surface.triangles.size() / samples);
@@ -35,7 +35,7 @@ bool emits_inside(const Surface& surface, const Enclosure& enclosure) {
   return true;
 }
 
-// Whether all light starts inside closed shells, so that none of it can rightly leave the room.
+// Whether all photons start inside closed shells. Then none can leave the room, except by rounding.
 bool all_inside(const Room& room, const Enclosure& enclosure) {
   return std::all_of(room.emitters.begin(), room.emitters.end(), [&](const Emitter& emitter) {
     return visit_shape(
@@ -44,8 +44,8 @@ bool all_inside(const Room& room, const Enclosure& enclosure) {
   });
 }
 
-// A back side has the front's grid, and its tiles follow the front's in the same order: the distance is the same for
-// all.
+// A back side has the grid of the front, and its tiles follow those of the front in the same order: the difference of
+// their numbers is constant.
 std::uint32_t tiles_between(const TileMap& front, const TileMap& back) {
   const auto used =
       std::find_if(back.tile_of_cell.begin(), back.tile_of_cell.end(), [](std::uint32_t t) { return t != no_tile; });
@@ -53,22 +53,22 @@ std::uint32_t tiles_between(const TileMap& front, const TileMap& back) {
   return *used - front.tile_of_cell[static_cast<std::size_t>(used - back.tile_of_cell.begin())];
 }
 
-std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engine asked, Engine& taken) {
+std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engine requested, Engine& chosen) {
   std::string why_not;
-  if (asked == Engine::automatic || asked == Engine::cuboid) {
-    taken = Engine::cuboid;
+  if (requested == Engine::automatic || requested == Engine::cuboid) {
+    chosen = Engine::cuboid;
     if (auto tracer = make_cuboid_tracer(room, tiling, why_not)) return tracer;
-    if (asked == Engine::cuboid) {
-      throw InputError("The engine 'cuboid' cannot serve " + room.source + ": the room " + why_not +
+    if (requested == Engine::cuboid) {
+      throw InputError("The engine 'cuboid' does not support " + room.source + ": the room " + why_not +
                        ". Use the engine 'auto' or 'embree'.");
     }
   }
-  taken = asked == Engine::embree_fast ? asked : Engine::embree;
-  return make_embree_tracer(room, tiling, asked == Engine::embree_fast ? Edges::fast : Edges::robust);
+  chosen = requested == Engine::embree_fast ? requested : Engine::embree;
+  return make_embree_tracer(room, tiling, requested == Engine::embree_fast ? Edges::fast : Edges::robust);
 }
 
-// Where facets lie on the maps of their surfaces. Facets of surfaces with a map are triangles, one each.
-std::vector<ReflectanceMapPlace> places_on_maps(const Room& room, const Tracer& tracer) {
+// The positions of facets on the reflectance maps of their surfaces. Each facet of such a surface is one triangle.
+std::vector<ReflectanceMapPlace> reflectance_map_places_of(const Room& room, const Tracer& tracer) {
   std::vector<ReflectanceMapPlace> places;
   for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
     const Surface& surface = room.surfaces[k];
@@ -88,13 +88,37 @@ std::vector<ReflectanceMapPlace> places_on_maps(const Room& room, const Tracer& 
 
 }  // namespace
 
-Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make_tracer(room, tiling, asked, engine)) {
+Scene::Scene(const Room& room, const Tiling& tiling, Engine requested)
+    : tracer(make_tracer(room, tiling, requested, engine)) {
+  set_reflectances(room);
+  set_tiles(tiling);
+  launcher = std::make_unique<Launcher>(room, *tracer);
+  if (engine == Engine::embree && launcher->all_off_surfaces()) {
+    const Enclosure enclosure(room);
+    if (enclosure.has_closed_shell() && all_inside(room, enclosure)) misses = Misses::retrace;
+  }
+}
+
+void Scene::set_reflectances(const Room& room) {
   surfaces.resize(room.surfaces.size());
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    const double reflectance = room.surfaces[k].reflectance;
+    surfaces[k].reflectance = reflectance;
+    reflectance_of.push_back(reflectance);
+    // unit_fine() returns multiples of 2⁻⁵³: as many of them are below this number as below ρ.
+    survival_of.push_back(static_cast<std::int64_t>(std::ceil(reflectance * 0x1p53)));
+  }
+  reflectance_map_places = reflectance_map_places_of(room, *tracer);
+  const HighestReflectance highest(room);
+  reflects_all_somewhere = std::any_of(room.surfaces.begin(), room.surfaces.end(),
+                                       [&](const Surface& surface) { return highest.of(surface) == 1.0; });
+}
+
+void Scene::set_tiles(const Tiling& tiling) {
   for (std::size_t m = 0, n = 0; m <= tiling.maps.size(); ++m) {
     while (n < tiling.tiles.size() && tiling.tiles[n].map < m) ++n;
     first_tile.push_back(static_cast<std::uint32_t>(n));
   }
-  for (std::size_t k = 0; k < surfaces.size(); ++k) surfaces[k].reflectance = room.surfaces[k].reflectance;
   std::vector<SurfaceGrid> grids(surfaces.size());
   for (std::size_t m = 0; m < tiling.maps.size(); ++m) {
     const TileMap& map = tiling.maps[m];
@@ -108,37 +132,22 @@ Scene::Scene(const Room& room, const Tiling& tiling, Engine asked) : tracer(make
     const std::vector<std::uint32_t> filled = nearest_tiles(map);
     tile_of_cell.insert(tile_of_cell.end(), filled.begin(), filled.end());
   }
-  reflectance_map_places = places_on_maps(room, *tracer);
-  const HighestReflectance highest(room);
-  reflects_all_somewhere = std::any_of(room.surfaces.begin(), room.surfaces.end(),
-                                       [&](const Surface& surface) { return highest.of(surface) == 1.0; });
-  for (const SurfaceOptics& surface : surfaces) {
-    reflectance_of.push_back(surface.reflectance);
-    // unit_fine() counts in 2⁻⁵³: below this count are as many of its values as below ρ.
-    survival_of.push_back(static_cast<std::int64_t>(std::ceil(surface.reflectance * 0x1p53)));
-  }
   for (const Facet& facet : tracer->facets()) surface_of.push_back(facet.surface);
   cells = std::make_unique<CellFinder>(tracer->facets(), grids);
   cells_are_tiles = true;
   for (std::size_t cell = 0; cell < tile_of_cell.size(); ++cell)
     cells_are_tiles = cells_are_tiles && tile_of_cell[cell] == cell;
-
-  launcher = std::make_unique<Launcher>(room, *tracer);
-  if (engine == Engine::embree && launcher->all_off_surfaces()) {
-    const Enclosure enclosure(room);
-    if (enclosure.has_closed_shell() && all_inside(room, enclosure)) misses = Misses::retrace;
-  }
 }
 
 void Scene::tile_of_each(const Rays& rays, std::uint32_t* tile, std::uint32_t* map, std::uint32_t* surface) const {
   cells->find(rays.size, rays.facet.data(), rays.s.data(), rays.t.data(), tile, surface);
   if (!cells_are_tiles) {
     for (std::size_t i = 0; i < rays.size; ++i) {
-      assert(tile_of_cell[tile[i]] != no_tile);  // a surface that was hit has an area, and so a tile
+      assert(tile_of_cell[tile[i]] != no_tile);  // a surface that was hit has an area, hence a tile
       tile[i] = tile_of_cell[tile[i]];
     }
   }
-  if (first_tile.size() == surfaces.size() + 1) {  // no back has tiles of its own: maps are as surfaces
+  if (first_tile.size() == surfaces.size() + 1) {  // no back has its own tiles: tile map = surface
     std::copy_n(surface, rays.size, map);
     return;
   }

@@ -1,5 +1,4 @@
-// The room as the walk sees it: a tracer, what each surface does to light, which tile a place belongs to, where photons
-// start.
+// The room as prepared for walks: tracer, reflectances, tiles, launcher of photons.
 #pragma once
 
 #include <cstddef>
@@ -19,44 +18,45 @@
 
 namespace lichtmc {
 
-// What a walk needs of a surface.
+// The data of a surface that a walk needs.
 struct SurfaceOptics {
   double reflectance = 0.0;
-  std::uint32_t map = 0;            // its tile map; that of its back, if it has its own, follows it
-  std::uint32_t tiles_to_back = 0;  // a back side's tile number less the front's; 0 where both sides share one map
+  std::uint32_t map = 0;  // its tile map; that of its back, if there is one, is the next
+  std::uint32_t tiles_to_back =
+      0;  // tile number of the back minus that of the front; 0 if both sides share one tile map
 };
 
-// A facet's place on a reflectance map: (u, v) = uv_0 + s·uv_s + t·uv_t.
+// The position of a facet on a reflectance map: (u, v) = uv_0 + s·uv_s + t·uv_t.
 struct ReflectanceMapPlace {
-  const ReflectanceMap* map = nullptr;  // null where the surface has one reflectance
+  const ReflectanceMap* map = nullptr;  // null if the surface has one reflectance
   glm::dvec2 uv_0{0.0};
   glm::dvec2 uv_s{0.0};
   glm::dvec2 uv_t{0.0};
 };
 
 struct Scene {
-  // Tiles and lays out everything that a walk through `room` needs; the room must outlive it.
+  // Prepares the data for walks through `room`; the room must outlive it.
   Scene(const Room& room, const Tiling& tiling, Engine engine);
 
-  Engine engine = Engine::embree;  // the one taken; set while the tracer is made, so it stands before it
+  Engine engine = Engine::embree;  // the one used; declared before `tracer`, whose construction sets it
   std::unique_ptr<Tracer> tracer;
   Misses misses = Misses::escape;
   std::vector<SurfaceOptics> surfaces;
-  std::vector<ReflectanceMapPlace> reflectance_map_places;  // per facet; empty where no surface has a map
-  std::vector<std::uint32_t> tile_of_cell;                  // every cell has a tile, empty ones the nearest
+  std::vector<ReflectanceMapPlace> reflectance_map_places;  // per facet; empty if no surface has a reflectance map
+  std::vector<std::uint32_t> tile_of_cell;                  // every cell has a tile; an empty cell has the nearest
   std::vector<double> reflectance_of;                       // of each surface
   std::vector<std::int64_t> survival_of;                    // the same in units of 2⁻⁵³, rounded up
   std::vector<std::uint32_t> surface_of;                    // of each facet
   std::unique_ptr<CellFinder> cells;
   bool cells_are_tiles = false;           // tile_of_cell[k] = k: rooms of rectangles
-  std::vector<std::uint32_t> first_tile;  // of each tile map; one number more, that of all tiles
-  bool reflects_all_somewhere = false;    // a surface, or a place of one, has ρ = 1
+  std::vector<std::uint32_t> first_tile;  // of each tile map; the last element is the number of all tiles
+  bool reflects_all_somewhere = false;    // a surface, or a point of one, has ρ = 1
   std::unique_ptr<Launcher> launcher;
 
-  // Whether some surface's reflectance changes from point to point.
+  // Whether the reflectance of a surface varies from point to point.
   bool has_reflectance_maps() const { return !reflectance_map_places.empty(); }
 
-  // ρ where flight i ended. surface_reflectance() serves scenes without maps only, at no cost for what they lack.
+  // ρ where flight i ended. surface_reflectance() is for scenes without reflectance maps, and faster.
   double surface_reflectance(const Rays& rays, std::size_t i) const {
     return reflectance_of[surface_of[rays.facet[i]]];
   }
@@ -68,9 +68,13 @@ struct Scene {
     return reflectance_at(*place.map, uv.x, uv.y);
   }
 
-  // The tile that each flight of a wave ended on, its tile map and surface. A place that rounding puts beside the grid
-  // belongs to its outermost cells.
+  // The tile that each flight of a wave ended on, its tile map and surface. A point that rounding moves outside
+  // the grid belongs to its outermost cells.
   void tile_of_each(const Rays& rays, std::uint32_t* tile, std::uint32_t* map, std::uint32_t* surface) const;
+
+ private:
+  void set_reflectances(const Room& room);
+  void set_tiles(const Tiling& tiling);
 };
 
 }  // namespace lichtmc
