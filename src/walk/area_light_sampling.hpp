@@ -1,10 +1,10 @@
 // The irradiance by an area light at a reference point, or its mean over several, by stratified samples.
 //
 // Two kinds of samples: points on the emitter, in strata of its area, and flights from the reference point, in strata
-// of its field of view, which may meet the emitter. Both are combined by the balance heuristic (E. Veach, L. Guibas,
+// of its field of view, which may hit the emitter. Both are combined by the balance heuristic (E. Veach, L. Guibas,
 // Optimally Combining Sampling Techniques for Monte Carlo Rendering, SIGGRAPH 1995): points are efficient for small
 // emitters, flights for near ones and those that fill a narrow field of view. The number of samples doubles until the
-// standard error, from the differences between the two samples of each stratum, is small enough.
+// standard error, computed from the differences between the two samples of each stratum, is small enough.
 #pragma once
 
 #include <algorithm>
@@ -25,18 +25,18 @@ namespace lichtmc {
 
 struct DirectIrradiance {
   double value = 0.0;           // W/m² or lx
-  double standard_error = 0.0;  // 0 where it is exact
+  double standard_error = 0.0;  // 0: exact
 };
 
-// How good a sampled value must be: as many pairs of samples are taken, from 32 doubled up to `most`/2, until the
-// standard error is at most `relative` of the value or `absolute`.
+// Required accuracy of a sampled value: the number of pairs of samples doubles from 32 up to `most`/2 until the
+// standard error is at most `relative` times the value, or `absolute`.
 struct SamplingAccuracy {
   double relative = 1e-3;
   double absolute = 0.0;  // W/m² or lx
   std::uint32_t most = 16384;
 };
 
-// Place of sample k of n in [0, 1): two samples in each of n/2 strata.
+// Position of sample k of n in [0, 1): two samples in each of n/2 strata.
 inline double in_stratum(std::uint32_t k, std::uint32_t n, double u) {
   const std::uint32_t stratum = k / 2;
   const std::uint32_t strata = n / 2;

@@ -35,7 +35,7 @@ class BackwardGoal : public GoalBase {
         cosine_(batch_histories),
         pending_irradiance_(batch_histories) {}
 
-  // Photon i is to start from an origin, as its sample `sample`.
+  // Photon i will start from an origin, as its sample `sample`.
   void prepare(std::size_t i, std::uint64_t origin, std::uint64_t sample) {
     origin_[i] = origin;
     sample_[i] = sample;
@@ -52,7 +52,7 @@ class BackwardGoal : public GoalBase {
     }
   }
 
-  // The first flight leaves by Lambert's law within the field of view: the receiver weighs light by the cosine.
+  // The first flight leaves by Lambert's law within the field of view: the receiver weights radiance by the cosine.
   void start(Wave& wave, std::uint32_t n) {
     flight_ = 0;
     for (std::uint32_t i = 0; i < n; ++i) {
@@ -71,14 +71,14 @@ class BackwardGoal : public GoalBase {
   }
   TraceCount& traced() { return count_->traced; }
 
-  // Escaping through an opening is absorption by ρ = 0, also where rounding made the opening.
+  // Escape through an opening counts as absorption by ρ = 0, also if the opening is due to rounding.
   void escape(const Wave& wave, std::size_t i) {
     if constexpr (!Policy::scores_every_impact) found_[i] += direct_[i];
     finish(wave, i);
   }
 
-  // A flight that meets a shining surface has found some of the direct light of the surface that it left. The
-  // receiver's own direct light is known already.
+  // A flight that hits an area light adds its weighted emission to the direct light at the surface that it left. The
+  // direct light at the receiver itself is computed elsewhere.
   void land(const Wave& wave) {
     ++flight_;
     count_->impacts += wave.rays.size;
@@ -100,13 +100,13 @@ class BackwardGoal : public GoalBase {
   }
 
   static constexpr bool watches_absorption = true;
-  // Variant 3: only the direct light of the last surface survived scores.
+  // Variant 3: only the direct light at the last surface that the photon survived scores.
   void absorb(const Wave& wave, std::size_t i, double reflectance) {
     if constexpr (!Policy::scores_every_impact) found_[i] += direct_[i] / (1.0 - reflectance);
     finish(wave, i);
   }
 
-  // Direct light at every surface survived.
+  // Light sampling at every surface that a photon survived.
   void reflect(const Wave& wave, std::uint32_t flight) {
     const Rays& rays = wave.rays;
     for (std::size_t i = 0; i < rays.size; ++i) direct_[i] = 0.0;
@@ -129,7 +129,7 @@ class BackwardGoal : public GoalBase {
   void cut_off(const Wave& wave, std::size_t i) { finish(wave, i); }
   float* cosines() { return cosine_.data(); }
   void move(Wave& wave, std::size_t from, std::size_t to) {
-    // land() asks how each flight came.
+    // land() needs the geometry of each flight.
     wave.rays.set_direction(to, wave.rays.direction(from));
     wave.rays.length[to] = wave.rays.length[from];
     found_[to] = found_[from];
@@ -138,7 +138,7 @@ class BackwardGoal : public GoalBase {
   }
 
  private:
-  // Takes light sample k for photon i; where something may cast a shadow, adds a shadow ray to the wave of them.
+  // Draws light sample k for photon i; if something may cast a shadow, adds a shadow ray to their wave.
   void add_light_sample(const Wave& wave, std::uint32_t flight, std::size_t i, std::size_t k) {
     const Rays& rays = wave.rays;
     const Tracer& tracer = *scene_->tracer;
@@ -146,7 +146,7 @@ class BackwardGoal : public GoalBase {
     const glm::dvec3 normal = world_normal(tracer, tracer.facets()[rays.facet[i]]);
     const ReferencePoint reference{tracer.world_point(start), rays.behind[i] != 0 ? -normal : normal, 0.0};
     const std::uint64_t id = ids_[wave.photon[i]];
-    // Each emitter has random words of its own at each surface.
+    // Separate random words for each emitter at each surface.
     const auto number = static_cast<std::uint32_t>(flight * light_->light_samples_per_point() + k);
     const Words which = stream_.draw(id, number, Purpose::light);
     const Words where = light_->has_area_lights() ? stream_.draw(id, number, Purpose::on_light) : Words{};
@@ -172,16 +172,17 @@ class BackwardGoal : public GoalBase {
   const Origins* origins_;
   BackwardScale scale_;
   Stream stream_;
-  // Of the photons by their numbers.
+  // By the number of the photon:
   std::vector<std::uint64_t> ids_;
   std::vector<std::uint64_t> origin_;
   std::vector<std::uint64_t> sample_;
   std::vector<std::uint64_t> scores_;
-  std::vector<double> factor_;  // squared sine of the field of view: the share of a hemisphere's light that it takes
-  // Of the photons by their places in the wave.
-  std::vector<double> found_;               // so far, W/m² or lx
-  std::vector<double> direct_;              // at the surface that was left last
-  std::vector<float> cosine_;               // under which it was left
+  std::vector<double>
+      factor_;  // squared sine of the half angle of the field of view: the fraction of a uniform hemisphere
+  // By the position in the wave:
+  std::vector<double> found_;               // score so far, W/m² or lx
+  std::vector<double> direct_;              // direct irradiance at the surface that was left last
+  std::vector<float> cosine_;               // of the angle at which that surface was left
   std::vector<double> pending_irradiance_;  // of the light samples whose shadow rays are being traced
   std::vector<std::size_t> pending_;
   ShadowRays shadow_rays_;
@@ -199,7 +200,7 @@ class PolicyBackwardWalk final : public BackwardWalk {
 
   void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,
                 const Abandon& abandon) override {
-    static_assert(batch_histories % Origins::group == 0);  // no round is torn apart
+    static_assert(batch_histories % Origins::group == 0);  // no round is divided
     goal_.begin(count);
     std::uint32_t n = 0;
     const auto fly = [&] {

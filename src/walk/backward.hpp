@@ -1,9 +1,9 @@
-// The backward walk: from receivers to the surfaces that they see, and on, collecting direct light on the way.
+// The backward walk: from receivers to the surfaces visible from them and on from surface to surface; it collects the
+// direct light at each.
 //
-// E(x₀) = E_d(x₀) + ρ₁[E_d(x₁) + ρ₂[E_d(x₂) + …]]: the first term is computed (see direct_light.hpp), the others are
-// what a walk finds whose first flight leaves the receiver by Lambert's law. For a tile it leaves a random point of it.
-// (H. Schulze, Lichtausbreitung in Räumen,
-// 2021.)
+// E(x₀) = E_d(x₀) + ρ₁[E_d(x₁) + ρ₂[E_d(x₂) + …]]: the first term is computed (see direct_light.hpp); the others
+// are estimated by a walk whose first flight leaves the receiver, or a random point of a tile, by Lambert's law.
+// (H. Schulze, Lichtausbreitung in Räumen, 2021.)
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@
 
 namespace lichtmc {
 
-// What the walks of a receiver, or of a face of a tile, add up to: integers, so that the order does not matter. Scores
-// are irradiances in units of ReceiverScale::unit, or the sums of a round of walks (see make_backward_walk).
+// The sums over the walks of a receiver, or of a face of a tile: integers, so that the order does not matter. Scores
+// are irradiances in units of BackwardScale::unit, or the sums of a round of walks (see make_backward_walk).
 struct BackwardSums {
   uint128 sum = 0;
   uint128 squares = 0;
@@ -41,7 +41,7 @@ void visit_fields(const F& f, Things&... sums) {
 template <>
 inline constexpr bool is_row<BackwardSums> = true;
 
-// The unit of scores: 2⁻²⁴ of the irradiance that the emitters' power makes spread over all surfaces. A score is at
+// The unit of scores: 2⁻²⁴ of the emitters' power over the area of all surfaces. A score is at
 // most 2⁵⁰ units, 6·10⁷ times that; the sum of the squares of 2²⁴ rounds of four of the largest stays below 2¹²⁸.
 struct BackwardScale {
   explicit BackwardScale(const Room& room);
@@ -51,8 +51,7 @@ struct BackwardScale {
   std::uint64_t score(double irradiance) const;
 };
 
-// Which walks: of every origin from first to before last, samples from first_sample to before last_sample each, both
-// whole rounds.
+// Walks to simulate: samples first_sample … last_sample − 1 of each of the origins first … last − 1, in whole rounds.
 struct WalkBlock {
   std::uint64_t first = 0;
   std::uint64_t last = 0;
@@ -85,8 +84,9 @@ class BackwardWalk {
   BackwardWalk& operator=(const BackwardWalk&) = default;
 };
 
-// Where backward walks come from. Origins are numbered; walks from one come in rounds of `group`, of which only the sum
-// counts, so that a round may be spread evenly. start() sets where photon i starts and says how it looks at the room.
+// The origins of backward walks. Origins are numbered; walks from one are grouped in rounds of `group`, of which only
+// the sum is recorded, so that the walks of a round may be stratified. start() sets where photon i starts and returns
+// its reference point.
 class ReceiverOrigins {
  public:
   ReceiverOrigins(const std::vector<Receiver>& receivers, const Tracer& tracer)

@@ -43,7 +43,7 @@ class CellFinder {
     std::int32_t columns = 1;
     std::int32_t first_cell = 0;
   };
-  // The same for rooms with few facets, such as a cuboid: as many as fit into a vector register.
+  // The same for rooms with few facets, such as a cuboid: at most as many as fit into a vector register.
   struct Few {
     std::array<float, most_lanes> column_0{}, column_s{}, column_t{}, row_0{}, row_s{}, row_t{};
     std::array<std::int32_t, most_lanes> last_column{}, last_row{}, columns{}, first_cell{};

@@ -34,7 +34,7 @@ auto choose_policy(Estimator estimator, std::optional<std::uint32_t> max_bounces
   return with.template operator()<RouletteWeightPolicy, RouletteWeightPolicy>(0);
 }
 
-// How the scores of an estimator are to be read.
+// The interpretation of the scores of an estimator.
 inline ScoreLaw score_law(Estimator estimator, bool mapped) {
   return choose_policy(estimator, std::nullopt, mapped,
                        []<class Policy, class Reflectance>(std::uint32_t /*max_flights*/) { return Policy::law; });

@@ -16,11 +16,11 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Up to this number of emitters, each is sampled at every surface; with more, the shadow rays cost more than the
-// variance of choosing one is worth.
+// Up to this number of emitters, each is sampled at every surface. With more, the shadow rays cost more than the lower
+// variance saves.
 constexpr std::size_t few = 4;
 
-// A receiver within this distance of an area light, as a share of the room's size, counts as on it: a millionth, the
+// A receiver within this distance of an area light, as a fraction of the room's size, counts as on it: a millionth, the
 // resolution of Embree's coordinates.
 constexpr double on_emitter = 1e-6;
 
@@ -129,7 +129,7 @@ std::optional<std::size_t> DirectLight::emitter_at(const ReferencePoint& referen
       const double twice = glm::length(cross);
       const glm::dvec3 p = reference.point - a;
       if (!(twice > 0.0) || std::abs(glm::dot(p, cross)) > near * twice) continue;
-      if (glm::dot(reference.normal, cross) >= 0.0) continue;  // its back is to the emitter
+      if (glm::dot(reference.normal, cross) >= 0.0) continue;  // it faces away from the emitter
       const double s = glm::dot(glm::cross(p, c), cross) / (twice * twice);
       const double t = glm::dot(glm::cross(b, p), cross) / (twice * twice);
       if (s >= 0.0 && t >= 0.0 && s + t <= 1.0) return n;

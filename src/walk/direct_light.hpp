@@ -1,9 +1,9 @@
 // Direct light: the irradiance by the emitters themselves, with shadows.
 //
-// At a receiver it is computed outside the statistics of the walks: point lights in closed form, E = I(θ) cos θ'/r²,
-// with one shadow ray; Lambertian area lights by the polygon formula where nothing casts a shadow; other area lights by
-// stratified samples to a relative standard error of 0.1 %. At the surfaces that a backward walk meets it is estimated
-// by one point of one emitter, or of each of a few.
+// At a receiver it is not estimated by the walks but computed: point lights in closed form, E = I(θ) cos θ'/r²,
+// with one shadow ray; Lambertian area lights by the polygon formula if nothing casts a shadow; other area lights by
+// stratified samples to a relative standard error of 0.1 %. At the surfaces that a backward walk hits it is estimated
+// by one point of one emitter, or of each emitter if there are few.
 #pragma once
 
 #include <cstddef>
@@ -34,20 +34,20 @@ class DirectLight {
   const std::vector<PointLight>& points() const { return points_; }
   const std::vector<AreaLight>& areas() const { return areas_; }
 
-  // How many light samples are taken at each surface of a walk: one of every emitter where they are few, else one of
-  // one emitter, chosen by its flux.
+  // Number of light samples at each surface of a walk: one of every emitter if there are few, else one of one emitter,
+  // chosen with a probability proportional to its flux.
   std::size_t light_samples_per_point() const { return few_ ? sources_.size() : 1; }
 
   // Light sample k (below light_samples_per_point()) at a surface of the walk. Its mean over the random words is the
-  // direct irradiance without shadows; area lights count with their weight of the balance heuristic, the rest is left
-  // to walks that meet them (mis_weighted_emission()).
+  // direct irradiance without shadows; area lights count with their weight of the balance heuristic; walks that hit
+  // them add the rest (mis_weighted_emission()).
   LightSample sample_light(std::size_t k, const ReferencePoint& reference, const Words& which,
                            const Words& where) const;
 
-  // A flight that left a surface at an angle of cosine `cosine_here` has met the front of an area light: its weighted
-  // share of the direct irradiance at the surface that it left. Samples of the emitter's points and flights that meet
-  // it are combined by the balance heuristic, see area_light_sampling.hpp. Without it a wall that touches a luminous
-  // ceiling would get 1/r² of its edge.
+  // A flight that left a surface at an angle of cosine `cosine_here` has hit the front of an area light: its weighted
+  // contribution to the direct irradiance at the surface that it left. Samples of the emitter's points and flights that
+  // hit it are combined by the balance heuristic, see area_light_sampling.hpp. Without it, light samples on a wall that
+  // touches a luminous ceiling would grow as 1/r² near the common edge.
   double mis_weighted_emission(std::size_t surface, double cosine_here, const FlightGeometry& flight) const;
   bool has_area_lights() const { return !areas_.empty(); }
   bool is_area_light(std::size_t surface) const { return !areas_of_surface_[surface].empty(); }
@@ -59,7 +59,7 @@ class DirectLight {
   struct Source {
     bool is_area = false;
     std::size_t index = 0;  // into points_ or areas_
-    double share = 1.0;     // probability that a light sample is of it
+    double share = 1.0;     // probability that a light sample chooses it
   };
 
   void choose_by_flux(const Room& room, const std::vector<double>& fluxes);
@@ -70,7 +70,7 @@ class DirectLight {
   std::vector<AreaLight> areas_;
   std::vector<Source> sources_;
   std::vector<double> fluxes_up_to_;
-  std::vector<double> area_shares_;                         // of areas_: probability that a light sample is of it
+  std::vector<double> area_shares_;                         // of areas_: probability that a light sample chooses it
   std::vector<std::vector<std::size_t>> areas_of_surface_;  // indices into areas_
   bool few_ = true;
 };

@@ -19,13 +19,13 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// An emitter of more triangles is sampled: the closed form would cost more than the rays.
+// An emitter with more triangles is sampled: the closed form would cost more than the rays.
 constexpr std::size_t most_triangles = 64;
 
-// What of a face gets light, part by part.
+// The integrated sub-triangles of a face.
 using Leaves = std::vector<IntegratedTriangle>;
 
-// Integrates light(outlook) over the pieces of a face that may get some.
+// Integrates light(reference point) over the pieces of a face for which may_receive(reference point) is true.
 template <class Light, class MayReceive, class Coarse, class IsZero>
 Leaves integrate_face(const TileFaces& faces, std::size_t face, const Light& light, const MayReceive& may_receive,
                       const Coarse& coarse, const IsZero& is_zero, double relative, double absolute) {
@@ -62,11 +62,11 @@ double error_of(const Leaves& leaves) {
   return sum;
 }
 
-// How a triangle lies in the beam of a point emitter.
+// The position of a triangle in the beam of a point emitter.
 struct InBeam {
   const PointLight& source;
 
-  // The angle between the axis and the nearest direction to the triangle, and the angle that it is seen under.
+  // The angle between the axis and the nearest direction to the triangle; half_size: half the angle it subtends.
   double angle_off(const Triangle& t, double& half_size) const {
     const glm::dvec3 segment = centroid_of(t) - source.position();
     const double distance = glm::length(segment);
@@ -86,8 +86,8 @@ struct InBeam {
     return angle_off(t, half_size) > source.extent().half_angle;
   }
 
-  // The light of a lamp changes over its distance from the surface, and over the width of its beam: triangles of half
-  // of either are small enough for the rules to tell the rest.
+  // The irradiance changes over the distance from the emitter and over the width of its beam. In triangles smaller than
+  // half of either, the difference of the two rules is a reliable error estimate.
   bool coarse(const Triangle& t) const {
     double half_size = 0.0;
     angle_off(t, half_size);
@@ -96,18 +96,18 @@ struct InBeam {
   }
 };
 
-// What of a face's light is seen: the mean over pairs of points in s × s strata.
+// The fraction of the unshadowed flux that arrives on a face: the mean over pairs of points in s × s strata.
 struct VisibleFraction {
   double value = 1.0;
   double standard_error = 0.0;
 };
 
 struct Sample {
-  double weight = 0.0;  // light that it stands for, relative to the others'
+  double weight = 0.0;  // flux that it represents, relative to the others
   bool visible = false;
 };
 
-// The ratio Σ weight·seen/Σ weight over pairs, two samples in each stratum, and its error by the differences within
+// The ratio Σ weight·visible/Σ weight over pairs, two samples in each stratum, and its error by the differences within
 // the pairs.
 VisibleFraction ratio_of(const std::vector<Sample>& samples) {
   double all = 0.0;
@@ -130,10 +130,10 @@ VisibleFraction ratio_of(const std::vector<Sample>& samples) {
   return result;
 }
 
-// A point of the leaves, chosen by their light with u and uniform on the one chosen.
+// A point of the leaves: u chooses a leaf in proportion to its integral; the point is uniform on that leaf.
 struct LitPoint {
   ReferencePoint reference;
-  double density = 0.0;  // light per area that the choice went by
+  double density = 0.0;  // integral per area of the chosen leaf
 };
 
 class LitPoints {
@@ -153,7 +153,7 @@ class LitPoints {
     const glm::dvec2 weights = uniform_on_triangle(std::clamp(within, 0.0, 1.0), v);
     return {reference(leaf, point_of_triangle(t[0], t[1], t[2], weights)), leaf.integral / area_of(t)};
   }
-  // How a point of a leaf looks at the room.
+  // The reference point at a point of a leaf.
   ReferencePoint reference(const IntegratedTriangle& leaf, const glm::dvec3& point) const {
     const TilePiece& piece = faces_.pieces().of(faces_[face_].tile)[leaf.part];
     ReferencePoint result = faces_.reference(face_, {piece.triangle, piece.weights[0]});
@@ -169,8 +169,8 @@ class LitPoints {
   std::vector<double> up_to_;
 };
 
-// Samples in ever finer strata until the error is small enough. take(u, v, n): sample n at a point of the unit square.
-// Where all samples are seen, or none, confirms(all) tells whether that is to be believed.
+// Samples in increasingly fine strata until the error is small enough. sample_at(u, v, n): sample n at a point of the
+// unit square. If all samples are visible, or none, confirms(all) returns whether that is confirmed.
 template <class SampleAt, class Confirm>
 VisibleFraction visible_fraction(const SampleAt& sample_at, const Confirm& confirms, const Stream& stream,
                                  std::uint64_t number, double allowed) {
@@ -201,7 +201,7 @@ DirectTiles::DirectTiles(const DirectLight& light, const TileFaces& faces, const
                          double relative, double level)
     : light_(&light), faces_(&faces), tracer_(&tracer), stream_(stream), relative_(relative), level_(level) {}
 
-// The light of the leaves less what is kept from them. seen(outlook, n): sample n at a point of the face.
+// The flux of the leaves times the visible fraction. sample_at(reference point, n): sample n at a point of the face.
 template <class SampleAt>
 DirectIrradiance DirectTiles::shadowed(const Leaves& leaves, std::size_t face, std::uint64_t number,
                                        const SampleAt& sample_at) const {
@@ -210,8 +210,8 @@ DirectIrradiance DirectTiles::shadowed(const Leaves& leaves, std::size_t face, s
   const double by_rules = error_of(leaves) / faces_->area_m2(face);
   if (!tracer_->casts_shadows()) return {unshadowed, by_rules};
   const LitPoints points(leaves, *faces_, face);
-  // The edge of a shadow, or of a patch of light, that takes part of a tile mostly goes through its rim: points close
-  // to it, some on each side of each triangle, tell.
+  // The edge of a shadow, or of a patch of light, on a part of a tile mostly crosses the boundary of the tile. Points
+  // close to it, some on each side of each triangle, detect it.
   const auto confirms = [&](bool all) {
     constexpr double to_rim = 0.99;
     constexpr int on_side = 6;
@@ -274,8 +274,8 @@ DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::u
       *faces_, face, [&](const ReferencePoint& reference) { return source.polygon_irradiance(reference); },
       [&](const ReferencePoint& reference) { return source.reaches_above_horizon(reference); }, no, no, relative_,
       relative_ * level_);
-  // Random points of an emitter close by would seldom be those that shine most: there, flights by Lambert's law find
-  // them, which meet it with the probability of its share of the hemisphere.
+  // Points sampled uniformly on a near emitter rarely lie where it contributes most. Near emitters are sampled by
+  // flights with Lambert's law instead, which hit the emitter with the probability of its projected solid angle over π.
   constexpr double close = 0.1;
   const double whole_hemisphere = pi * source.radiance(1.0);
   const auto sample_at = [&](const ReferencePoint& reference, std::uint32_t n) {

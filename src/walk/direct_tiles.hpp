@@ -1,12 +1,12 @@
-// The direct light on tiles, integrated over their area instead of counted.
+// The direct light on tiles, integrated over their area instead of estimated by photons.
 //
-// What would fall on a tile if nothing stood between is integrated: over triangles that are divided until a rule of
-// degree 5 and one of degree 2 agree, and that are small against the distance from a lamp and the width of its beam.
-// How much of it arrives is then asked by shadow rays: the mean of what is seen, over pairs of points in strata of that
-// light, is unbiased up to the second order of its own error. Where nothing casts a shadow nothing is asked.
+// First the irradiance without shadows is integrated over triangles. They are divided until a rule of degree 5 and one
+// of degree 2 agree and they are small against the distance from the emitter and the width of its beam. Shadow rays
+// then estimate the visible fraction: the mean over pairs of points in strata of the unshadowed flux, unbiased up to
+// the second order of its own error. If nothing casts a shadow, no rays are traced.
 //
 // Emitters without a closed form (surfaces that do not follow Lambert's law, or of very many triangles) are sampled as
-// at receivers, from points all over the tile.
+// at receivers, from points distributed over the tile.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +23,13 @@ namespace lichtmc {
 
 class DirectTiles {
  public:
-  // `relative`: the error to reach, of a face's direct light or, where that is little, of `level` (W/m² or lx), the
-  // irradiance that the light spread over all surfaces makes. All must outlive this.
+  // relative: the error to reach, relative to the direct irradiance of a face or to `level` (W/m² or lx), whichever is
+  // larger; `level` is the emitted power over the area of all surfaces. All references must outlive this.
   DirectTiles(const DirectLight& light, const TileFaces& faces, const Tracer& tracer, const Stream& stream,
               double relative, double level);
 
-  // The mean direct irradiance of a face. Its error bounds that of the integration and holds that of the shadows'
-  // sampling. Random points depend on (seed, face) only.
+  // The mean direct irradiance of a face. Its error contains a bound on that of the integration and the
+  // standard error of the visible fraction. Random points depend on (seed, face) only.
   DirectIrradiance mean(std::size_t face, TraceCount& count) const;
 
  private:

@@ -1,11 +1,11 @@
-// The three estimators as policies of the one kernel: what an impact scores, and what becomes of the photon there.
+// The three estimators as policies of the one kernel: what an impact scores, and whether the photon survives it.
 //
 // W. Wasow: On the mean duration of random walks, 1950; G. Forsythe, R. Leibler: Matrix inversion by a Monte Carlo
 // method, 1950; H. Schulze, Lichtausbreitung in Räumen, 2021, variants 1 to 3.
 //
 // All of them walk the same chain from surface to surface; ρ is the reflectance of the surface that was hit, `chance`
-// uniform in [0, 1). survive() says whether the photon flies on and books in `ends` where its power went, in the units
-// of the score. choose() does the same for a whole wave in a scene without maps, with the same result.
+// uniform in [0, 1). survive() returns whether the photon survives and adds absorbed power to `ends`, in the units of
+// the score. choose() does the same for a whole wave in a scene without reflectance maps, with the same result.
 #pragma once
 
 #include <array>
@@ -20,13 +20,13 @@
 
 namespace lichtmc {
 
-// How the integers that a policy scores are to be read.
+// The interpretation of the integers that a policy scores.
 struct ScoreLaw {
   Hits hits = Hits::are_the_score;
-  double unit = 1.0;                     // photons that a unit of the score stands for
+  double unit = 1.0;                     // photons per unit of the score
   bool at_absorption = false;            // an absorption scores 1/(1 − ρ), an impact nothing
   bool at_most_one_per_history = false;  // the score of a history is 0 or 1: its error follows the binomial law
-  bool per_absorption = false;           // a unit stands for 1/(1 − ρ) impacts on its surface
+  bool per_absorption = false;           // a unit represents 1/(1 − ρ) impacts on its surface
 };
 
 // Variant 2: the photon survives with probability ρ; every impact scores 1.
@@ -48,8 +48,8 @@ struct CollisionPolicy {
   }
 };
 
-// Variant 3: as variant 2, but only the last impact counts. It stands for 1/(1 − ρ) impacts, a factor that belongs to
-// the surface: the tally counts photons, the factor comes in at the end.
+// Variant 3: as variant 2, but only the last impact scores. It represents 1/(1 − ρ) impacts. This factor is constant on
+// a surface: the tally counts photons, and the factor is applied at the end.
 struct AbsorptionPolicy : CollisionPolicy {
   static constexpr ScoreLaw law{.hits = Hits::are_the_score,
                                 .unit = 1.0,
@@ -59,8 +59,8 @@ struct AbsorptionPolicy : CollisionPolicy {
   static constexpr bool scores_every_impact = false;
 };
 
-// Variant 3 where ρ changes from point to point: the factor belongs to the place, so it is scored there. The power that
-// ends stays that of a photon.
+// Variant 3 if ρ varies over a surface: the factor depends on the point, so it is part of the score. The absorbed power
+// remains that of a photon.
 struct MappedAbsorptionPolicy {
   static constexpr bool chooses_in_lanes = false;
   static constexpr ScoreLaw law{.hits = Hits::apart, .unit = 1.0 / weight_units, .at_absorption = true};
@@ -76,8 +76,8 @@ struct MappedAbsorptionPolicy {
   }
 };
 
-// Variant 1: the photon is never absorbed, its weight falls by ρ at every impact. The units of its weight that are gone
-// have been absorbed; rounding the weight itself, not what is gone, keeps the balance exact.
+// Variant 1: the photon is never absorbed, its weight is multiplied by ρ at every impact. The difference is absorbed.
+// The weight is rounded to units, not the difference: so the balance is exact.
 struct WeightPolicy {
   static constexpr bool chooses_in_lanes = true;
   static constexpr ScoreLaw law{.hits = Hits::apart, .unit = 1.0 / weight_units};
@@ -92,7 +92,7 @@ struct WeightPolicy {
     ends.absorbed += signed_units(weight) - signed_units(reflected);
     weight = reflected;
   }
-  // The same for a wave, all of which survives so far.
+  // The same for a wave; all photons survive this step.
   static WeightLoss reflect_all(const Scene& scene, Wave& wave, Ends& ends, Survivors& survivors) {
     const WeightLoss loss =
         reflect_weights(wave.rays.size, wave.surface.data(), scene.reflectance_of.data(), wave.weight.data());
@@ -102,9 +102,9 @@ struct WeightPolicy {
   }
 };
 
-// Variant 1 ended by Russian roulette: below 1/8 the photon goes on with weight 1/4 or not at all, with the same
-// expectation. The figures trade the length of the walk against variance: with weights between 1/8 and 1/4 the roulette
-// adds little variance to a score whose own spread is that of hitting the tile or not.
+// Variant 1 ended by Russian roulette: below 1/8 the photon continues with weight 1/4 or ends, with the same
+// expectation. The two numbers are a compromise between the length of the walk and variance: with weights between 1/8
+// and 1/4 the roulette adds little variance to a score whose own spread is that of hitting the tile or not.
 struct RouletteWeightPolicy : WeightPolicy {
   static constexpr double threshold = 0.125;
   static constexpr double restored = 0.25;
@@ -127,7 +127,7 @@ struct RouletteWeightPolicy : WeightPolicy {
   }
 };
 
-// Variant 1 cut off after a fixed number of flights by the kernel: what weight is left then is the residual.
+// Variant 1 cut off after a fixed number of flights by the kernel: the remaining weight is the residual.
 struct TruncatedWeightPolicy : WeightPolicy {
   static bool survive(double reflectance, double /*chance*/, double& weight, Ends& ends) {
     absorb(reflectance, weight, ends);

@@ -1,4 +1,4 @@
-// Goals: what the photons of a wave are for. The kernel moves them; a goal says where they start and what is recorded.
+// Goals: the purpose of a wave. The kernel moves the photons; a goal determines where they start and what is recorded.
 //
 // A goal is a class derived from GoalBase that redefines the steps it needs; the others do nothing. The kernel is a
 // template over it, so that a step that does nothing costs nothing.
@@ -19,7 +19,7 @@ class GoalBase {
   // The history of photon k of the batch is number first_history + k: it selects the photon's random words.
   explicit GoalBase(std::uint64_t first_history = 0) : first_history_(first_history) {}
 
-  // What happens to a flight that meets no surface, and where rays are counted.
+  // The treatment of a flight that hits no surface; the counter of rays.
   static Misses misses() { return Misses::escape; }
   TraceCount& traced() { return traced_; }
   // Where photons ended, in units of the score.
@@ -31,23 +31,23 @@ class GoalBase {
   }
 
   // The steps of a flight, in the order in which the kernel calls them.
-  void escape(const Wave& /*wave*/, std::size_t /*i*/) {}  // photon i met no surface
-  void split(Wave& /*wave*/) {}        // the flight is over: photons may be split into several, or dropped from the end
+  void escape(const Wave& /*wave*/, std::size_t /*i*/) {}  // photon i hit no surface
+  void split(Wave& /*wave*/) {}        // after the flight: photons may be split into several, or removed from the end
   void land(Wave& /*wave*/) {}         // all photons have landed
-  void score(const Wave& /*wave*/) {}  // all score; the memory that land() has prefetched has had time to arrive
+  void score(const Wave& /*wave*/) {}  // all score; land() has prefetched the memory
   void absorb(const Wave& /*wave*/, std::size_t /*i*/, double /*reflectance*/) {}  // photon i ends on its surface
   // The same for n photons at the places `at`.
   void absorb_all(const Wave& /*wave*/, const std::uint32_t* /*at*/, std::size_t /*n*/) {}
-  void reflect(const Wave& /*wave*/, std::uint32_t /*flight*/) {}  // all photons left have been reflected
+  void reflect(const Wave& /*wave*/, std::uint32_t /*flight*/) {}  // all remaining photons have been reflected
   void cut_off(const Wave& /*wave*/, std::size_t /*i*/) {}         // the walk ends for photon i
 
-  // Photon `from` takes place `to` of the wave, which itself has moved what the next flight needs.
+  // Photon `from` moves to position `to`; the wave has already moved its own data for the next flight.
   void move(Wave& /*wave*/, std::size_t /*from*/, std::size_t /*to*/) {}
   // Where the kernel stores the cosines of the angles to the normals at which photons leave, or null.
   float* cosines() { return nullptr; }
 
-  // Whether absorb() is to be called, and whether photons may survive in lanes: then move() does nothing and
-  // absorb_all() is called in place of absorb().
+  // Whether the kernel calls absorb(); and whether it may process survival in lanes: then move() does nothing and
+  // absorb_all() is called instead of absorb().
   static constexpr bool watches_absorption = false;
   static constexpr bool in_lanes = false;
 
@@ -59,8 +59,8 @@ class GoalBase {
   Ends ends_;
 };
 
-// start(wave, n) sets how the first n photons start: direction, and start point or the place on a facet. It may change
-// their order (Wave::photon) and their number.
+// start(wave, n) sets the starts of the first n photons: direction, and start point or position on a facet. It may
+// change their order (Wave::photon) and their number.
 template <class Goal>
 concept WalkGoal = std::derived_from<Goal, GoalBase> && requires(Goal goal, Wave wave, std::uint32_t n, std::size_t i) {
   { goal.start(wave, n) } -> std::same_as<void>;

@@ -1,11 +1,10 @@
-// The kernel: a wave of photons flies from surface to surface until the last one has ended.
+// The kernel: a wave of photons flies from surface to surface until the last photon has ended.
 //
-//   launch → fly (tracer) → lose what escaped → score on the tiles → survive or be absorbed → scatter → fly …
+//   launch → fly (tracer) → remove escaped → score on the tiles → survive or be absorbed → scatter → fly …
 //
-// One kernel for all estimators, both tracers and both directions of a walk, and for everything else that follows
-// photons through a room. What differs is passed in as policies and resolved at compile time: what becomes of a photon
-// at a surface (Policy, see estimators.hpp), where ρ comes from (Reflectance), and what the walk is for (Goal, see
-// goal.hpp).
+// One kernel for all estimators, both tracers and both directions of a walk, and for everything else that traces
+// photons through a room. The differences are policies, resolved at compile time: survival at a surface (Policy, see
+// estimators.hpp), the source of ρ (Reflectance), and the purpose of the walk (Goal, see goal.hpp).
 #pragma once
 
 #include <cstddef>
@@ -22,17 +21,17 @@
 
 namespace lichtmc {
 
-// Asked every 1024 flights of a wave. When it returns true and the wave has made more than 10⁵ flights, the wave ends
-// and the photons that still fly are cut off: that happens only in rooms that absorb next to nothing.
+// Called every 1024 flights of a wave. If it returns true after more than 10⁵ flights, the wave ends and the remaining
+// photons are cut off. This happens only in rooms with almost no absorption.
 using Abandon = std::function<bool()>;
 
-// ρ where a flight ended: of the surface as a whole,
+// ρ where a flight ended: of the whole surface,
 struct SurfaceReflectance {
   static constexpr bool of_facet = true;
   static double at(const Scene& scene, const Rays& rays, std::size_t i) { return scene.surface_reflectance(rays, i); }
 };
 
-// or of the place, in rooms with maps.
+// or of the point, in rooms with reflectance maps.
 struct MappedReflectance {
   static constexpr bool of_facet = false;
   static double at(const Scene& scene, const Rays& rays, std::size_t i) { return scene.reflectance(rays, i); }
@@ -45,8 +44,8 @@ class Kernel {
   Kernel(const Scene& scene, const Stream& stream, std::uint32_t max_flights)
       : scene_(&scene), stream_(stream), max_flights_(max_flights) {}
 
-  // n photons (1 … batch_histories) start and fly. Returns whether each ended by itself: false where they were
-  // abandoned.
+  // n photons (1 … batch_histories) start and fly. Returns false if they were abandoned before all had
+  // ended.
   bool fly(std::uint32_t n, Goal& goal, const Abandon& abandon) {
     launch(n, goal);
     bool ended = true;
@@ -69,8 +68,8 @@ class Kernel {
   }
 
  private:
-  static constexpr std::uint32_t abandon_interval = 1024;  // flights between two calls
-  static constexpr std::uint32_t abandon_after = 100'000;  // flights after which its result counts
+  static constexpr std::uint32_t abandon_interval = 1024;  // flights between two calls of Abandon
+  static constexpr std::uint32_t abandon_after = 100'000;  // flights after which its result is used
 
   // Photons start, each with weight 1.
   void launch(std::uint32_t n, Goal& goal) {
@@ -83,7 +82,7 @@ class Kernel {
     scene_->tracer->depart(wave_.rays);
   }
 
-  // A photon that meets no surface has left through an opening; where there is none it is lost to rounding.
+  // A photon that hits no surface has left through an opening; in a closed room it is lost by rounding.
   void remove_escaped(Goal& goal) {
     Rays& rays = wave_.rays;
     if (none_escaped(rays)) return;
@@ -105,7 +104,7 @@ class Kernel {
     return escaped == 0;
   }
 
-  // Loops in lanes read some elements beyond the last: they get a facet that exists.
+  // Loops in lanes read some elements beyond the last: these are set to a valid facet.
   void fill_up_lanes() {
     for (std::size_t i = wave_.rays.size; i < whole_lanes(wave_.rays.size); ++i) wave_.rays.facet[i] = 0;
   }
@@ -116,7 +115,7 @@ class Kernel {
               wave_.azimuth.data(), wave_.chance.data());
   }
 
-  // The surface that was hit decides what becomes of the photon; the survivors form a compact wave again.
+  // Absorption or survival at the surface that was hit; then the wave is compacted.
   void survive_or_be_absorbed(Goal& goal) {
     if constexpr (Goal::in_lanes && Reflectance::of_facet) {
       survive_in_lanes(goal);
@@ -169,7 +168,7 @@ class Kernel {
     ++kept;
   }
 
-  // The walk ends here for all that still fly.
+  // The walk ends for all remaining photons.
   void cut_off(Goal& goal) {
     for (std::size_t i = 0; i < wave_.rays.size; ++i) goal.cut_off(wave_, i);
     wave_.rays.size = 0;

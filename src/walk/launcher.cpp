@@ -50,7 +50,7 @@ Launcher::Launcher(const Room& room, const Tracer& tracer) : facets_(&tracer.fac
         emitter, [&](const auto& shape) { sources_.emplace_back(point_source(shape, tracer)); },
         [&](const auto& shape) { sources_.emplace_back(surface_source(room, shape.surface, shape.law(), tracer)); });
   }
-  // Shares of the largest first: tiny powers would lose their digits in the sum.
+  // The largest fractions first: very small powers would lose their digits in the sum.
   const double largest = *std::max_element(powers.begin(), powers.end());
   for (double& power : powers) power /= largest;
   powers_up_to_ = cumulative(powers);
@@ -124,7 +124,7 @@ void Launcher::launch_all(const Stream& stream, std::uint64_t first, std::uint32
             launches.chance.data());
   if (only_source_) return launch_from(*only_source_, launches, 0, n, stream, first, rays, photon);
 
-  // Photons of one emitter stand together in the wave.
+  // Photons of one emitter are adjacent in the wave.
   const std::vector<std::uint32_t> ends = sort_by_source(n, launches, photon);
   std::uint32_t begin = 0;
   for (std::size_t k = 0; k < sources_.size(); ++k) {
@@ -133,7 +133,7 @@ void Launcher::launch_all(const Stream& stream, std::uint64_t first, std::uint32
   }
 }
 
-// Chooses each photon's source and puts photons in the order of their sources; returns where each source's end.
+// Chooses the source of each photon and sorts the photons by source; returns the end of the photons of each source.
 std::vector<std::uint32_t> Launcher::sort_by_source(std::uint32_t n, Launches& launches, std::uint32_t* photon) const {
   std::vector<std::uint32_t> place(sources_.size());
   std::array<std::uint32_t, batch_histories> source;
@@ -172,8 +172,8 @@ void Launcher::launch_from(std::size_t k, Launches& launches, std::uint32_t begi
   std::visit([&](const auto& law) { launch_from_point(point, law, launches, begin, end, rays); }, point.law);
 }
 
-// Photons of a law that is sampled in lanes start together; those of other laws, and those that must choose a side of a
-// surface that the emitter touches, one by one.
+// Photons of a law that is sampled in lanes are launched together; those of other laws, and those of an emitter that
+// touches a surface (on either side), one by one.
 template <class Law>
 void Launcher::launch_from_point(const PointSource& point, const Law& law, Launches& launches, std::uint32_t begin,
                                  std::uint32_t end, Rays& rays) const {
@@ -197,7 +197,7 @@ void Launcher::launch_from_point(const PointSource& point, const Law& law, Launc
 void Launcher::start_at(const PointSource& source, const glm::dvec3& local, Rays& rays, std::size_t i) {
   const glm::vec3 direction(source.to_tracer * local);
   glm::vec3 point = source.start.point;
-  // An emitter that touches a surface sends each photon off on the side it flies to.
+  // If the emitter touches a surface, each photon starts on the side that its direction points to.
   for (const glm::vec3& step : source.start.steps) point += glm::dot(step, direction) < 0.0F ? -step : step;
   rays.facet[i] = no_facet;
   rays.set_start(i, point);

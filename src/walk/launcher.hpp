@@ -1,4 +1,5 @@
-// Where photons start: an emitter is chosen by its power, then a place on it, then a direction by its law.
+// The start of photons: an emitter is chosen in proportion to its power, then a point on it, then a direction by its
+// law.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +23,12 @@ class Launcher {
   // The room must have passed check_room().
   Launcher(const Room& room, const Tracer& tracer);
 
-  // Starts photon i with the random numbers of a history: sets its direction, and its start point or the place on a
-  // facet it leaves.
+  // Starts photon i with the random numbers of a history: sets its direction, and its start point or its position
+  // on a facet.
   void launch(const Stream& stream, std::uint64_t history, Rays& rays, std::size_t i) const;
 
-  // The same for n photons (n ≤ batch_histories) with histories from `first` on, several at once. photon: which of the
-  // histories, counted from `first`, photon i of the wave is; an array of batch_histories.
+  // The same for n photons (n ≤ batch_histories) with histories first … first + n − 1, several at once. photon: which
+  // of the histories, counted from `first`, photon i of the wave is; an array of batch_histories.
   void launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays, std::uint32_t* photon) const;
 
   // Whether no point emitter touches a surface.
@@ -40,7 +41,7 @@ class Launcher {
     EmitterLaw law;
   };
   struct SurfaceSource {
-    std::vector<double> areas_up_to;  // cumulative shares of the triangles' areas, the last is 1
+    std::vector<double> areas_up_to;  // cumulative fractions of the triangles' areas, the last is 1
     std::vector<TriangleOnFacet> triangles;
     LambertLaw law;  // about the normal
   };
@@ -63,9 +64,9 @@ class Launcher {
                 std::size_t i) const;
 
   const std::vector<Facet>* facets_;
-  std::vector<double> powers_up_to_;  // cumulative shares of the power, the last is 1
+  std::vector<double> powers_up_to_;  // cumulative fractions of the power, the last is 1
   std::vector<std::variant<PointSource, SurfaceSource>> sources_;
-  std::optional<std::size_t> only_source_;  // with power
+  std::optional<std::size_t> only_source_;  // the only one with a power, if there is one
   bool all_off_surfaces_ = true;
 };
 

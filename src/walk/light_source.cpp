@@ -23,13 +23,13 @@ glm::dvec3 corner_of(const Surface& surface, std::size_t triangle, int k) {
   return surface.positions[surface.triangles[triangle][k]];
 }
 
-// Twice the area long.
+// Length: twice the area.
 glm::dvec3 cross_of(const Surface& surface, std::size_t triangle) {
   const glm::dvec3 a = corner_of(surface, triangle, 0);
   return glm::cross(corner_of(surface, triangle, 1) - a, corner_of(surface, triangle, 2) - a);
 }
 
-// Up to four corners; rounding adds none, since each side of a triangle gives two at most.
+// At most four corners, also with rounding: each side of a triangle gives two at most.
 class Outline {
  public:
   void add(const glm::dvec3& corner) {
@@ -59,7 +59,8 @@ Outline above_horizon(const std::array<glm::dvec3, 3>& corners, const glm::dvec3
   return kept;
 }
 
-// Whether a triangle, given from a point, rises over its horizon by more than rounding: one in the same plane does not.
+// Whether a triangle, relative to a point, reaches above its horizon by more than rounding. A triangle in the plane of
+// the horizon does not.
 bool is_above_horizon(const std::array<glm::dvec3, 3>& corners, const ReferencePoint& reference) {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   double size = glm::length(reference.point);
@@ -127,7 +128,7 @@ std::optional<glm::dvec3> AreaLight::nearest_hit(const glm::dvec3& point, const 
     const glm::dvec3 b = corner_of(*surface_, triangle, 1) - a;
     const glm::dvec3 c = corner_of(*surface_, triangle, 2) - a;
     const glm::dvec3 across = glm::cross(direction, c);
-    const double determinant = glm::dot(b, across);  // above 0 where the front is met
+    const double determinant = glm::dot(b, across);  // above 0 if the front is hit
     if (!(determinant > 0.0)) continue;
     const glm::dvec3 from = point - a;
     const double s = glm::dot(from, across) / determinant;
@@ -159,7 +160,7 @@ LightSample AreaLight::sample_light(const ReferencePoint& reference, double u, d
   return {flux_ * law_.density_at(cosine_there) * cosine / (r * r), target, cosine * cosine_there / (pi * r * r)};
 }
 
-// L/2 Σ Γ_k · n, Γ_k the angle under which edge k is seen times the normal of the plane through the point and it (J. H.
+// L/2 Σ Γ_k · n, Γ_k the angle subtended by edge k times the normal of the plane through the point and it (J. H.
 // Lambert, Photometria, 1760; P. Schröder, P. Hanrahan, SIGGRAPH 1993).
 double AreaLight::polygon_irradiance(const ReferencePoint& reference) const {
   const double luminance = flux_ / area_m2_ / pi;
@@ -168,7 +169,7 @@ double AreaLight::polygon_irradiance(const ReferencePoint& reference) const {
     std::array<glm::dvec3, 3> corners{};
     for (int k = 0; k < 3; ++k)
       corners[static_cast<std::size_t>(k)] = corner_of(*surface_, triangle, k) - reference.point;
-    if (glm::dot(cross_of(*surface_, triangle), corners[0]) >= 0.0) continue;  // seen from behind
+    if (glm::dot(cross_of(*surface_, triangle), corners[0]) >= 0.0) continue;  // its back faces the point
     if (!is_above_horizon(corners, reference)) continue;
     const Outline seen = above_horizon(corners, reference.normal);
     double edges = 0.0;

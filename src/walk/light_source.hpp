@@ -1,7 +1,7 @@
-// Emitters as seen from a reference point: the irradiance that each would cause there if nothing cast a shadow.
+// The irradiance by each emitter at a reference point, without shadows.
 //
 // Point lights in closed form, E = I(θ) cos θ'/r²; Lambertian area lights by the polygon formula; any area light by a
-// random point on it. Everything here is geometry in the world, in m; shadows are in direct_light.hpp.
+// random point on it. World coordinates in m; shadows are in direct_light.hpp.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ namespace lichtmc {
 struct LightSample {
   double irradiance = 0.0;  // W/m² or lx; 0: none
   glm::dvec3 target{0.0};   // m, the point of the emitter
-  double pdf_bsdf = 0.0;    // density with which a diffuse flight meets that point, per area; 0 for point lights
+  double pdf_bsdf = 0.0;    // density per area with which a diffuse flight hits that point; 0 for point lights
 };
 
 class PointLight {
@@ -59,14 +59,14 @@ class AreaLight {
   // surface: index into Room::surfaces; law: about the normal; flux: in W or lm. The room must outlive the light.
   AreaLight(const Room& room, std::size_t surface, const LambertLaw& law, double flux);
 
-  // The sample at the point that u, v, w (in [0, 1)) choose, uniform over the area: its mean is the irradiance by the
+  // The sample at a point uniform over the area, chosen by u, v, w (in [0, 1)). Its mean is the irradiance by the
   // emitter, without shadows.
   LightSample sample_light(const ReferencePoint& reference, double u, double v, double w) const;
 
-  // Where a ray from a point first meets the front of the emitter, if nothing else is in its way.
+  // The first point where a ray from a point hits the front of the emitter, if nothing else is hit before.
   std::optional<glm::dvec3> nearest_hit(const glm::dvec3& point, const glm::dvec3& direction) const;
 
-  // Whether the emitter's bounding box reaches above the horizon of a reference point: else it contributes nothing.
+  // Whether the emitter's bounding box reaches above the horizon of a reference point; if not, the irradiance is 0.
   bool reaches_above_horizon(const ReferencePoint& reference) const;
 
   bool lambertian() const { return law_.exponent == 1.0; }

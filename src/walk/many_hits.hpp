@@ -1,6 +1,6 @@
 // The hits of a batch in rooms with many tiles, where hits are the score.
 //
-// Each impact accesses another address in memory: a tile takes four bytes, so that as many tiles as possible stay in
+// Each impact accesses another address in memory: a tile takes four bytes, so that as many tiles as possible fit into
 // the cache. With many tiles, most batches that hit a tile hit it once, some twice: these batches are counted and added
 // to the totals from time to time.
 #pragma once
@@ -47,7 +47,7 @@ class ManyHits {
   static constexpr std::uint32_t twice = 0x100'0000U;
   static constexpr std::uint32_t most_twice = 0xFF00'0000U;
 
-  // Hits of one batch that two bytes cannot hold; one hit stays in the tile's own bytes.
+  // Hits of one batch that exceed two bytes; one hit remains in the tile's own bytes.
   struct Carried {
     std::uint32_t tile = 0;
     std::uint64_t hits = 0;

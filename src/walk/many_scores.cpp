@@ -13,7 +13,7 @@ const std::vector<std::uint64_t>& ManyScores::close_batch(std::uint32_t n, Total
   if (n == batch_histories && batch_ != last_number) {
     ++batch_;
   } else {
-    // Only scores of full batches may stay for later, and no batch number is used twice.
+    // Only scores of full batches may be added later, and no batch number is used twice.
     for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile) {
       settle(tile, tiles_[tile].batch == batch_ ? n : batch_histories, totals);
       tiles_[tile].batch = 0;

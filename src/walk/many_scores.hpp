@@ -45,10 +45,10 @@ class ManyScores {
  private:
   struct BatchTile {
     std::uint64_t score = 0;
-    std::uint32_t batch = 0;  // the last one that hit the tile
+    std::uint32_t batch = 0;  // the last batch that hit the tile
     std::uint32_t hits = 0;   // modulo 2³²
   };
-  // Hits that four bytes cannot hold: times · 2³².
+  // Hits that exceed four bytes: times · 2³².
   struct Carried {
     std::uint32_t tile = 0;
     std::uint64_t times = 0;

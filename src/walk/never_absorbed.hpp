@@ -1,4 +1,4 @@
-// A policy for walks that only show where light can reach: photons are never absorbed.
+// A policy for walks that only determine where light can arrive: photons are never absorbed.
 #pragma once
 
 #include "walk/scene.hpp"

@@ -10,17 +10,17 @@ namespace lichtmc {
 namespace {
 
 constexpr std::uint32_t max_flights = 1'000'000;
-constexpr std::uint32_t flights_of_all = 1000;  // after these, a few photons represent all that still fly
+constexpr std::uint32_t flights_of_all = 1000;  // after these, a few photons represent all that remain
 constexpr std::size_t few = 8;
 
-// A photon survives where nothing is absorbed, and ends at any other surface.
+// A photon survives at reflectance 1 and ends at any other surface.
 struct PerfectReflectionPolicy {
   static bool survive(double reflectance, double /*chance*/, double& /*weight*/, Ends& /*ends*/) {
     return reflectance == 1.0;
   }
 };
 
-// Goal: whether a photon still flies after the last flight.
+// Goal: whether a photon remains after the last flight.
 class LastingFlight : public GoalBase {
  public:
   LastingFlight(const Scene& scene, const Stream& stream) : scene_(scene), stream_(stream) {}

@@ -1,4 +1,4 @@
-// Enclosures without absorption: emitters enclosed by surfaces that absorb nothing, so that their light never ends.
+// Enclosures without absorption: emitters enclosed by surfaces that absorb nothing, so that their histories never end.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace lichtmc {
 
-// Whether some photon of the first thousand meets nothing but reflectance 1 in a million flights: it flies in a closed
-// enclosure, or in one whose openings are less than some millionths of its walls. Determined by simulation, so that
-// gaps in a mesh and shells around a light source are judged by their effect. Rooms without a reflectance of 1 are not
-// simulated. Takes some seconds only where the answer is yes.
+// Whether one of the first 1000 photons hits only surfaces of reflectance 1 in 10⁶ flights: it is in a closed
+// enclosure, or in one whose openings are less than some millionths of its walls. This is determined by simulation,
+// which includes the effect of gaps in a mesh and of shells around a light source. Rooms without a reflectance of 1 are
+// not simulated. Takes some seconds only if the result is true.
 bool has_non_absorbing_enclosure(const Scene& scene, std::uint64_t seed);
 
 }  // namespace lichtmc

@@ -13,7 +13,7 @@ namespace lichtmc {
 
 namespace {
 
-// Where a ray that starts in a box, or next to it, leaves it.
+// The point where a ray that starts in a box, or close to it, leaves the box.
 glm::dvec3 exit_from(const Bounds& box, const glm::dvec3& start, const glm::dvec3& direction) {
   double nearest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
@@ -24,7 +24,7 @@ glm::dvec3 exit_from(const Bounds& box, const glm::dvec3& start, const glm::dvec
   return start + (nearest < std::numeric_limits<double>::infinity() ? nearest : 0.0) * direction;
 }
 
-// Goal of `paths`: every flight is written down.
+// Goal of `paths`: every flight is recorded.
 class PathGoal : public GoalBase {
  public:
   PathGoal(const Room& room, const Scene& scene, const Stream& stream, std::uint64_t first)
@@ -73,7 +73,7 @@ class PathGoal : public GoalBase {
     paths_[wave.photon[i]].end = PathEnd::absorbed;
   }
   void cut_off(const Wave& wave, std::size_t i) { paths_[wave.photon[i]].end = PathEnd::cut_off; }
-  // land() reads the flight that is over, which the next flight does not need.
+  // land() reads the flight that has ended; the next flight does not need it.
   static void move(Wave& wave, std::size_t from, std::size_t to) {
     Rays& rays = wave.rays;
     rays.set_start(to, rays.start(from));
@@ -94,7 +94,7 @@ std::vector<PhotonPath> walk_paths(const Room& room, const Scene& scene, const S
                                    std::uint32_t most_flights, std::uint64_t first, std::uint32_t n) {
   const Stream stream(settings.seed);
   PathGoal goal(room, scene, stream, first);
-  // Settings::estimator automatic is taken for collision: estimators differ in what they score, not in the paths.
+  // Settings::estimator automatic means collision: the estimators differ in their scores, not in the paths.
   const Estimator estimator = settings.estimator == Estimator::automatic ? Estimator::collision : settings.estimator;
   choose_policy(estimator, settings.max_bounces, scene.has_reflectance_maps(),
                 [&]<class Policy, class Reflectance>(std::uint32_t /*max_flights*/) {

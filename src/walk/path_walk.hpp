@@ -1,4 +1,4 @@
-// The forward walk with every flight written down.
+// The forward walk with a record of every flight.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace lichtmc {
 
-// Histories first … first + n − 1 (1 ≤ n ≤ batch_histories), ended after `most_flights` (≥ 1) at the latest. The room
-// is the scene's.
+// Histories first … first + n − 1 (1 ≤ n ≤ batch_histories), each ended after at most `most_flights` (≥ 1) flights. The
+// room is that of the scene.
 std::vector<PhotonPath> walk_paths(const Room& room, const Scene& scene, const Settings& settings,
                                    std::uint32_t most_flights, std::uint64_t first, std::uint32_t n);
 

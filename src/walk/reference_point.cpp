@@ -9,7 +9,7 @@
 namespace lichtmc {
 
 ReferencePoint reference_point_of(const Receiver& receiver) {
-  // Scaled by its largest component first: the square of a very long or short normal would not be a double.
+  // Scaled by its largest component first: the square of a very long or short normal would overflow or underflow.
   const glm::dvec3 n = receiver.normal;
   const glm::dvec3 scaled = n / std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
   ReferencePoint reference{receiver.position, glm::normalize(scaled), 0.0};

@@ -1,5 +1,6 @@
-// Photons that survive move up to the places of those that do not, several in each instruction: which of eight survive
-// is a number, and a table says for each such number where they go. Written with Highway.
+// Surviving photons move to the positions of those that do not survive, several in each instruction: the set of
+// survivors among eight photons is a number from 0 to 255, the index into a table of permutations. Written with
+// Highway.
 #include "walk/survivors.hpp"
 
 #include <bit>
@@ -14,7 +15,7 @@
 #define LICHTMC_LANE_TABLE
 namespace lichtmc {
 
-// For every set of survivors among some lanes, bit by bit: their numbers, in order.
+// For every set of surviving lanes (a bit each): the numbers of these lanes, in order.
 template <std::size_t lanes>
 constexpr auto ranks_of() {
   std::array<std::uint32_t, lanes << lanes> ranks{};
@@ -30,7 +31,7 @@ constexpr auto ranks_of() {
 template <std::size_t lanes>
 alignas(64) inline constexpr auto ranks = ranks_of<lanes>();
 
-// The set of the eight photons from i on; those beyond the n-th do not count.
+// The set of the eight photons from i on; those beyond the n-th are not included.
 inline std::uint8_t within(std::size_t set, std::size_t i, std::size_t n) {
   return static_cast<std::uint8_t>(n - i < 8 ? set & ((std::size_t{1} << (n - i)) - 1) : set);
 }
@@ -78,7 +79,7 @@ using Signed64 = hn::CappedTag<std::int64_t, hn::MaxLanes(Tag()) / 2>;
 constexpr std::size_t lanes = hn::MaxLanes(Tag());
 constexpr std::size_t lanes_64 = hn::MaxLanes(Signed64());
 
-// Which of a vector of photons survive. All numbers are below 2⁵³.
+// The survivors among a vector of photons. All numbers are below 2⁵³.
 HWY_INLINE std::size_t ByChance(const std::uint64_t* chance, const std::uint32_t* surface,
                                 const std::int64_t* survival_of) {
   const Signed64 d;
@@ -125,7 +126,7 @@ void CompactWave(Wave& wave, const Survivors& survivors) {
   for (std::size_t i = 0; i < n; i += lanes) {
     const std::size_t set = survivors.sets[i / 8] >> (i % 8) & ((std::size_t{1} << lanes) - 1);
     const auto ranks_of_set = hn::SetTableIndices(d, ranks<lanes>.data() + set * lanes);
-    // A whole vector is stored: what it holds beyond the survivors is overwritten by the next one's.
+    // A whole vector is stored: the elements after the survivors are overwritten by the next vector.
     const auto move = [&]<class T>(std::vector<T>& array) {
       const hn::Rebind<T, Tag> dt;
       const auto from = hn::BitCast(d, hn::LoadU(dt, array.data() + i));

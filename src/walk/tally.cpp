@@ -6,7 +6,7 @@ namespace lichtmc {
 
 namespace {
 
-// Up to this many tiles, visiting all of them at the end of a batch costs less than recording which ones were hit.
+// Up to this many tiles, visiting all of them at the end of a batch costs less than recording which tiles were hit.
 constexpr std::size_t few_tiles = std::size_t{4} * batch_histories;
 
 Tally::TileScores tiles_for(const std::vector<std::uint32_t>& first_tile, Hits hits) {

@@ -27,7 +27,7 @@ class Tally {
     if (const auto* scores = std::get_if<ManyScores>(&batch_)) scores->expect(tiles, n, totals_);
   }
 
-  // One unit for each of n impacts on tiles of tile maps, where hits are the score.
+  // One unit for each of n impacts on tiles of tile maps, if hits are the score.
   void score_each(const std::uint32_t* tiles, const std::uint32_t* tile_maps, std::size_t n) {
     if (auto* few = std::get_if<FewTiles>(&batch_)) {
       few->score_each(tiles, n);
@@ -35,7 +35,7 @@ class Tally {
       std::get<ManyHits>(batch_).score_each(tiles, tile_maps, n);
     }
   }
-  // units[i] (> 0) for impact i, where hits are counted apart.
+  // units[i] (> 0) for impact i, if hits are counted separately.
   void score_each(const std::uint32_t* tiles, const std::uint32_t* tile_maps, const std::uint32_t* units,
                   std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) score(tiles[i], tile_maps[i], units[i]);

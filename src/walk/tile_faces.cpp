@@ -27,7 +27,7 @@ TileFaces::TileFaces(const Room& room, const Tiling& tiling, const Tracer& trace
       faces_.push_back({number, map.side == Side::back});
       continue;
     }
-    // Where nothing casts a shadow the room is convex: nothing is seen from outside.
+    // If nothing casts a shadow the room is convex: the outer faces receive no light.
     bool front = tracer.casts_shadows();
     bool back = front;
     for (const TilePiece& piece : pieces_.of(tile)) {

@@ -1,7 +1,7 @@
-// The faces of tiles: each side of a tile that light can fall on, as a start for walks back to the light.
+// The faces of tiles: each side of a tile that can receive light, as an origin of backward walks.
 //
-// A tile of a surface with one map has two faces where both sides count on it, and its irradiance is the sum of both;
-// in a convex room only the face towards the room can get light. A tile of a two-sided surface has the face of its map.
+// A tile of a surface with one tile map for both sides has two faces, and its irradiance is the sum of both; in a
+// convex room only the face towards the room can receive light. A tile of a surface with two tile maps has one face.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ namespace lichtmc {
 
 struct TileFace {
   std::uint32_t tile = 0;
-  bool behind = false;  // it looks to where the surface's back is
+  bool behind = false;  // it is on the back of the surface
 };
 
 class TileFaces {
@@ -34,13 +34,13 @@ class TileFaces {
   const Surface& surface(std::size_t face) const { return room_->surfaces[surface_number(face)]; }
   const TilePieces& pieces() const { return pieces_; }
 
-  // The place that u, v in [0, 1) choose, uniform over the face's area.
+  // The point chosen by u, v in [0, 1), uniform over the face's area.
   SurfacePlace place(std::size_t face, double u, double v) const { return pieces_.place(faces_[face].tile, u, v); }
-  // How a place of the face looks at the room.
+  // The reference point at a point of the face.
   ReferencePoint reference(std::size_t face, const SurfacePlace& place) const;
 
   // As origins of backward walks (see backward.hpp): walks in rounds of four, one from each quarter of the unit square
-  // that the places on the face are numbered by.
+  // of (u, v).
   static constexpr std::uint32_t group = 4;
   ReferencePoint start(std::uint64_t face, std::uint64_t sample, std::uint64_t id, const Stream& stream, Rays& rays,
                        std::size_t i) const;

@@ -18,7 +18,7 @@ namespace lichtmc {
 // 10⁹ impacts per history.
 inline constexpr double weight_units = 0x1p24;
 
-// Whether a tile's hits are counted apart from its score.
+// Whether the hits of a tile are counted separately from its score.
 enum class Hits {
   are_the_score,  // every hit scores 1
   apart,
@@ -59,7 +59,7 @@ struct Totals : Counts {
   std::vector<Moments> tiles;       // per tile
   std::vector<std::uint64_t> hits;  // per tile; empty where hits are the score
   std::vector<Moments> tile_maps;   // per tile map
-  std::vector<uint128> behind;      // per tile map: score that came from behind
+  std::vector<uint128> behind;      // per tile map: score on the back
 
   void add(const Totals& other) { add_fields(*this, other); }
 };

@@ -1,4 +1,4 @@
-// The integral of a smooth function over triangles in space, by halving them until two rules agree.
+// The integral of a smooth function over triangles in space, by subdivision until two rules agree.
 #pragma once
 
 #include <array>
@@ -32,12 +32,12 @@ inline double radius_of(const Triangle& t) {
 struct IntegratedTriangle {
   Triangle triangle{};
   double integral = 0.0;
-  double error = 0.0;    // the difference of the two rules: more than the error of the better one
-  std::size_t part = 0;  // which triangle of several this is of; set by who integrates them
+  double error = 0.0;    // the difference of the two rules: above the error of the better one
+  std::size_t part = 0;  // which of several integrated triangles this belongs to; set by the caller
 };
 
 // Seven points, exact for polynomials of degree 5 (J. Radon, Zur mechanischen Kubatur, Monatshefte für Mathematik 52,
-// 1948); four of them with other weights are exact for degree 2, which tells how well the function is known.
+// 1948); four of them with other weights are exact for degree 2, which gives an error estimate.
 template <class Function>
 IntegratedTriangle integrate_once(const Triangle& t, const Function& f) {
   const double root = std::sqrt(15.0);
@@ -64,13 +64,13 @@ IntegratedTriangle integrate_once(const Triangle& t, const Function& f) {
 
 // Divides a triangle into four until the error of each part is at most `relative` of its integral or `absolute` times
 // its area; appends the parts to `leaves`.
-// coarse(triangle): whether the function may do something between the points that they would not tell, so that the
-// triangle must be divided; is_zero(triangle): whether the function is 0 all over it.
+// coarse(triangle): whether the function may vary between the points without an effect on them, so that the triangle
+// must be divided; is_zero(triangle): whether the function is 0 on all of it.
 template <class Function, class Coarse, class IsZero>
 void integrate(const Triangle& t, const Function& f, const Coarse& coarse, const IsZero& is_zero, double relative,
                double absolute, std::vector<IntegratedTriangle>& leaves, int depth = 0) {
-  constexpr int deepest = 40;         // a triangle of 10⁻¹² of the first one's size
-  constexpr int deepest_smooth = 10;  // kinks run through few triangles of 10⁻³ of the size: what is left is small
+  constexpr int deepest = 40;         // a triangle of 10⁻¹² of the size of the first
+  constexpr int deepest_smooth = 10;  // few triangles of 10⁻³ of the size contain kinks: the remaining error is small
   if (is_zero(t)) return;
   const bool divide = depth < deepest && coarse(t);
   if (!divide) {

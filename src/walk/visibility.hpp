@@ -1,4 +1,4 @@
-// Shadow rays, and the geometry of a flight that has met an area light.
+// Shadow rays, and the geometry of a flight that has hit an area light.
 #pragma once
 
 #include <cmath>
@@ -16,8 +16,8 @@
 namespace lichtmc {
 
 // The segment from a start point (tracer's coordinates, one step off its surface) to a point of an emitter (m, world)
-// that must be free for the light to arrive: it ends two steps short of the emitter, which may lie on a surface. None
-// where the emitter is so close that nothing fits between.
+// that must be free for the light to arrive: it ends two steps before the emitter, which may lie on a surface. None if
+// the emitter is closer than that.
 inline std::optional<glm::vec3> shadow_segment(const Tracer& tracer, const glm::dvec3& start,
                                                const glm::dvec3& target) {
   const double short_of = 2.0 * tracer.step();
@@ -27,7 +27,7 @@ inline std::optional<glm::vec3> shadow_segment(const Tracer& tracer, const glm::
   return glm::vec3(segment * (1.0 - short_of / length));
 }
 
-// Whether something stands between a reference point and a point of an emitter.
+// Whether a surface is between a reference point and a point of an emitter.
 inline bool is_blocked(const Tracer& tracer, const ReferencePoint& reference, const glm::dvec3& target,
                        TraceCount& count) {
   if (!tracer.casts_shadows()) return false;
@@ -47,8 +47,8 @@ struct FlightGeometry {
   double cosine_there = 0.0;
 
   bool degenerate() const { return !(length_m > 0.0) || !(cosine_there > 0.0); }
-  // Density, per area of the surface that was met, with which Lambert's law leads to this point from a surface left at
-  // an angle of this cosine.
+  // Density per area of the surface that was hit, for a flight by Lambert's law that left a surface at an angle of this
+  // cosine.
   double pdf_bsdf(double cosine_here) const {
     return cosine_here * cosine_there / (std::numbers::pi * length_m * length_m);
   }

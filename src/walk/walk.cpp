@@ -11,9 +11,9 @@ namespace lichtmc {
 
 namespace {
 
-// Where direct light is integrated, the first flight of a photon scores nothing: it only leads to the place of the
-// first reflection. There the photon is split into this number of histories, each of which costs a walk only its other
-// flights. More would save little, because their scores are correlated (docs/trade-off.md has the figures).
+// If direct light is integrated, the first flight of a photon does not score: it only leads to the point of the first
+// reflection. There the photon is split into this number of histories, which saves all but one of their first flights.
+// More would save little, because their scores are correlated (docs/trade-off.md has the figures).
 constexpr std::uint32_t splitting_factor = 8;
 
 // Goal of the forward walk: photons score on the tiles.
@@ -65,7 +65,7 @@ class TileGoal : public GoalBase {
     Rays& rays = wave.rays;
     std::size_t all = 0;
     for (std::size_t i = 0; i < rays.size; ++i) all += histories_of(wave.photon[i]);
-    // From the last on: a photon's place is read before it is written to.
+    // From the last backwards: a position is read before it is overwritten.
     std::size_t to = all;
     for (std::size_t i = rays.size; i-- > 0;) {
       const std::uint32_t photon = wave.photon[i];
@@ -77,7 +77,7 @@ class TileGoal : public GoalBase {
     rays.size = all;
   }
 
-  // Every impact falls on a tile.
+  // Every impact is on a tile.
   void land(Wave& wave) {
     ++flight_;
     tally_->counts().impacts += wave.rays.size;
@@ -85,7 +85,7 @@ class TileGoal : public GoalBase {
     tally_->expect(tile_.data(), wave.rays.size);
   }
 
-  // The first impact is direct light: it scores only where that is not computed.
+  // The first impact is direct light: it scores only if direct light is not integrated.
   void score(const Wave& wave) {
     if constexpr (Policy::scores_every_impact) {
       if (flight_ < first_scored_) return;
@@ -125,10 +125,10 @@ class TileGoal : public GoalBase {
   }
 
  private:
-  // The number of histories that a photon stands for until it is split.
+  // The number of histories that a photon represents until it is split.
   std::uint32_t histories_of(std::uint32_t photon) const { return std::min(splitting_, n_ - photon * splitting_); }
 
-  // In most rooms no photon lands on a back.
+  // In most rooms no photon hits a back side.
   void score_from_behind(const Wave& wave) {
     const Rays& rays = wave.rays;
     std::uint32_t any = 0;
@@ -141,7 +141,7 @@ class TileGoal : public GoalBase {
 
   const Scene* scene_;
   Stream stream_;
-  std::uint32_t first_scored_;  // number of the first flight whose end scores
+  std::uint32_t first_scored_;  // number of the first flight that scores
   std::uint32_t splitting_;     // histories that share their first flight
   std::uint32_t flight_ = 0;
   std::uint32_t n_ = 0;                  // histories of the batch

@@ -1,5 +1,5 @@
-// The forward walk: a batch of histories from the emitters to their ends. Which it is (estimator, textures or not) is
-// resolved when the walk is made, once per run.
+// The forward walk: a batch of histories from the emitters to their ends. The variant (estimator, textures or not)
+// is chosen when the walk is made, once per run.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class Walk {
   virtual ~Walk() = default;
 
   // Simulates histories first … first + n − 1 (1 ≤ n ≤ batch_histories) and adds them to the tally as one batch.
-  // Returns whether all came to their own end; they do unless `abandon` says so after very many flights.
+  // Returns false if `abandon` ended them before their own ends (see Abandon).
   virtual bool simulate_batch(std::uint64_t first, std::uint32_t n, Tally& tally, const Abandon& abandon) = 0;
 
  protected:

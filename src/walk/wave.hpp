@@ -10,8 +10,8 @@
 
 namespace lichtmc {
 
-// The photons of a batch start together and fly in step: the number of the flight is the same for all. Those that end
-// leave the wave, the others close ranks, so that every loop runs over photons that fly.
+// The photons of a batch start together and are traced in parallel: the number of the flight is the same for all.
+// Photons that end are removed and the wave is compacted, so that every loop runs over active photons only.
 struct Wave {
   Wave()
       : rays(batch_histories),
@@ -30,9 +30,9 @@ struct Wave {
   std::vector<std::uint32_t> polar;    // random word 0 of the flight, see draw_many()
   std::vector<std::uint32_t> azimuth;  // word 1
   std::vector<std::uint64_t> chance;   // words 2 and 3
-  std::vector<std::uint32_t> surface;  // where the flight ended, where the goal has set it
+  std::vector<std::uint32_t> surface;  // where the flight ended, if the goal has set it
 
-  // Moves photon `from` to place `to` ≤ from; what the next flight needs of it.
+  // Moves the data of photon `from` for the next flight to position `to` ≤ from.
   void move(std::size_t from, std::size_t to) {
     photon[to] = photon[from];
     polar[to] = polar[from];
