@@ -15,9 +15,9 @@ bool same_setting(const StudyRow& a, const StudyRow& b) {
          a.max_bounces == b.max_bounces && a.tile_edge_m == b.tile_edge_m && a.direct == b.direct;
 }
 
-// The bias that a row shows: what its standard error does not explain.
+// The bias of a row: the part of its error that its standard error does not explain.
 double bias_of(const StudyRow& row) {
-  // Only walks that are cut off have one by design; others differ from the reference by chance.
+  // Only truncated walks are biased; the others differ from the reference by statistical error only.
   if (!row.max_bounces) return 0.0;
   return std::sqrt(std::max(row.rms_error * row.rms_error - row.standard_error * row.standard_error, 0.0));
 }
@@ -44,7 +44,8 @@ std::string time_text(double seconds) {
 std::optional<Advice> forecast(const StudyRow& row, double error) {
   const double bias = bias_of(row);
   const double allowed = error * error - bias * bias;
-  // A bias of more than half the error leaves too little to chance for the stated error to mean what it says.
+  // With a bias of more than half of the allowed error, the standard error that a run reports would not describe its
+  // error.
   if (!(row.standard_error > 0.0) || !std::isfinite(row.standard_error) || 2.0 * bias > error) return {};
   const double more = row.standard_error * row.standard_error / allowed;
   Advice advice;
@@ -63,7 +64,7 @@ std::vector<Advice> advice_from(const std::vector<StudyRow>& rows, double tile_e
     std::optional<Advice> best;
     for (const StudyRow& row : rows) {
       if (row.tile_edge_m != tile_edge_m) continue;
-      // Of each setting the longest run speaks: its figures are surest.
+      // Of each setting the longest run is used: its figures have the smallest errors.
       const bool longest = std::none_of(rows.begin(), rows.end(), [&](const StudyRow& other) {
         return same_setting(other, row) && other.histories > row.histories;
       });

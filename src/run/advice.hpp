@@ -1,4 +1,4 @@
-// The cheapest settings for some accuracies, from what a study has measured.
+// The settings with the lowest cost for some accuracies, from the rows of a study.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace lichtmc {
 
-// For 10 %, 1 % and 0.1 %, of the rows with this tile edge. Time and histories are forecast: variance falls with the
-// histories, the time to integrate direct light does not, and a bias stays; a row whose bias alone is too
-// large is out. None where no row can do it.
+// For 10 %, 1 % and 0.1 %, of the rows with this tile edge. Time and histories are extrapolated: variance is inversely
+// proportional to the histories, the time to integrate direct light and the bias are constant. A row whose bias is too
+// large for an accuracy is not used for it; an accuracy that no row can reach is left out.
 std::vector<Advice> advice_from(const std::vector<StudyRow>& rows, double tile_edge_m, const std::string& room);
 
 }  // namespace lichtmc

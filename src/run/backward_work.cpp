@@ -14,14 +14,13 @@ namespace lichtmc {
 
 namespace {
 
-// Histories that a thread takes at a time: some waves, so that the lock that ends them costs nothing.
+// Histories that a thread simulates at a time: some waves, so that the cost of the lock at their end is negligible.
 constexpr std::uint64_t histories_at_a_time = 8192;
 
 [[noreturn]] void refuse_too_short() {
   throw StoppedTooSoon(
       "The run was stopped before its direct light and the first backward walks were completed: there is no result, "
-      "and "
-      "the files in its folder stay as they were. Give it more time.");
+      "and the files in its folder are unchanged. Give it more time.");
 }
 
 Settings with_estimator(Settings settings, Estimator estimator) {
@@ -52,12 +51,12 @@ std::uint64_t BackwardWork::histories_of(std::uint64_t rounds) const {
 }
 
 CheckSchedule BackwardWork::schedule() const {
-  const std::uint64_t first = std::max(2U, 256 / task_.group);  // an error from 256 walks is known to 4 %
+  const std::uint64_t first = std::max(2U, 256 / task_.group);  // an error from 256 walks has a relative error of 4 %
   return {first, range_.last - range_.first, 1, 4};
 }
 
 std::uint64_t BackwardWork::pilot_rounds(const RunContext& context, const BackwardTask& task, Estimator estimator) {
-  // Some walks from every origin, or there is nothing to compare.
+  // Some walks from every origin: without them there is nothing to compare.
   constexpr std::uint64_t fewest_rounds = 8;
   const std::uint64_t together = task.origins * task.group;
   Settings settings = context.settings;
@@ -69,9 +68,9 @@ std::uint64_t BackwardWork::pilot_rounds(const RunContext& context, const Backwa
 void BackwardWork::restore(StateData& data) {
   const BackwardState& before = *(data.*task_.slot);
   if (before.sums->size() != task_.origins || before.group != task_.group) {
-    throw InputError("The state has walks from " + std::to_string(before.sums->size()) + " origins, here are " +
+    throw InputError("The state has walks from " + std::to_string(before.sums->size()) + " origins, the room has " +
                      std::to_string(task_.origins) +
-                     " (allowed: the same number). The state is not one of this room; run anew.");
+                     " (allowed: the same number). The state does not belong to this room; start a new run.");
   }
   if (!context_.record.only_read()) check_whole(settings_, together_, before, task_.name);
   found_.sums = before.sums.use_count() > 1 ? std::make_shared<std::vector<BackwardSums>>(*before.sums)
@@ -144,13 +143,13 @@ void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, std::vec
                                BackwardCount& step_count) {
   const std::unique_ptr<BackwardWalk> walk = task_.make_walk(settings_);
   const std::uint64_t rounds = last - first;
-  // Many origins with few rounds, or one origin with some of its rounds.
+  // Either many origins with few rounds, or one origin with a part of its rounds.
   const std::uint64_t rounds_at_a_time = histories_at_a_time / task_.group;
   const std::uint64_t together = std::max<std::uint64_t>(1, rounds_at_a_time / rounds);
   const std::uint64_t parts = together > 1 ? 1 : (rounds + rounds_at_a_time - 1) / rounds_at_a_time;
-  // A member of a team takes its part of the pieces.
+  // Each rank simulates its part of the pieces.
   const Part mine = part_of(context_.control.communicator, (task_.origins + together - 1) / together * parts);
-  const std::uint64_t skipped = range_.first - rounds_before_;  // rounds are numbered from the run's first
+  const std::uint64_t skipped = range_.first - rounds_before_;  // rounds are numbered from the first of the run
   std::vector<BackwardSums> sums;
   while (!context_.watch.would_stop()) {
     const std::uint64_t piece = mine.first + next_.fetch_add(1);
@@ -172,7 +171,7 @@ void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, std::vec
       add_fields(step_count, count);
     }
     const std::uint64_t walks = (work.last - work.first) * (work.last_sample - work.first_sample);
-    const unsigned ranks = size_of(context_.control.communicator);  // the others are as far as this member
+    const unsigned ranks = size_of(context_.control.communicator);  // the other ranks have done about the same
     reporter_.add(walks * ranks, count.traced.rays * ranks);
   }
 }
@@ -213,7 +212,7 @@ double OriginEstimates::indirect(std::size_t k) const {
   return static_cast<double>((*sums)[k].sum) / static_cast<double>(rounds * group) * unit;
 }
 
-// Rounds are independent: the variance of their mean from their own spread.
+// Rounds are independent: the variance of their mean follows from their sample variance.
 double OriginEstimates::indirect_error(std::size_t k) const {
   if (rounds < 2) return std::numeric_limits<double>::quiet_NaN();
   const auto n = static_cast<long double>(rounds);

@@ -28,8 +28,7 @@ struct OriginEstimates {
   double unit = 1.0;                                // of the sums, W/m² or lx
 
   std::uint64_t histories() const { return rounds * group * sums->size(); }
-  // Irradiance at origin k by light that was reflected, and its standard error: NaN where fewer than two rounds were
-  // simulated.
+  // Irradiance at origin k by reflected light, and its standard error: NaN if fewer than two rounds were simulated.
   double indirect(std::size_t k) const;
   double indirect_error(std::size_t k) const;
 };
@@ -38,14 +37,14 @@ struct OriginEstimates {
 struct BackwardTask {
   Progress::Stage stage = Progress::Stage::receivers;
   std::size_t origins = 0;
-  std::uint32_t group = 1;                                                  // as make_walk's origins have
-  double unit = 1.0;                                                        // as make_walk's scale has
-  std::function<DirectIrradiance(std::size_t, TraceCount&)> direct;         // light of origin k, rays counted
+  std::uint32_t group = 1;                                           // of the origins of make_walk
+  double unit = 1.0;                                                 // of the scale of make_walk, W/m² or lx
+  std::function<DirectIrradiance(std::size_t, TraceCount&)> direct;  // direct irradiance at origin k; counts rays
   std::function<std::unique_ptr<BackwardWalk>(const Settings&)> make_walk;  // one for each thread
-  std::function<double(const OriginEstimates&)> error;  // what Settings::target_error is compared with
-  std::vector<double> weights;  // of the origins in the mean of squares that `error` is the root of
+  std::function<double(const OriginEstimates&)> error;                      // compared with Settings::target_error
+  std::vector<double> weights;  // of the origins in the mean of squares whose root is `error`
   std::string name;             // of the origins
-  std::optional<BackwardState> StateData::*slot = nullptr;  // where a state has these walks
+  std::optional<BackwardState> StateData::*slot = nullptr;  // these walks in a state
 };
 
 class BackwardWork final : public Work {
@@ -85,8 +84,8 @@ class BackwardWork final : public Work {
   Settings settings_;                 // with the estimator of this work
   std::uint64_t together_;            // walks in a round of all origins
   HistoryRange range_;                // of rounds, to simulate
-  std::vector<HistoryRange> before_;  // earlier ranges than the one that grows
-  std::uint64_t rounds_before_ = 0;   // in them
+  std::vector<HistoryRange> before_;  // ranges before the one that grows
+  std::uint64_t rounds_before_ = 0;   // number of rounds in them
   ProgressReporter reporter_;
   OriginEstimates found_;
   BackwardCount count_;
@@ -96,14 +95,14 @@ class BackwardWork final : public Work {
 };
 
 // The direct light of every origin, computed by all threads of all ranks; rays are added to `traced`. Throws
-// StoppedTooSoon where the watch says stop before all are done.
+// StoppedTooSoon if the watch requests a stop before all are computed.
 std::vector<DirectIrradiance> direct_light_of(std::size_t origins,
                                               const std::function<DirectIrradiance(std::size_t, TraceCount&)>& direct,
                                               const Control& control, unsigned threads, StopWatch& watch,
                                               TraceCount& traced);
 
-// Runs backward walks through the driver: what was found, and how. Throws StoppedTooSoon where the run is stopped
-// before the first round is complete.
+// Runs backward walks by the driver; returns estimates and report. Throws StoppedTooSoon if the run is stopped before
+// the first round is complete.
 struct BackwardOutcome {
   OriginEstimates estimates;
   WalkReport report;  // finished

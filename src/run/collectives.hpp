@@ -1,4 +1,4 @@
-// What a team's members do together. A null team is a run alone: nothing is to do.
+// Collective operations of the ranks of a run. A null communicator means a single process: they do nothing.
 #pragma once
 
 #include <cstddef>
@@ -21,17 +21,17 @@ inline unsigned size_of(const Communicator* communicator) {
   return communicator == nullptr ? 1 : communicator->size();
 }
 
-// Everyone gets the first's value: decisions that hang on floating-point numbers or on time must be the same for all.
+// Broadcast from rank 0: a decision that depends on floating-point numbers or on time must be the same for all ranks.
 template <class Value>
 requires std::is_trivially_copyable_v<Value>
 void broadcast(Communicator* communicator, Value& value) {
   if (communicator != nullptr) communicator->broadcast(std::as_writable_bytes(std::span(&value, 1)));
 }
 
-// How many of the members say so; all hear the same.
+// The number of ranks for which `mine` is true; all ranks get the same number.
 std::uint64_t count_votes(Communicator* communicator, bool mine);
 
-// Adds up the fields of things over all ranks, see base/fields.hpp.
+// Sums the fields of structs over all ranks, see base/fields.hpp.
 class Reduction {
  public:
   explicit Reduction(Communicator& communicator) : communicator_(communicator) {}
@@ -62,14 +62,14 @@ class Reduction {
   std::vector<std::uint64_t*> wide_;  // two words each
 };
 
-// A member's part of n things in a row: every thing belongs to one.
+// The part of a rank: elements first … last − 1 of n. Every element belongs to one rank.
 struct Part {
   std::uint64_t first = 0;
   std::uint64_t last = 0;
 };
 Part part_of(const Communicator* communicator, std::uint64_t n);
 
-// Reduction: every rank gets the sums over all ranks. Numbers travel together, lists one by one.
+// Reduction: every rank gets the sums over all ranks. Single numbers are sent together, lists one by one.
 template <class Thing>
 void reduce(Communicator* communicator, Thing& thing) {
   if (communicator == nullptr) return;
@@ -77,7 +77,9 @@ void reduce(Communicator* communicator, Thing& thing) {
   reduction.add(thing);
   reduction.finish();
 }
-// Of things that one member has filled in and the others have left 0: everyone gets what was filled in, bit for bit.
+
+// Combines vectors of which each element was set by one rank and is 0 on the others: all ranks get the elements that
+// were set, bit for bit.
 void combine(Communicator* communicator, std::vector<DirectIrradiance>& things);
 
 }  // namespace lichtmc

@@ -1,4 +1,4 @@
-// What all steps of one walk of a run share.
+// The data that all steps of one walk of a run share.
 #pragma once
 
 #include "lichtmc/control.hpp"
@@ -15,7 +15,7 @@ struct RunContext {
   const Room& room;
   const Tiling& tiling;
   const Scene& scene;
-  const Settings& settings;  // as asked for
+  const Settings& settings;  // as requested
   const Control& control;
   StopWatch& watch;   // of this walk
   RunRecord& record;  // of the run

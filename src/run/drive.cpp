@@ -12,8 +12,8 @@ namespace lichtmc {
 
 namespace {
 
-// Which estimator was taken. Where a stop came before all were tried the choice is not one that an uninterrupted run
-// would have made: nothing of it is recorded.
+// The estimator used. If a stop came before all were tried, an uninterrupted run might have chosen another one: the
+// choice is not recorded.
 struct EstimatorChoice {
   std::unique_ptr<Work> work;
   Estimator estimator = Estimator::collision;
@@ -44,7 +44,7 @@ class Driver {
   }
 
  private:
-  // The walk that the record holds, or a new one with the estimator that was asked for or chosen.
+  // The walk of the record, or a new one with the requested or chosen estimator.
   EstimatorChoice take_work() {
     StateData& data = context_.record.data();
     if (const Walked* stored = measurement_.stored(data)) {
@@ -59,7 +59,7 @@ class Driver {
     return {measurement_.make_work(candidates.front(), Progress::Stage::tiles), candidates.front(), {}, true};
   }
 
-  // A short pilot of each; the one that does best is taken. Where a stop comes first, it is the first one.
+  // A short pilot of each estimator; the best is used. If a stop comes first, the first estimator is used.
   EstimatorChoice choose(const std::vector<Estimator>& candidates) {
     std::vector<std::unique_ptr<Work>> works;
     std::vector<Pilot> pilots;
@@ -70,8 +70,8 @@ class Driver {
       if (context_.watch.reason()) {
         const std::string name(to_string(candidates.front()));
         return {std::move(works.front()), candidates.front(),
-                "The estimator '" + name + "' was taken for " + measurement_.name() +
-                    ": the run ended before all estimators were tried. Resuming it begins these walks anew.",
+                "The estimator '" + name + "' was used for " + measurement_.name() +
+                    ": the run ended before all estimators were tried. Resuming it restarts these walks.",
                 false};
       }
     }
@@ -88,7 +88,7 @@ class Driver {
     return StopReason::photons;
   }
 
-  // Where the run decides to stop: photons, target error, time, interrupt, whichever comes first.
+  // The stop rules: photons, target error, time, interrupt, whichever comes first.
   StopReason simulate() {
     const std::optional<double>& target = context_.settings.target_error;
     const std::uint64_t done_before = work_->done();  // of an earlier session, or of the pilot
@@ -115,7 +115,7 @@ class Driver {
     }
   }
 
-  // A checkpoint is due by the clock of rank 0.
+  // The clock of rank 0 determines when a checkpoint is due.
   void simulate_up_to(Work& work, std::uint64_t count, bool checkpoints = false) {
     while (work.done() < count && !context_.watch.reason()) {
       work.simulate_towards(count);

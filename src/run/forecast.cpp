@@ -10,8 +10,8 @@ void Forecast::add(std::uint64_t histories, double error) {
   if (std::isfinite(error) && error > 0.0) points_.push_back({static_cast<double>(histories), error});
 }
 
-// −d ln R / d ln N over the last doubling of N: a half where that is not known yet. An error that hardly falls is taken
-// to fall a little, so that the forecast is a number, if a large one.
+// −d ln R / d ln N over the last doubling of N; 1/2 if not known yet. The slope has a lower limit, so that the forecast
+// is finite.
 double Forecast::slope() const {
   constexpr double steepest = 0.5;
   constexpr double flattest = 0.05;

@@ -33,13 +33,13 @@ ForwardWork::ForwardWork(const RunContext& context, Estimator estimator, Progres
 }
 
 CheckSchedule ForwardWork::schedule() const {
-  constexpr std::uint64_t few_batches = 32;  // an error from 32 batches is known to 13 %
+  constexpr std::uint64_t few_batches = 32;  // an error from 32 batches has a relative error of 13 %
   std::uint64_t first = few_batches * batch_histories;
-  // Where no target needs them, checks only show how the error decreases: none before tiles are hit, and few.
+  // Without a target, checks only show how the error decreases: few checks, and none before tiles are hit.
   const std::uint64_t hits_each_quarter =
       (context_.tiling.tiles.size() / 4 / batch_histories + 1) * std::uint64_t{batch_histories};
   if (!settings_.target_error) first = std::max(first, hits_each_quarter);
-  // With a target a quarter more each time: at most a quarter is simulated beyond it.
+  // With a target, each check after 25 % more histories: at most 25 % are simulated beyond it.
   return {std::max(first, pilot_), photons_, batch_histories, settings_.target_error ? std::uint64_t{4} : 1};
 }
 
@@ -58,14 +58,14 @@ void ForwardWork::check_totals(const Counted& stored) const {
   if (totals.tiles.size() != tiling.tiles.size() || totals.tile_maps.size() != tiling.maps.size()) {
     throw InputError("The state has " + std::to_string(totals.tiles.size()) + " tiles, the room has " +
                      std::to_string(tiling.tiles.size()) +
-                     " (allowed: the same number). The state is not one of this room; run anew.");
+                     " (allowed: the same number). The state does not belong to this room; start a new run.");
   }
   const bool hits_apart = score_law(settings_.estimator, context_.scene.has_reflectance_maps()).hits == Hits::apart;
   if (hits_apart == totals.hits.empty()) {
     throw InputError(std::string("The state counts hits ") + (hits_apart ? "as" : "apart from") +
                      " scores (allowed in this room, with the estimator '" +
                      std::string(to_string(settings_.estimator)) + "': " + (hits_apart ? "apart" : "as scores") +
-                     "). The state is not one of this room; run anew.");
+                     "). The state does not belong to this room; start a new run.");
   }
 }
 
@@ -79,7 +79,7 @@ double ForwardWork::error() {
   return rms_relative_error(context_.tiling, scores_.tiles(workers_.totals()));
 }
 
-// Values and errors of what the photons have counted, without direct light that was integrated.
+// Values and errors of the photons' scores, without integrated direct light.
 Pilot ForwardWork::pilot() {
   const Totals& totals = workers_.totals();
   Pilot pilot;

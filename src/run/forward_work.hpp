@@ -13,7 +13,7 @@ namespace lichtmc {
 
 class ForwardWork final : public Work {
  public:
-  // direct: of every tile, where it was integrated; else none. The context must outlive the work.
+  // direct: of every tile if it was integrated, else empty. The context must outlive the work.
   ForwardWork(const RunContext& context, Estimator estimator, Progress::Stage stage,
               const std::vector<TileDirect>& direct);
 

@@ -1,4 +1,4 @@
-// What a walk has found about the tiles, whichever its direction.
+// The results of a walk for the tiles, forward or backward.
 #pragma once
 
 #include <cstdint>

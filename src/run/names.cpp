@@ -1,4 +1,4 @@
-// The words that settings and results are written with.
+// The names of the values of settings and results.
 #include <cmath>
 
 #include "lichtmc/result.hpp"

@@ -16,7 +16,8 @@ namespace lichtmc {
 namespace {
 
 constexpr std::uint64_t most_paths = 1'000'000;
-constexpr std::uint32_t longest_path = 10'000;  // flights; no picture shows more, and light that nothing absorbs ends
+constexpr std::uint32_t longest_path =
+    10'000;  // flights; limits histories without absorption, and no picture shows more
 
 }  // namespace
 
@@ -37,7 +38,7 @@ std::string_view to_string(PathEnd end) {
 std::vector<PhotonPath> trace_paths(const Room& room, const Settings& settings, std::uint64_t count) {
   if (count < 1 || count > most_paths)
     throw InputError("The number of paths is " + std::to_string(count) +
-                     " (allowed: 1 to 1000000). Ask for another number.");
+                     " (allowed: 1 to 1000000). Give another number.");
   check_settings(settings);
   check_room(room);
   try {
@@ -51,7 +52,7 @@ std::vector<PhotonPath> trace_paths(const Room& room, const Settings& settings, 
     }
     return paths;
   } catch (const std::bad_alloc&) {
-    throw RuntimeError("There is not enough memory for " + std::to_string(count) + " paths. Ask for fewer.");
+    throw RuntimeError("There is not enough memory for " + std::to_string(count) + " paths. Give a smaller number.");
   }
 }
 

@@ -12,18 +12,18 @@ namespace lichtmc {
 
 std::vector<Estimator> candidates_for(const Room& room, const Settings& settings) {
   if (settings.estimator != Estimator::automatic) return {settings.estimator};
-  // Collision comes first: it is taken where nothing speaks for another.
+  // Collision comes first: it is used if the candidates cannot be distinguished.
   std::vector<Estimator> candidates{Estimator::collision, Estimator::weight};
   if (surface_that_absorbs_nothing(room) == nullptr) candidates.push_back(Estimator::absorption);
   return candidates;
 }
 
 std::uint64_t pilot_histories(std::uint64_t photons, Estimator estimator) {
-  constexpr std::uint64_t fewest = 16;  // batches: a variance summed over many tiles is known from few
+  constexpr std::uint64_t fewest = 16;  // batches: sufficient for a variance summed over many tiles
   constexpr std::uint64_t most = 1024;
   const std::uint64_t batches = std::clamp(photons / 20 / batch_histories, fewest, most);
-  // Where tiles are small against the room absorption has 1/(1 − ρ) times the variance of collision for the same walk.
-  // That needs no long pilot to be seen.
+  // If tiles are small against the room, absorption has 1/(1 − ρ) times the variance of collision for the same walk: a
+  // short pilot is sufficient.
   return (estimator == Estimator::absorption ? std::max(fewest, batches / 4) : batches) * batch_histories;
 }
 
@@ -71,13 +71,14 @@ std::vector<double> likely_values(const std::vector<Pilot>& pilots, const Counte
 }
 
 void make_errors_likely(std::vector<Pilot>& pilots, const std::vector<double>& likely, const CountedTiles& tiles) {
-  constexpr double enough_hits = 4000.0;  // of all pilots together: rare large weights make a few hundred too few
+  constexpr double enough_hits =
+      4000.0;  // of all pilots together: because of rare large weights a few hundred are not enough
   const std::vector<double> hits = hits_of_all(pilots);
   std::vector<std::size_t> by_irradiance(likely.size());
   std::iota(by_irradiance.begin(), by_irradiance.end(), std::size_t{0});
   std::stable_sort(by_irradiance.begin(), by_irradiance.end(),
                    [&](std::size_t a, std::size_t b) { return likely[a] < likely[b]; });
-  // Groups from the darkest on; what is left at the end joins the last.
+  // Groups in ascending order of irradiance; the remaining tiles are added to the last group.
   std::vector<std::size_t> ends;
   double sum = 0.0;
   double left = std::accumulate(hits.begin(), hits.end(), 0.0);
@@ -123,8 +124,8 @@ Choice choose_best(const std::vector<Pilot>& pilots, const std::vector<double>& 
   const bool known =
       std::all_of(costs.begin(), costs.end(), [](double cost) { return cost > 0.0 && std::isfinite(cost); });
   if (!known) {
-    choice.reason = "The estimator '" + std::string(to_string(pilots.front().estimator)) + "' was taken for " +
-                    of_what + ": too little light was found in a short pilot to tell the estimators apart.";
+    choice.reason = "The estimator '" + std::string(to_string(pilots.front().estimator)) + "' was used for " + of_what +
+                    ": too few photons scored in a short pilot to compare the estimators.";
     return choice;
   }
   choice.best = static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());

@@ -1,10 +1,10 @@
-// Estimator::automatic: which estimator buys most accuracy per flight in this room, found by a short pilot of each.
+// Estimator::automatic: chooses the estimator with the smallest error per flight in this room, by a short pilot of
+// each.
 //
-// All estimators have the same mean, so that the one with the least relative variance for the same work is best: the
-// variances are those of the figure that was asked for (area-weighted rms of the tiles' relative errors, or rms of the
-// receivers'), the work is the number of flights. Flights are counted and not timed, so that the same room, settings
-// and seed make the same choice on any machine, busy or idle; a flight costs nearly the same with all three
-// (docs/performance.md).
+// All estimators have the same mean, so the best has the smallest relative variance for the same work. The variance is
+// that of the requested figure (area-weighted rms of the tiles' relative errors, or rms of the receivers'); the work is
+// the number of flights. Flights are counted, not timed: the same room, settings and seed give the same choice on any
+// machine under any load. A flight costs nearly the same with all three (docs/performance.md).
 #pragma once
 
 #include <cstddef>
@@ -17,20 +17,20 @@
 
 namespace lichtmc {
 
-// Estimators that can be chosen from: the one in the settings; or, for `automatic`, those that the room allows.
+// The candidates: the estimator of the settings; for `automatic`, those that the room allows.
 std::vector<Estimator> candidates_for(const Room& room, const Settings& settings);
 
-// Histories of a pilot: one in 20 of those that are to be simulated at most (for absorption one in 80), but enough to
-// tell a variance, and never more than there is use for.
+// Histories of a pilot: at most 1/20 of those to be simulated (for absorption 1/80), but enough to estimate a
+// variance, and with an upper limit.
 std::uint64_t pilot_histories(std::uint64_t photons, Estimator estimator);
 
-// What one estimator has found. Values and standard errors are of the same tiles or receivers in the same order for
-// all.
+// The results of one estimator. Values and standard errors are of the same tiles or receivers in the same order for all
+// estimators.
 struct Pilot {
   Estimator estimator = Estimator::collision;
-  std::vector<double> values;  // of tiles that photons are counted on: without what is known besides
-  std::vector<double> errors;  // of one that was not hit: 0
-  std::vector<double> hits;    // of tiles that photons are counted on
+  std::vector<double> values;  // of tiles in a forward walk: without integrated direct light
+  std::vector<double> errors;  // 0 for a tile without hits
+  std::vector<double> hits;    // of tiles in a forward walk
   double flights = 0.0;
 };
 
@@ -39,30 +39,30 @@ struct Choice {
   std::string reason;    // a sentence
 };
 
-// The mean of what the pilots have found: one for all, so that no estimator gains by having missed what others hit.
+// The mean over all pilots: the same for all, so that an estimator gains nothing by missing tiles that others hit.
 std::vector<double> pooled_values(const std::vector<Pilot>& pilots);
 
-// What pilots of counted photons tell of tiles most of which they have hit a few times or not at all, though it is
-// those tiles that a long run will be judged by.
+// Likely values and errors of tiles after forward pilots. Most tiles have few hits or none after a pilot, but they
+// determine the error of a long run.
 struct CountedTiles {
   std::vector<double> areas;       // m²
   std::vector<std::uint32_t> map;  // of each tile
   std::size_t maps = 0;
 };
 
-// The likely irradiance of the tiles, of what was counted. A tile is not known to be as bright, or as dark, as its few
-// hits say: its mean is drawn towards that of its tile map. A gamma law of shape 1 about the map's mean, with hits by
-// Poisson's law, has the mean (hits + 1)/(hits expected + 1) times the map's.
+// The likely irradiance of the tiles from their scores: a Bayesian estimate, because a few hits determine the mean of a
+// tile poorly. The prior is a gamma distribution of shape 1 about the mean of the tile map. With Poisson-distributed
+// hits the posterior mean is (hits + 1)/(hits expected + 1) times that of the tile map.
 std::vector<double> likely_values(const std::vector<Pilot>& pilots, const CountedTiles& tiles);
 
 // Replaces each pilot's errors by likely ones. The variance of a tile's power is its mean power times a factor that
-// depends on the estimator and on how far from the emitters the light of the tile has come: less for weights that have
-// become small on the way. Tiles as dark as each other share one factor, dark ones with few hits that of some thousand
-// hits together. Tiles that no pilot has hit, as the outsides of walls, count for none.
+// depends on the estimator and on the number of reflections before the tile: it is smaller for small weights. Tiles of
+// similar irradiance share one factor; those with few hits are grouped until they have some thousand hits. Tiles that
+// no pilot has hit, such as the outsides of walls, are left out.
 void make_errors_likely(std::vector<Pilot>& pilots, const std::vector<double>& likely, const CountedTiles& tiles);
 
-// means: that errors are relative to. weights: of the values in the mean of squares, for example areas. `of_what` comes
-// into the sentence: "the tiles".
+// means: the reference of the relative errors. weights: of the values in the mean of squares, for example areas.
+// of_what: a part of the sentence, "the tiles".
 Choice choose_best(const std::vector<Pilot>& pilots, const std::vector<double>& means,
                    const std::vector<double>& weights, const std::string& of_what);
 

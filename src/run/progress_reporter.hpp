@@ -1,4 +1,4 @@
-// Tells a run's caller some times a second how far it has come.
+// Reports the progress of a run to its caller some times a second.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace lichtmc {
 
 class ProgressReporter {
  public:
-  // target: histories that there are to do. Control and watch must outlive the reporter.
+  // target: histories to simulate. Control and watch must outlive the reporter.
   ProgressReporter(const Control& control, const StopWatch& watch, Progress::Stage stage, std::uint64_t target)
       : control_(&control), watch_(&watch), began_(watch.seconds()), last_(Clock::now()) {
     progress_.stage = stage;
@@ -25,10 +25,10 @@ class ProgressReporter {
   // Histories that an earlier session has simulated. Before threads add.
   void set_before(std::uint64_t histories) { progress_.histories = before_ = histories; }
 
-  // What is reported from now on is of this stage. Not while threads add.
+  // The stage of all later reports. Not while threads add.
   void set_stage(Progress::Stage stage) { progress_.stage = stage; }
 
-  // Books what a thread has done since it last told; calls back when it is time. Any thread may call.
+  // Adds the work of a thread since its last report; calls back if a report is due. Any thread may call.
   void add(std::uint64_t histories, std::uint64_t impacts) {
     const std::lock_guard lock(mutex_);
     progress_.histories += histories;
@@ -42,8 +42,8 @@ class ProgressReporter {
     progress_.seconds_to_target = std::isnan(left) ? left : std::max(left, 0.0);
     control_->progress(progress_);
   }
-  // The error at the last look, and the histories that the target error is forecast to take; NaN where none is asked
-  // for. Not while threads add.
+  // The error at the last check, and the forecast of the histories that the target error requires; NaN without a
+  // target. Not while threads add.
   void set_error(double rms_relative_error, double histories_to_target) {
     progress_.rms_relative_error = rms_relative_error;
     histories_to_target_ = histories_to_target;
@@ -58,7 +58,7 @@ class ProgressReporter {
   std::mutex mutex_;
   Progress progress_;
   double histories_to_target_ = std::numeric_limits<double>::quiet_NaN();
-  double began_;              // when the histories did, s
+  double began_;              // start of the histories, s
   std::uint64_t before_ = 0;  // histories of earlier sessions
   Clock::time_point last_;
 };

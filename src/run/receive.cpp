@@ -21,14 +21,14 @@ namespace {
 [[noreturn]] void refuse_on_emitter(const Room& room, std::size_t receiver, std::size_t emitter) {
   throw InputError("Receiver " + std::to_string(receiver) + ", " + in_quotes(room.receivers[receiver].name) + ", of " +
                    room.source + " lies on the emitter " + in_quotes(room.emitters[emitter].name) +
-                   " (allowed: some distance), where irradiance has no value. Move it away.");
+                   " (allowed: some distance from it), where the irradiance is not defined. Move it away.");
 }
 
 double error_at(const OriginEstimates& found, std::size_t k) {
   return std::hypot(found.indirect_error(k), found.direct[k].standard_error);
 }
 
-// Rms of the receivers' relative errors, over those that get light.
+// Rms of the relative errors of the receivers with an irradiance above 0.
 double error_of_receivers(const OriginEstimates& found) {
   double squares = 0.0;
   std::size_t lit = 0;
@@ -42,7 +42,7 @@ double error_of_receivers(const OriginEstimates& found) {
   return lit > 0 ? std::sqrt(squares / static_cast<double>(lit)) : std::numeric_limits<double>::quiet_NaN();
 }
 
-// The tiles, each the sum of its faces.
+// Each tile is the sum of its faces.
 std::vector<TileResult> tiles_of(const Tiling& tiling, const TileFaces& faces, const OriginEstimates& found) {
   std::vector<TileResult> tiles(tiling.tiles.size());
   for (TileResult& tile : tiles) tile.direct = 0.0;
@@ -57,7 +57,7 @@ std::vector<TileResult> tiles_of(const Tiling& tiling, const TileFaces& faces, c
   return tiles;
 }
 
-// Tiles are independent of each other: their errors add up by their squares.
+// The estimates of different tiles are independent: their variances add up.
 std::vector<SurfaceResult> surfaces_of(const Room& room, const Tiling& tiling, const TileFaces& faces,
                                        const OriginEstimates& found, const std::vector<TileResult>& tiles) {
   std::vector<SurfaceResult> results = surface_results(room, tiling, tiles);
@@ -82,7 +82,7 @@ std::vector<SurfaceResult> surfaces_of(const Room& room, const Tiling& tiling, c
   return results;
 }
 
-// Only photons from the emitters determine where the flux went.
+// Only forward walks determine the balance of the flux.
 Balance unknown_balance() {
   Balance balance;
   balance.absorbed = balance.escaped = balance.residual = balance.lost = std::numeric_limits<double>::quiet_NaN();

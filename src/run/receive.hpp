@@ -1,4 +1,4 @@
-// Results by walks back to the light: irradiance at the receivers, and of the tiles where that is asked for.
+// Results by backward walks: irradiance at the receivers, and on request of the tiles.
 #pragma once
 
 #include <vector>
@@ -12,10 +12,10 @@
 
 namespace lichtmc {
 
-// Throws InputError where no walk from the receivers belongs to the histories of a part.
+// Throws InputError if no walk from the receivers belongs to the histories of a part.
 void check_receiver_rounds(const Room& room, const Settings& settings);
 
-// Throws InputError where walks from the receivers are missing before those that there are, or between them.
+// Throws InputError if walks from the receivers are missing before or between those of the state.
 void check_receivers_whole(const Room& room, const Settings& settings, const BackwardState& walks);
 
 struct ReceiverMeasurement {
@@ -24,10 +24,10 @@ struct ReceiverMeasurement {
 };
 
 // Irradiance at the room's receivers, of which there is at least one. Throws InputError naming a receiver that lies on
-// an emitter, StoppedTooSoon where the run is stopped before the first round is complete.
+// an emitter, StoppedTooSoon if the run is stopped before the first round is complete.
 ReceiverMeasurement measure_receivers(const RunContext& context);
 
-// Irradiance of the tiles by walks from random points of each.
+// Irradiance of the tiles by backward walks from random points of each.
 TileMeasurement measure_tiles_backward(const RunContext& context);
 
 }  // namespace lichtmc

@@ -35,12 +35,12 @@ void check_grid(double height_m, double spacing_m, const glm::dvec3& size) {
   }
 }
 
-// As many points as fit a length, and where the first lies: the rest is shared by both ends.
+// The number of points on a length, and the position of the first: the margins at both ends are equal.
 std::size_t points_along(double length_m, double spacing_m) {
   return static_cast<std::size_t>(std::max(1.0, std::floor(length_m / spacing_m + 1e-9)));
 }
 
-// Whether a surface lies straight below each point.
+// Whether a surface is vertically below each point.
 std::vector<bool> above_surfaces(const Room& room, const std::vector<Receiver>& points) {
   const auto tracer = make_embree_tracer(room, make_tiling(room, std::numeric_limits<double>::max()));
   Rays rays(points.size());
@@ -80,7 +80,7 @@ std::vector<Receiver> receiver_grid(const Room& room, double height_m, double sp
     }
   }
   const std::vector<bool> over = above_surfaces(room, points);
-  // A room that is a closed shell is about all of its points; furniture about some of them.
+  // A closed shell that contains all points is the room; one that contains some of them is furniture.
   const Enclosure enclosure(room);
   std::vector<std::size_t> shells(points.size(), 0);
   std::size_t fewest = std::numeric_limits<std::size_t>::max();

@@ -18,9 +18,9 @@ HistoryRange rounds_of(const Settings& settings, std::uint64_t together) {
 void check_rounds(const Settings& settings, std::uint64_t together, const std::string& name) {
   const HistoryRange range = rounds_of(settings, together);
   if (range.first < range.last) return;
-  throw InputError("No walk back from " + name + " belongs to these histories (allowed: at least " +
+  throw InputError("No backward walk from " + name + " belongs to these histories (allowed: at least " +
                    std::to_string(together) +
-                   " histories in a part, one round of all). Take greater parts, or --only forward.");
+                   " histories in a part, one round of all). Use larger parts, or --only tiles.");
 }
 
 void check_whole(const Settings& settings, std::uint64_t together, const BackwardState& walks,
@@ -30,11 +30,10 @@ void check_whole(const Settings& settings, std::uint64_t together, const Backwar
   if (there.first == first && walks.ranges.size() == 1) return;
   const std::uint64_t from = there.first == first ? there.last : first;
   const std::uint64_t to = there.first == first ? walks.ranges[1].first : there.first;
-  throw InputError(
-      "The state has gaps: no walk back from " + name + " is there of rounds " + std::to_string(from) + " … " +
-      std::to_string(to - 1) +
-      " (allowed: rounds without gaps, to go on). Resume the part that was stopped before it had them, and "
-      "merge again.");
+  throw InputError("The state has gaps: it has no backward walks from " + name + " of rounds " + std::to_string(from) +
+                   " … " + std::to_string(to - 1) +
+                   " (allowed: rounds without gaps). Resume the part that was stopped before them, and "
+                   "merge again.");
 }
 
 }  // namespace lichtmc

@@ -1,4 +1,4 @@
-// Rounds of walks back, in which every origin is walked from as often: which of them belong to a run or a part of one.
+// Rounds of backward walks, with the same number of walks from every origin: those of a run, or of a part of a run.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,13 @@
 
 namespace lichtmc {
 
-// The rounds of a run's histories, such that parts side by side have every round once. together: walks in a round of
-// all origins.
+// The rounds of a run's histories; adjacent parts contain every round once. together: walks in a round of all origins.
 HistoryRange rounds_of(const Settings& settings, std::uint64_t together);
 
-// Throws InputError where no round belongs to the histories of a part. together: walks in a round of all origins, which
-// are called `name`.
+// Throws InputError if no round belongs to the histories of a part. name: of the origins, for the message.
 void check_rounds(const Settings& settings, std::uint64_t together, const std::string& name);
 
-// Throws InputError where rounds are missing before those that there are, or between them: to go on is not possible
-// then. together, name: as above.
+// Throws InputError if rounds are missing before or between those of the state, which then cannot be continued.
 void check_whole(const Settings& settings, std::uint64_t together, const BackwardState& walks, const std::string& name);
 
 }  // namespace lichtmc

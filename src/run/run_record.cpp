@@ -22,10 +22,11 @@ RunRecord::RunRecord(const Control& control, StateData data, bool only_read)
       next_(Clock::now() + seconds(control.checkpoint_seconds)) {}
 
 void RunRecord::expect(double bytes) {
-  constexpr double bytes_per_second = 4e8;  // of writing to a disk of 2020; the second checkpoint knows better
-  constexpr double nothing = 0.01;          // s: a first checkpoint that takes less is not worth waiting for
+  constexpr double bytes_per_second =
+      4e8;  // of writing to a disk of 2020; replaced by a measurement after the first checkpoint
+  constexpr double negligible = 0.01;  // s: a first checkpoint that takes less is not delayed
   const double cost = bytes / bytes_per_second;
-  if (cost > nothing) next_ = std::max(next_, Clock::now() + cost_factor * seconds(cost));
+  if (cost > negligible) next_ = std::max(next_, Clock::now() + cost_factor * seconds(cost));
 }
 
 void RunRecord::checkpoint(const std::function<void(StateData&)>& fill_in) {

@@ -1,8 +1,8 @@
-// The state of a run as it grows: what earlier sessions have left, what this one adds, and when to show it to the
-// caller (Control::checkpoint).
+// The record of a run: its state, continued from earlier sessions, and the schedule of checkpoints
+// (Control::checkpoint).
 //
-// Checkpoints come every Control::checkpoint_seconds, but so seldom that they take less than a hundredth of the time:
-// the next one is due 125 times as long after the last as that took, the first by what its size lets expect.
+// Checkpoints come every Control::checkpoint_seconds, but take less than a hundredth of the time: the interval to the
+// next one is at least 125 times the time of the last. Before the first, its time is estimated from its size.
 #pragma once
 
 #include <chrono>
@@ -15,30 +15,30 @@ namespace lichtmc {
 
 class RunRecord {
  public:
-  // data: of an earlier session, or with nothing counted. Control must outlive the logbook. only_read: nothing is to be
-  // simulated that the state does not hold.
+  // data: of an earlier session, or new. Control must outlive the record. only_read: no histories are simulated that
+  // the state does not contain.
   RunRecord(const Control& control, StateData data, bool only_read);
 
   StateData& data() { return data_; }
   const StateData& data() const { return data_; }
   bool only_read() const { return only_read_; }
 
-  // Whether it is time. Any thread may ask.
+  // Whether a checkpoint is due. Any thread may call this.
   bool due() const { return control_->checkpoint && Clock::now() >= next_; }
 
-  // The state will have about so many bytes. Not while threads ask.
+  // Sets the expected size of the state in bytes. Not while threads call due().
   void expect(double bytes);
 
-  // Has `fill_in` bring the data up to date, and calls back. Not while threads ask.
+  // Updates the data by `fill_in`, and calls back. Not while threads call due().
   void checkpoint(const std::function<void(StateData&)>& fill_in);
 
-  // What the last checkpoint has cost besides, in seconds: the next one waits longer for it. Not while threads ask.
+  // Adds a further cost of the last checkpoint in s, which delays the next one. Not while threads call due().
   void add_cost(double seconds);
 
-  // Seconds that all checkpoints have cost so far.
+  // Time of all checkpoints so far, s.
   double spent() const { return spent_; }
 
-  // The state at the end; the logbook is empty then.
+  // The state at the end; the record is empty afterwards.
   State close();
 
  private:

@@ -12,7 +12,7 @@ namespace lichtmc {
 Scores::Scores(const Room& room, const Tiling& tiling, const ScoreLaw& law, std::vector<TileDirect> direct)
     : room_(&room), tiling_(&tiling), law_(law), direct_(std::move(direct)), power_(total_power(room)) {
   for (const Surface& surface : room.surfaces) {
-    // A photon absorbed stands for the 1/(1 − ρ) impacts that a photon makes on such a surface until it is.
+    // An absorption represents 1/(1 − ρ) impacts: the mean number of impacts on such surfaces per absorption.
     factor_.push_back(law.per_absorption ? 1.0 / (1.0 - surface.reflectance) : 1.0);
   }
   direct_power_.resize(tiling.maps.size());
@@ -27,7 +27,7 @@ Scores::Scores(const Room& room, const Tiling& tiling, const ScoreLaw& law, std:
 
 // Mean and error of a tile's, or a surface's, incident power.
 Estimate Scores::incident_power(const Moments& moments, std::size_t surface, std::uint64_t histories) const {
-  // A photon that scores at most once: the error is that of a binomial law, known from the count alone.
+  // A photon that scores at most once: the error follows the binomial distribution and depends only on the count.
   Estimate result = law_.at_most_one_per_history ? estimate_binomial(static_cast<std::uint64_t>(moments.sum), histories)
                                                  : estimate(moments, histories);
   const double scale = power_ * law_.unit * factor_[surface];
@@ -36,8 +36,8 @@ Estimate Scores::incident_power(const Moments& moments, std::size_t surface, std
   return result;
 }
 
-// What is known where nothing was hit: had hits been expected, there would have been some. With 1.148 expected hits
-// none comes with probability 1 − 0.6827 (Poisson): so much is as likely to hold the truth as one standard error is.
+// The error of a tile without hits. With 1.148 expected hits the probability of none is 1 − 0.6827 (Poisson): the true
+// value is below that with the probability of one standard error.
 double Scores::power_of_no_hit(std::size_t surface, std::uint64_t histories) const {
   constexpr double hits = 1.1479;  // −ln(1 − 0.68269)
   const double score = law_.at_absorption ? 1.0 / (1.0 - room_->surfaces[surface].reflectance) : 1.0;
@@ -112,7 +112,7 @@ void Scores::incident(const Totals& totals, double& power, double& standard_erro
   }
 }
 
-// What the photons have counted on all tiles.
+// The scores of the photons on all tiles.
 void Scores::counted(const Totals& totals, double& power, double& standard_error) const {
   if (!law_.at_most_one_per_history) {
     const Estimate all = estimate(totals.incident, totals.histories);

@@ -1,4 +1,4 @@
-// From integer tallies to powers: what the counts of a run mean in W or lm.
+// From integer tallies to powers in W or lm.
 #pragma once
 
 #include <cstddef>
@@ -17,18 +17,18 @@ namespace lichtmc {
 // Reads the totals of a run with one estimator in one room.
 class Scores {
  public:
-  // direct: of every tile, where it was integrated and the photons have counted the rest; else none.
+  // direct: of every tile if direct light was integrated, else empty.
   Scores(const Room& room, const Tiling& tiling, const ScoreLaw& law, std::vector<TileDirect> direct);
 
-  // Power and irradiance of every tile, with error.
+  // Incident power and irradiance of every tile, with standard errors.
   std::vector<TileResult> tiles(const Totals& totals) const;
   std::vector<SurfaceResult> surfaces(const Totals& totals, const std::vector<TileResult>& tiles) const;
   Balance balance(const Totals& totals) const;
-  // Sum over all tiles, with error.
+  // Incident power of all tiles, with standard error.
   void incident(const Totals& totals, double& power, double& standard_error) const;
 
  private:
-  struct DirectPower {   // what integrated direct light adds to a tile map
+  struct DirectPower {   // integrated direct light of a tile map
     double power = 0.0;  // W or lm
     double behind = 0.0;
     double standard_error = 0.0;
@@ -43,7 +43,7 @@ class Scores {
   std::vector<TileDirect> direct_;
   std::vector<DirectPower> direct_power_;  // per tile map
   double power_;                           // Φ, W or lm
-  std::vector<double> factor_;             // per surface: impacts that a unit stands for
+  std::vector<double> factor_;             // per surface: impacts per unit
 };
 
 }  // namespace lichtmc

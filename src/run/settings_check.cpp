@@ -20,7 +20,7 @@ bool positive(double value) {
   return std::isfinite(value) && value > 0.0;
 }
 
-// Surfaces that light can fall on.
+// Surfaces without an area receive no light.
 bool has_area(const Surface& surface) {
   return surface_area(surface) > 0.0;
 }
@@ -116,7 +116,7 @@ void check_settings(const Settings& settings) {
 
 namespace {
 
-// Bytes per tile of a forward walk, at its worst time.
+// The largest memory per tile, in bytes, during a forward walk.
 double bytes_per_tile(const Settings& settings, unsigned threads, unsigned processes, bool has_reflectance_maps) {
   const bool automatic = settings.estimator == Estimator::automatic;
   const bool hits_apart = automatic || score_law(settings.estimator, has_reflectance_maps).hits == Hits::apart;
@@ -126,8 +126,8 @@ double bytes_per_tile(const Settings& settings, unsigned threads, unsigned proce
   const double of_tally = sizeof(Moments) + (hits_apart ? 16 : 8);
   const double candidates = automatic ? 3 : 1;
   const double walking = (candidates + (processes > 1 ? 1 : 0)) * of_totals + threads * of_tally;
-  const double ending = 2 * of_totals + of_tally;             // a last batch that is not whole, counted apart
-  const double writing = 2 * of_totals + sizeof(TileResult);  // the state, and its file as it is made
+  const double ending = 2 * of_totals + of_tally;             // an incomplete last batch is counted separately
+  const double writing = 2 * of_totals + sizeof(TileResult);  // the state, and its file in memory
   return of_tiling + std::max({walking, ending, writing});
 }
 
@@ -144,26 +144,26 @@ void check_memory(const Room& room, const Tiling& tiling, const Settings& settin
   throw InputError("The tallies of " + std::to_string(tiling.tiles.size()) + " tiles in " + room.source + " for " +
                    to_text(threads, "thread") + " need " + to_text(std::round(10.0 * needed / gigabyte) / 10.0) +
                    " GB of memory (allowed: " + to_text(std::floor(10.0 * limit / gigabyte) / 10.0) +
-                   " GB, what there is). Give --tile a greater length, or fewer --threads.");
+                   " GB, the available memory). Give --tile a greater length, or fewer --threads.");
 }
 
 void check_settings_for(const Room& room, const Settings& settings) {
   if (settings.measured == Measured::receivers && room.receivers.empty()) {
-    throw InputError(
-        "There is no receiver in " + room.source +
-        " to walk back from (allowed: at least one). Give nodes of the room the custom property 'receiver', or "
-        "give points with --receivers or --grid.");
+    throw InputError("There is no receiver in " + room.source +
+                     " (allowed: at least one if only receivers are measured). Give nodes of the room the custom "
+                     "property 'receiver', or "
+                     "give points with --receivers or --grid.");
   }
   if (settings.measured == Measured::receivers && settings.tile_walk == WalkDirection::backward) {
     throw InputError(
-        "Tiles are to be walked from backward, and only receivers are to be measured (--tiles backward with --only "
-        "backward; allowed: one of them). Leave out --only backward, or --tiles backward.");
+        "Backward walks from tiles are requested, but only receivers are measured (--tiles backward with --only "
+        "receivers; allowed: one of them). Leave out --only receivers, or --tiles backward.");
   }
   if (settings.estimator == Estimator::absorption) {
     if (const Surface* surface = surface_that_absorbs_nothing(room)) {
-      throw InputError("The estimator 'absorption' cannot see the surface " + in_quotes(surface->name) + " (material " +
-                       in_quotes(surface->material) + ") of " + room.source + ": its reflectance is 1" +
-                       (surface->reflectance_map ? " in places of its texture" : "") +
+      throw InputError("The estimator 'absorption' cannot score on the surface " + in_quotes(surface->name) +
+                       " (material " + in_quotes(surface->material) + ") of " + room.source + ": its reflectance is 1" +
+                       (surface->reflectance_map ? " in parts of its texture" : "") +
                        ", so that it never absorbs there. Use the estimator 'collision' or 'weight', or a "
                        "reflectance below 1.");
     }

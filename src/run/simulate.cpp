@@ -30,7 +30,7 @@ namespace lichtmc {
 
 namespace {
 
-// Those that this process may run on: batch systems and mpirun bind processes to some of the machine's.
+// The processors that this process may use: batch systems and mpirun bind processes to some of them.
 unsigned usable_processors() {
   cpu_set_t usable;
   if (::sched_getaffinity(0, sizeof usable, &usable) == 0)
@@ -41,7 +41,7 @@ unsigned usable_processors() {
 unsigned threads_for(const Settings& settings) {
   const unsigned processors = usable_processors();
   const unsigned asked = settings.threads == 0 ? processors : settings.threads;
-  // A thread without a batch would only cost memory.
+  // A thread without a batch would only use memory.
   return static_cast<unsigned>(std::min<std::uint64_t>(asked, batches_of(settings.photons)));
 }
 
@@ -50,17 +50,17 @@ std::vector<Ignored> ignored_by_run(const Room& room, Measured measured) {
   std::size_t without_area = 0;
   for (const Surface& surface : room.surfaces) without_area += surface.without_area;
   if (without_area > 0) {
-    ignored.push_back({to_text(without_area, "triangle") + " without area: no light can fall on them.", Effect::none});
+    ignored.push_back({to_text(without_area, "triangle") + " without area: they receive no light.", Effect::none});
   }
   if (!room.receivers.empty() && measured == Measured::tiles) {
     ignored.push_back({to_text(room.receivers.size(), "receiver") + " (" + in_quotes(room.receivers.front().name) +
-                           (room.receivers.size() > 1 ? ", …" : "") + "): only tiles were asked for.",
+                           (room.receivers.size() > 1 ? ", …" : "") + "): only tiles were requested.",
                        Effect::none});
   }
   return ignored;
 }
 
-// What holds of the run as a whole.
+// Sets the results that depend on the whole run.
 void complete(Result& result, const Room& room) {
   result.room = room.source;
   result.quantity = room.quantity;
@@ -77,10 +77,10 @@ void complete(Result& result, const Room& room) {
 [[noreturn]] void refuse_non_absorbing_enclosure(const Room& room) {
   throw InputError(
       "Nothing absorbs the light of an emitter in " + room.source +
-      ": it is shut in by surfaces whose reflectance is 1 (allowed: at least one below 1, or an opening), so that the "
-      "light would grow "
-      "without end. Give materials a reflectance below 1, for example with --max-reflectance 0.9, or cut the walk off "
-      "with --estimator weight --max-bounces N.");
+      ": it is enclosed by surfaces of reflectance 1 (allowed: at least one below 1, or an opening), so that the "
+      "irradiance would be infinite. Give materials a reflectance below 1, for example with --max-reflectance 0.9, or "
+      "limit the "
+      "number of flights with --estimator weight --max-bounces N.");
 }
 
 template <class Walk>
@@ -88,7 +88,7 @@ double seconds_of(const std::optional<Walk>& walk) {
   return walk ? walk->seconds : 0.0;
 }
 
-// What earlier sessions have walked for the tiles, and for the receivers.
+// Walking time of earlier sessions for the tiles, and for the receivers.
 struct EarlierSeconds {
   explicit EarlierSeconds(const StateData& data)
       : tiles(seconds_of(data.photons) + seconds_of(data.tile_walks)), receivers(seconds_of(data.receivers)) {}
@@ -96,14 +96,14 @@ struct EarlierSeconds {
   double receivers = 0.0;  // s
 };
 
-// Where both are measured each gets half of the time of all sessions, as if the run had not been interrupted.
+// If both are measured, each gets half of the time of all sessions, as in a run without interruption.
 std::optional<double> half_of_time(const Settings& settings, const EarlierSeconds& earlier, double mine) {
   if (!settings.max_seconds) return std::nullopt;
   const double half = 0.5 * (earlier.tiles + earlier.receivers + *settings.max_seconds);
   return std::clamp(half - mine, 0.0, *settings.max_seconds);
 }
 
-// Which walks a run has. A state that is only read may hold one of them, or both.
+// The walks of a run. A state that is only read may contain one of them, or both.
 struct PlannedWalks {
   PlannedWalks(const Room& room, const Settings& settings, const RunRecord& record) {
     const StateData& data = record.data();
@@ -117,21 +117,24 @@ struct PlannedWalks {
 };
 
 constexpr const char* tiles_left_out =
-    "The state has no walk for the tiles: the run was stopped while it chose their estimator. They are not among the "
-    "results; going on from it begins them anew.";
+    "The state has no walk for the tiles: the run was stopped while it chose their estimator. The results do not "
+    "include "
+    "them; resuming the run restarts them.";
 constexpr const char* receivers_not_measured =
-    "The run was stopped before the first walks back from the receivers: they were not measured. Go on with it, and "
-    "give it more time than integrating their direct light takes.";
+    "The run was stopped before the first backward walks from the receivers: they were not measured. Resume it, with "
+    "more "
+    "time than the integration of their direct light takes.";
 constexpr const char* receivers_left_out =
-    "The run was stopped before the direct light of the receivers was found anew: they are not among the results. The "
-    "state has the walks back from them; going on from it brings them back.";
+    "The run was stopped before the direct light of the receivers was computed again: the results do not include them. "
+    "The "
+    "state has their backward walks; resuming the run includes them.";
 
-// A state has one of them; it is found from the room, so that another one means that the file was tampered with.
+// The engine of a state follows from the room: another one means that the file was changed by another program.
 void note_engine(StateData& data, Engine used) {
   if ((data.photons || data.tile_walks || data.receivers) && data.engine != used) {
     throw InputError("The state was traced by the engine '" + std::string(to_string(data.engine)) +
                      "', the room needs '" + std::string(to_string(used)) +
-                     "' (allowed: the same). The state is not one of this room; run anew.");
+                     "' (allowed: the same). The state does not belong to this room; start a new run.");
   }
   data.engine = used;
 }
@@ -169,7 +172,7 @@ class Run {
 
  private:
   void check() const {
-    // Where a state is only read, photons are simulated by one thread, the end of a batch.
+    // If a state is only read, one thread simulates the incomplete last batch.
     const unsigned tallies = record_.only_read() ? 1 : result_.threads;
     check_memory(room_, result_.tiling, settings_, tallies, result_.processes, scene_->has_reflectance_maps());
     if (!settings_.max_bounces && has_non_absorbing_enclosure(*scene_, settings_.seed))
@@ -177,7 +180,7 @@ class Run {
     if (planned_.both() && !receivers_in_state_) check_receiver_rounds(room_, settings_);
   }
 
-  // Where tiles and receivers are measured each gets half of the time.
+  // If tiles and receivers are measured, each gets half of the time.
   std::optional<double> time_for(double mine) const {
     return planned_.both() ? half_of_time(settings_, earlier_, mine) : settings_.max_seconds;
   }
@@ -202,7 +205,7 @@ class Run {
         result_.tiles.begin(), result_.tiles.end(), [](const TileResult& tile) { return !(tile.irradiance > 0.0); }));
   }
 
-  // Where a stop comes before there is a result of the receivers, the tiles' result is kept.
+  // If the run is stopped before the receivers have a result, the result of the tiles is kept.
   void measure_receivers_after_tiles() {
     if (planned_.tiles && count_votes(control_.communicator, control_.stop.stop_requested()) > 0) {
       result_.walk.stopped_by = StopReason::interrupt;
@@ -236,7 +239,8 @@ class Run {
   std::unique_ptr<Scene> scene_;
 };
 
-// All members have read the same files and were given the same options, or histories would count twice. All refuse.
+// All ranks must have the same files and options; otherwise histories would count twice. All ranks throw if one
+// differs.
 void check_ranks_agree(Communicator* communicator, const StateData& data) {
   const auto check = [communicator](const Fingerprint& mine, const std::string& what) {
     Fingerprint of_first = mine;
@@ -253,7 +257,7 @@ void check_ranks_agree(Communicator* communicator, const StateData& data) {
         "all the same options and the same program, and put state.h5 where all machines see it.");
 }
 
-// What is the same for a run from the start and for one that goes on.
+// The common part of a new run and of a continued one.
 Result simulate_from(const Room& room, const Settings& settings, const Control& control, StateData data,
                      bool only_read) {
   try {
@@ -285,13 +289,13 @@ void check_state_for(const Room& room, const State& state) {
   if (state.empty()) throw InputError("The state is empty. Give one that simulate() or read_state() has returned.");
   check_version(state);
   if (state.room() != fingerprint(room)) {
-    throw InputError("The state is of another room than " + room.source +
-                     " as it is now (allowed: the same surfaces, reflectances, lamps and receivers, those of a table "
-                     "or a grid too). Give the files as they were, or run anew.");
+    throw InputError("The state belongs to another room than " + room.source +
+                     " as it is now (allowed: the same surfaces, reflectances, emitters and receivers, also those of a "
+                     "table or a grid). Give the unchanged files, or start a new run.");
   }
 }
 
-// The data, without a second copy of the tallies where nobody else holds the state.
+// The data, without a second copy of the tallies if this is the only reference to the state.
 StateData data_of(State&& state) {
   StateData data = state.data();
   state = {};
@@ -300,10 +304,9 @@ StateData data_of(State&& state) {
 
 void refuse_gaps(const std::vector<HistoryRange>& ranges) {
   if (ranges.size() < 2) return;
-  throw InputError(
-      "The state has gaps: nothing is there of histories " + std::to_string(ranges[0].last) + " … " +
-      std::to_string(ranges[1].first - 1) +
-      " (allowed: histories without gaps, to go on). Simulate what is missing with --histories, and merge.");
+  throw InputError("The state has gaps: it does not contain histories " + std::to_string(ranges[0].last) + " … " +
+                   std::to_string(ranges[1].first - 1) +
+                   " (allowed: histories without gaps). Simulate the missing ones with --histories, and merge.");
 }
 
 }  // namespace
@@ -324,7 +327,7 @@ Result resume(const Room& room, State state, const Settings& rules, const Contro
   if (data.photons) refuse_gaps(data.photons->ranges);
   if (data.receivers) check_receivers_whole(room, settings, *data.receivers);
   data.settings = settings;
-  // Of all sessions: a later one subtracts what they have taken.
+  // The total of all sessions: a later one subtracts their time.
   if (settings.max_seconds) data.settings.max_seconds = seconds_before + *settings.max_seconds;
   return simulate_from(room, settings, control, std::move(data), false);
 }
@@ -334,8 +337,9 @@ Result result_of(const Room& room, State state, unsigned threads, const Control&
   const StateData& found = state.data();
   if (!found.photons && !found.tile_walks && !found.receivers) {
     throw InputError(
-        "The state holds no walk: the run was stopped before an estimator was chosen (allowed: a state with something "
-        "counted). Go on with it by lichtmc resume.");
+        "The state contains no walk: the run was stopped before an estimator was chosen (allowed: a state with a "
+        "walk). "
+        "Continue it by lichtmc resume.");
   }
   Settings settings = state.settings();
   settings.threads = threads;

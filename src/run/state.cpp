@@ -55,7 +55,7 @@ std::uint64_t count_of(const std::vector<HistoryRange>& ranges) {
 
 namespace {
 
-// Adds fields to a checksum: lists with their lengths, optional ones with whether they are there.
+// Adds fields to a checksum: lists with their lengths, optional fields with a flag for their presence.
 class StateChecksum {
  public:
   template <class Thing>
@@ -114,12 +114,12 @@ Fingerprint fingerprint(const StateData& data) {
 void check_version(const State& state) {
   if (state.version() == version()) return;
   throw InputError("The state was made by lichtmc " + state.version() + ", this is " + std::string(version()) +
-                   " (allowed: the same version, or figures could differ). Go on with that version, or run anew.");
+                   " (allowed: the same version, because figures could differ). Use that version, or start a new run.");
 }
 
 namespace {
 
-// A range, and which state it is of.
+// A range, and the index of its state.
 struct Owned {
   HistoryRange range;
   std::size_t state = 0;
@@ -144,7 +144,7 @@ class Merger {
   }
 
  private:
-  // The stop rules of the parts are of no use for all together: what is left are the histories that they were to do.
+  // The stop rules of the parts do not apply to their sum; only the number of histories to simulate is kept.
   void set_rules(StateData& sum) const {
     Settings& settings = sum.settings;
     settings.target_error.reset();
@@ -186,7 +186,7 @@ class Merger {
                     std::string(to_string(b.estimator)));
   }
 
-  // Side by side, those that touch as one. `batch`: all ranges but the last end with a whole one.
+  // Joins ranges in order; adjacent ones become one. batch: all ranges except the last end with a whole batch.
   std::vector<HistoryRange> join(std::vector<Owned> owned, std::uint64_t batch, const std::string& of_what) const {
     std::sort(owned.begin(), owned.end(), [](const Owned& a, const Owned& b) {
       return std::pair(a.range.first, a.range.last) < std::pair(b.range.first, b.range.last);
@@ -195,7 +195,7 @@ class Merger {
       if (owned[k].range.first < owned[k - 1].range.last) {
         throw InputError("The " + of_what + " " + in_words(owned[k - 1].range) + " of " + names_[owned[k - 1].state] +
                          " and " + in_words(owned[k].range) + " of " + names_[owned[k].state] +
-                         " overlap (allowed: every one once, or it would count twice). Leave one state out.");
+                         " overlap (allowed: every one once; otherwise it would count twice). Leave one state out.");
       }
     }
     std::vector<HistoryRange> joined;
@@ -266,7 +266,7 @@ class Merger {
     }
     sum.*slot = merged;
     if (!merged) return;
-    (sum.*slot)->ranges = join(std::move(owned), 1, "rounds of walks back");
+    (sum.*slot)->ranges = join(std::move(owned), 1, "rounds of backward walks");
     (sum.*slot)->sums = std::move(sums);
     if (states_.size() > 1) (sum.*slot)->convergence.clear();
   }

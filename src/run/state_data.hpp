@@ -16,17 +16,17 @@
 
 namespace lichtmc {
 
-// The number of histories, or rounds, of ranges together.
+// The total number of histories, or rounds, of ranges.
 std::uint64_t count_of(const std::vector<HistoryRange>& ranges);
 
 template <>
 inline constexpr bool is_row<HistoryRange> = true;
 
-// The part that walks in both directions have.
+// The common data of walks in both directions.
 struct Walked {
   Estimator estimator = Estimator::collision;  // as used
-  std::string choice;                          // why, where it was chosen
-  std::vector<HistoryRange> ranges;            // in order, apart from each other
+  std::string choice;                          // reason, if `automatic` has chosen it
+  std::vector<HistoryRange> ranges;            // in order, not adjacent
   double seconds = 0.0;                        // wall-clock time
   std::vector<ConvergencePoint> convergence;
 
@@ -34,9 +34,9 @@ struct Walked {
   std::uint64_t size() const { return count_of(ranges); }
 };
 
-// Photons counted on tiles. Ranges are of histories; the totals are those of their whole batches.
+// Photons scored on tiles. Ranges are of histories; the totals are those of their whole batches.
 struct Counted : Walked {
-  std::uint64_t pilot = 0;  // histories after which an estimator was chosen; 0 where it was given
+  std::uint64_t pilot = 0;  // histories after which the estimator was chosen; 0 if it was given
   std::shared_ptr<const Totals> totals;
 };
 
@@ -50,7 +50,7 @@ struct BackwardState : Walked {
 struct StateData {
   std::string version;
   Fingerprint room{};
-  Settings settings;               // as asked for
+  Settings settings;               // as requested
   Engine engine = Engine::embree;  // as used
   std::optional<Counted> photons;
   std::optional<BackwardState> tile_walks;
@@ -94,8 +94,8 @@ void visit_fields(const F& f, Things&... state) {
   f(Field{"receivers"}, state.receivers...);
 }
 
-// Two states with the same fingerprint have counted the same and are to go on in the same way: a hash (XXH3, 128 bits)
-// of all fields but records and the use of the machine.
+// States with the same fingerprint have the same sums and will continue in the same way: a hash (XXH3, 128 bits) of all
+// fields except records and the use of the machine.
 Fingerprint fingerprint(const StateData& data);
 
 }  // namespace lichtmc

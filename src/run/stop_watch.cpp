@@ -35,7 +35,7 @@ bool StopWatch::would_stop() {
   return should_stop() || (communicator_ != nullptr && own_reason().has_value());
 }
 
-// Votes are added up, so that all hear the same whoever has got the signal, and whose clock is ahead.
+// Votes are summed: all ranks get the same result, whichever of them received the signal or whose clock is ahead.
 void StopWatch::agree() {
   if (communicator_ == nullptr || stop_) return;
   const std::optional<StopReason> mine = own_reason();
@@ -68,7 +68,7 @@ void StopWatch::run_on_threads(unsigned threads, const std::function<void(unsign
     try {
       for (unsigned k = 1; k < threads; ++k) helpers.emplace_back(guarded, k);
     } catch (const std::system_error& error) {
-      stop_ = true;  // those that have started end soon
+      stop_ = true;  // the threads that have started end soon
       throw RuntimeError("Cannot start " + std::to_string(threads) + " threads (" + error.what() +
                          "). Give --threads a smaller number.");
     }

@@ -1,4 +1,4 @@
-// When a part of a run is to end early, and the threads that ask.
+// The conditions for an early end of a part of a run, and the threads that check them.
 #pragma once
 
 #include <atomic>
@@ -17,7 +17,7 @@ namespace lichtmc {
 class StopWatch {
  public:
   // Time runs from now. before: seconds that earlier sessions of the run took; they count in seconds() only.
-  // max_seconds may be 0: the time is over. In a team (or null) all members stop together, where they agree().
+  // max_seconds may be 0: the time is over. With a communicator (or null) all ranks stop together, in agree().
   StopWatch(std::optional<double> max_seconds, std::stop_token stop, double before = 0.0,
             Communicator* communicator = nullptr)
       : max_seconds_(max_seconds),
@@ -28,29 +28,29 @@ class StopWatch {
     limit_began_ = began_;
   }
 
-  // Whether a stop was asked for, the time is over or a thread has failed; in a team, only what was agreed. Once true
-  // it stays so. Any thread may ask.
+  // Whether a stop was requested, the time is over or a thread has failed; with several ranks, only after agree(). Once
+  // true it remains true. Any thread may call this.
   bool should_stop();
 
-  // Whether this member would stop, though the team has not agreed yet: what it is at need not be completed, if all
-  // agree() behind it and throw it away where the answer is to stop. Alone the same as should_stop().
+  // Whether this rank would stop, before all ranks agree(): the current work may be left incomplete if all ranks call
+  // agree() after it and discard it when the result is to stop. In a single process the same as should_stop().
   bool would_stop();
 
-  // Why should_stop() has said true; none where it has not, or where a thread failed.
+  // The reason why should_stop() is true; none if it is false or a thread has failed.
   std::optional<StopReason> reason() const;
 
-  // Of a team's members all call it, at the same place of the run: where one would stop, all do.
+  // Collective: all ranks call it at the same point of the run. If one would stop, all stop.
   void agree();
 
-  // The time limit does not count until it is restarted: for work that an earlier session has done as well. Not while
-  // threads ask.
+  // Suspends the time limit until it is restarted: for work that an earlier session has already done. Not while threads
+  // call should_stop().
   void suspend_limit() { limit_began_.reset(); }
   void restart_limit() { limit_began_ = Clock::now(); }
 
   double seconds() const { return before_ + elapsed(); }
 
-  // Calls work(0) … work(threads − 1), each on a thread of its own, the first on the calling one. Rethrows what the
-  // first of them to fail threw; the others are told to stop.
+  // Calls work(0) … work(threads − 1), each on a thread of its own, the first on the calling one. Rethrows the
+  // first exception of a thread; should_stop() then returns true for the others.
   void run_on_threads(unsigned threads, const std::function<void(unsigned)>& work);
 
  private:
@@ -66,9 +66,9 @@ class StopWatch {
   double before_;  // s
   Communicator* communicator_;
   Clock::time_point began_;
-  std::optional<Clock::time_point> limit_began_;  // when the time limit began to count; none while it does not
+  std::optional<Clock::time_point> limit_began_;  // start of the time limit; none while it is suspended
   std::atomic<bool> stop_{false};
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards the members below
   std::optional<StopReason> reason_;
   std::exception_ptr failure_;
 };

@@ -17,11 +17,11 @@ namespace lichtmc {
 
 namespace {
 
-// Tiles are held against references known so well or better.
+// Tiles are compared with references of at most this relative standard error.
 constexpr double known_to = 0.1;
-// A reference has so many times the histories of any row: its error adds 1/60 to that of the longest.
+// A reference has this number of times the histories of any row: its error adds 1/60 to that of the longest.
 constexpr std::uint64_t reference_factor = 30;
-constexpr std::uint64_t steps_of_ladder = 4;  // each four times the histories of the one before
+constexpr std::uint64_t steps_of_ladder = 4;  // each has four times the histories of the one before
 
 struct Reference {
   Result result;
@@ -95,7 +95,7 @@ double total_area(const Room& room) {
   return area;
 }
 
-// A tenth of a metre, or what makes some 2000 tiles, rounded up to two digits so that people can repeat it.
+// 0.1 m, or the length that gives about 2000 tiles, rounded up to two digits so that users can repeat it.
 double usual_edge(const Room& room) {
   constexpr double usual = 0.1;
   constexpr double tiles = 2000.0;
@@ -113,11 +113,11 @@ class StudyRun {
   Study run();
 
  private:
-  // A setting and its share of the time.
+  // A setting and its fraction of the time.
   struct Plan {
     std::string name;
     Settings settings;
-    bool ladder = true;  // with growing histories, or with the most at once
+    bool ladder = true;  // with increasing numbers of histories, or only with the largest
     double share = 0.0;
   };
 
@@ -177,7 +177,7 @@ std::vector<StudyRun::Plan> StudyRun::plans() const {
     backward.tile_walk = WalkDirection::backward;
     add(backward, true, 2.0);
   }
-  // Where the cuboid's closed form serves, Embree is measured beside it.
+  // In cuboids Embree is measured in addition to the closed form.
   const Engine usual = references_.at(edge_).result.engine;
   if (usual == Engine::cuboid) add(settings_with(Estimator::collision, Engine::embree), true, 2.0);
   add(settings_with(Estimator::collision, Engine::embree_fast), true, 2.0);
@@ -193,7 +193,7 @@ std::vector<StudyRun::Plan> StudyRun::plans() const {
   }
   double all = 0.0;
   for (const Plan& plan : plans) all += plan.share;
-  constexpr double for_rows = 0.55;  // of the time; the rest is for references
+  constexpr double for_rows = 0.55;  // of the time; the remainder is for references
   for (Plan& plan : plans) plan.share *= for_rows / all;
   return plans;
 }
@@ -230,17 +230,15 @@ const Reference& StudyRun::reference_for(double edge, double share) {
   Reference reference = make_reference(simulate(*room_, settings, control()));
   if (reference.result.walk.histories < 2 * reference_factor * batch_histories) {
     throw InputError("The time of " + short_number(options_->seconds) + " s is too short to study " + room_->source +
-                     ": its reference came to " + std::to_string(reference.result.walk.histories) +
-                     " photons (allowed: " + std::to_string(2 * reference_factor * batch_histories) +
-                     " or more). Give --max-time more.");
+                     ": its reference has " + std::to_string(reference.result.walk.histories) + " photons (allowed: " +
+                     std::to_string(2 * reference_factor * batch_histories) + " or more). Give --max-time more.");
   }
   study_.references.push_back(reference.facts);
   study_.threads = reference.result.threads;
   return references_.emplace(edge, std::move(reference)).first->second;
 }
 
-// Returns whether the run came to its end, in time. One that the time has cut shorter than the rung before says nothing
-// new.
+// Returns whether the run ended in time. A run that the time limit made shorter than the previous one is not recorded.
 bool StudyRun::measure_once(const Plan& plan, const Reference& reference, std::uint64_t photons, double& seconds_left) {
   Settings settings = plan.settings;
   settings.photons = photons;
@@ -264,13 +262,13 @@ void StudyRun::measure(const Plan& plan) {
     const std::uint64_t batches = reference.result.walk.histories / reference_factor / batch_histories;
     for (std::uint64_t step = plan.ladder ? steps_of_ladder : 1; step-- > 0;) {
       const std::uint64_t on_step = batches >> (2 * step);
-      if (on_step < 2) continue;  // one batch alone tells no error
+      if (on_step < 2) continue;  // one batch alone gives no error
       if (!measure_once(plan, reference, on_step * batch_histories, seconds_left)) break;
     }
   } catch (const InputError& error) {
     study_.left_out.push_back(plan.name + ": " + error.what());
   } catch (const RuntimeError& error) {
-    study_.left_out.push_back(plan.name + ": not done in its share of the time, " +
+    study_.left_out.push_back(plan.name + ": not completed in its part of the time, " +
                               short_number(plan.share * options_->seconds) + " s. Give --max-time more.");
   }
 }
@@ -280,7 +278,7 @@ Study StudyRun::run() {
   constexpr double for_reference = 0.35;
   reference_for(edge_, for_reference);
   const std::vector<Plan> all = plans();
-  of_ = all.size() + 3;  // and the references
+  of_ = all.size() + 3;  // plus the references
   for (const Plan& plan : all) {
     if (options_->stop.stop_requested()) break;
     measure(plan);

@@ -1,4 +1,4 @@
-// What the tiles of a result say about their surfaces and about the run as a whole.
+// Results of surfaces and of the whole run from those of the tiles.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,13 @@
 
 namespace lichtmc {
 
-// One per tile map: names, areas, direct light, hits, least and greatest irradiance of the tiles. Power, mean
-// irradiance, their error and the share from behind are left to who knows how the tiles depend on each other.
+// One per tile map: names, areas, direct light, hits, smallest and largest irradiance of the tiles. The caller sets
+// power, mean irradiance, their errors and the share on the back, which depend on the correlation of the tiles.
 std::vector<SurfaceResult> surface_results(const Room& room, const Tiling& tiling,
                                            const std::vector<TileResult>& tiles);
 
-// Area-weighted rms of the tiles' relative standard errors, over the tiles that got light; NaN where none has an error.
+// Area-weighted rms of the tiles' relative standard errors, over the tiles with an irradiance above 0; NaN if none has
+// an error.
 double rms_relative_error(const Tiling& tiling, const std::vector<TileResult>& tiles);
 
 }  // namespace lichtmc

@@ -9,15 +9,15 @@ namespace lichtmc {
 
 namespace {
 
-// How well direct light is integrated: three thousandths, or a third of the error that is asked for, so that it adds
-// little to the error of the walks; more than a ten-thousandth is not worth the rays.
+// Relative accuracy of integrated direct light: 3·10⁻³, or a third of the target error, so that it adds little to the
+// error of the walks; at least 10⁻⁴, because a higher accuracy costs too many rays.
 double accuracy_for(const Settings& settings) {
   constexpr double coarsest = 3e-3;
   constexpr double finest = 1e-4;
   return settings.target_error ? std::clamp(*settings.target_error / 3.0, finest, coarsest) : coarsest;
 }
 
-// The irradiance that the emitters' power makes, spread over all surfaces.
+// The emitters' power over the area of all surfaces.
 double level_of(const Room& room) {
   double area = 0.0;
   for (const Surface& surface : room.surfaces) area += surface_area(surface);

@@ -19,13 +19,13 @@ namespace lichtmc {
 // Direct irradiance of a tile, W/m² or lx.
 struct TileDirect {
   double front = 0.0;
-  double behind = 0.0;          // from behind the surface
-  double standard_error = 0.0;  // of both together
+  double behind = 0.0;          // on the back of the surface
+  double standard_error = 0.0;  // of their sum
 };
 
 class TileLight {
  public:
-  // All but the settings must outlive this.
+  // All references except the settings must outlive this.
   TileLight(const Room& room, const Tiling& tiling, const Scene& scene, const Settings& settings,
             WalkDirection direction);
   TileLight(const TileLight&) = delete;
@@ -37,7 +37,8 @@ class TileLight {
   // The mean direct irradiance of a face.
   DirectIrradiance mean(std::size_t face, TraceCount& count) const { return direct_.mean(face, count); }
 
-  // That of every tile, by all threads. Throws RuntimeError where the watch says stop before all is done.
+  // That of every tile, by all threads. Throws RuntimeError if the watch requests a stop before
+  // all are computed.
   std::vector<TileDirect> of_tiles(const Control& control, unsigned threads, StopWatch& watch, TraceCount& count) const;
 
  private:

@@ -58,7 +58,7 @@ class ForwardTiles final : public Measurement {
 
  private:
   const RunContext& context_;
-  std::vector<TileDirect> direct_;  // of every tile, where it is integrated
+  std::vector<TileDirect> direct_;  // of every tile, if it is integrated
   TraceCount direct_count_;
   double direct_seconds_ = 0.0;
 };

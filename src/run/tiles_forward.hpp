@@ -1,4 +1,4 @@
-// Tiles measured by photons from the emitters.
+// Measures tiles by photons from the emitters.
 #pragma once
 
 #include "run/context.hpp"
@@ -6,7 +6,7 @@
 
 namespace lichtmc {
 
-// Throws RuntimeError where the run is stopped before the first photon is simulated.
+// Throws RuntimeError if the run is stopped before the first photon is simulated.
 TileMeasurement measure_tiles_forward(const RunContext& context);
 
 }  // namespace lichtmc

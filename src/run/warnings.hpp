@@ -1,4 +1,4 @@
-// What a user should know before trusting a result.
+// Warnings about a result.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ struct OutsideEmitter {
 };
 std::vector<OutsideEmitter> emitters_outside(const Room& room);
 
-// Emitters outside the room's bounds; light that met no surface at all; light left over by a cut; photons lost;
-// surfaces that reflect everything. A sentence or two each, with what to do.
+// Emitters outside the room's bounds; no impacts at all; residual power of truncated walks; lost photons; surfaces of
+// reflectance 1. One or two sentences each, with what to do.
 std::vector<std::string> warnings_of(const Room& room, const Result& result);
 
 }  // namespace lichtmc

@@ -1,4 +1,4 @@
-// A walk as the run driver sees it (drive.hpp): something that simulates up to a count and knows its error.
+// The interface between the run driver (drive.hpp) and a walk: it simulates up to a count and computes its error.
 //
 // Counts are histories for photons from the emitters, rounds for backward walks (one or some walks from every origin).
 #pragma once
@@ -31,26 +31,27 @@ class Work {
   virtual std::uint64_t histories_of(std::uint64_t count) const = 0;
   virtual CheckSchedule schedule() const = 0;
 
-  // Continues from what a state holds. Throws InputError where that is not of this room.
+  // Continues from a state. Throws InputError if it does not belong to this room.
   virtual void restore(StateData& data) = 0;
-  // Before the first call of simulate_towards() that counts, that is, after pilots.
+  // Called after pilots, before the first simulate_towards() of the run itself.
   virtual void begin() = 0;
-  // Simulates until `count` is done, the watch says stop, or there is an occasion for a checkpoint.
+  // Simulates until `count` is reached, the watch requests a stop, or a checkpoint is possible.
   virtual void simulate_towards(std::uint64_t count) = 0;
-  // Simulates what a state does not hold of the histories that it names: the end of a batch.
+  // Simulates histories in the ranges of a state that its sums do not contain: the end of a batch.
   virtual void complete() = 0;
 
-  // Relative standard error of what was asked for: rms over tiles, by area, or over receivers.
+  // Relative standard error: rms over the tiles, weighted by area, or over the receivers.
   virtual double error() = 0;
   virtual Pilot pilot() = 0;
   virtual WorkCounts counts() = 0;
 
-  // Brings the state up to date with what was counted.
+  // Updates the state.
   virtual Walked& write_to(StateData& data) = 0;
-  // The state was written: what it shares with this walk is to be released, or it would be copied.
+  // Called when the state was written: releases the data that it shares with this walk, which would otherwise be
+  // copied.
   virtual void release(StateData& data) = 0;
 
-  // Shown by the progress callback from now on.
+  // Values for the progress callback.
   virtual void show(double rms_relative_error, double histories_to_target) = 0;
 
  protected:
@@ -59,13 +60,13 @@ class Work {
   Work& operator=(const Work&) = default;
 };
 
-// What is measured by walks: tiles by photons, tiles by backward walks, receivers.
+// A measurement by walks: tiles by photons, tiles by backward walks, or receivers.
 class Measurement {
  public:
   virtual ~Measurement() = default;
 
   virtual std::string name() const = 0;  // "the tiles"
-  // What the state holds of it, or null.
+  // Its data in the state, or null.
   virtual Walked* stored(StateData& data) const = 0;
   // A walk with one estimator, for one session.
   virtual std::unique_ptr<Work> make_work(Estimator estimator, Progress::Stage stage) = 0;

@@ -11,10 +11,10 @@ namespace lichtmc {
 
 namespace {
 
-// A team meets some times a second: to hear of a stop soon, and to wait for the slowest little.
+// Length of a round: it bounds the latency of a stop and the time spent waiting for the slowest rank.
 constexpr double round_seconds = 0.25;
 
-// May be written to: a copy only where somebody else holds it.
+// Totals that may be modified: copied only if there is another reference to them.
 std::shared_ptr<Totals> own(std::shared_ptr<const Totals> totals) {
   if (totals.use_count() > 1) return std::make_shared<Totals>(*totals);
   return std::const_pointer_cast<Totals>(std::move(totals));
@@ -35,7 +35,7 @@ WorkerThreads::WorkerThreads(const Scene& scene, const Settings& settings, const
   for (unsigned k = 0; k < threads; ++k) {
     workers_.push_back({make_walk(scene, settings), std::nullopt});
   }
-  broadcast(communicator_, round_);  // members may have other numbers of threads
+  broadcast(communicator_, round_);  // ranks may have different numbers of threads
 }
 
 void WorkerThreads::restore(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals) {
@@ -50,7 +50,7 @@ void WorkerThreads::begin(RunRecord& record) {
   record_ = &record;
   const std::size_t bytes = whole_->tiles.size() * sizeof(Moments) + whole_->hits.size() * sizeof(std::uint64_t);
   record.expect(static_cast<double>(bytes));
-  // An earlier session may have ended within a batch: its whole batches count.
+  // If an earlier session ended within a batch, only its whole batches are used.
   range_.last -= (range_.last - range_.first) % batch_histories;
 }
 
@@ -75,7 +75,7 @@ void WorkerThreads::simulate_ends() {
   simulate_part({range_.last, range_.last + rest});
 }
 
-// Every member of a team does so for itself: a batch takes less time than to send it.
+// Every rank does this itself: a batch takes less time than a broadcast of its result.
 void WorkerThreads::simulate_part(HistoryRange range) {
   Worker& worker = workers_.front();
   worker.tally.emplace(scene_->first_tile, hits_);
@@ -86,7 +86,7 @@ void WorkerThreads::simulate_part(HistoryRange range) {
   reporter_.add(n, worker.tally->counts().impacts);
 }
 
-// Each thread its own: where tiles are many it takes a while.
+// Each thread makes its own tally: with many tiles this takes some time.
 void WorkerThreads::make_tally(Worker& worker) const {
   if (worker.tally) return;
   const double began = watch_->seconds();
@@ -94,14 +94,14 @@ void WorkerThreads::make_tally(Worker& worker) const {
   worker.tally_seconds = watch_->seconds() - began;
 }
 
-// New tallies are a part of what a checkpoint costs.
+// Adds the time to make new tallies to the cost of the checkpoint.
 void WorkerThreads::count_tally_time() {
   double longest = 0.0;
   for (Worker& worker : workers_) longest = std::max(longest, std::exchange(worker.tally_seconds, 0.0));
   if (std::exchange(after_checkpoint_, false)) record_->add_cost(longest);
 }
 
-// Threads come back early when a checkpoint is due. What they have taken they finish.
+// Threads return early when a checkpoint is due; they complete the batches that have begun.
 void WorkerThreads::simulate_alone(std::uint64_t end) {
   next_ = range_.last;
   watch_->run_on_threads(static_cast<unsigned>(workers_.size()), [&](unsigned k) { work(workers_[k], end, true); });
@@ -109,7 +109,7 @@ void WorkerThreads::simulate_alone(std::uint64_t end) {
   count_tally_time();
 }
 
-// A round: every member simulates its part of the batches whatever happens, so that there is no gap.
+// A round: every rank always completes its part of the batches, so that there are no gaps.
 void WorkerThreads::simulate_in_ranks(std::uint64_t end) {
   const double began = watch_->seconds();
   const std::uint64_t batches = std::min(round_, (end - range_.last) / batch_histories);
@@ -119,12 +119,12 @@ void WorkerThreads::simulate_in_ranks(std::uint64_t end) {
   watch_->run_on_threads(static_cast<unsigned>(workers_.size()), [&](unsigned k) { work(workers_[k], my_end, false); });
   range_.last += batches * batch_histories;
   count_tally_time();
-  // Nobody runs ahead: all wait for the slowest here.
+  // All ranks wait for the slowest here.
   std::uint64_t impacts = round_impacts_.exchange(0);
   communicator_->sum(std::span(&impacts, 1));
   reporter_.add(batches * batch_histories, impacts);
   watch_->agree();
-  // The next takes the time that it should, but grows no more than twofold.
+  // The next round is adapted to round_seconds, but at most doubled.
   const double took = watch_->seconds() - began;
   const std::uint64_t fewest = std::uint64_t{2} * workers_.size() * size_of(communicator_);
   const double better = static_cast<double>(round_) * std::min(2.0, round_seconds / std::max(took, 1e-6));
@@ -159,7 +159,7 @@ bool WorkerThreads::abandoned() const {
   return std::any_of(workers_.begin(), workers_.end(), [](const Worker& worker) { return worker.abandoned; });
 }
 
-// Whole batches go from the threads' tallies to the sum. What was abandoned stays behind: nothing follows it.
+// Adds whole batches from the threads' tallies to the sum. Abandoned batches are not added: the work has ended.
 void WorkerThreads::collect() {
   if (ends_ > 0 || abandoned()) return;
   whole_ = own(std::move(whole_));
@@ -194,7 +194,7 @@ Counted WorkerThreads::state() {
   Counted counted;
   counted.ranges = before_;
   HistoryRange range = range_;
-  // Where the last step was abandoned, what was collected before it: the sum counts its histories.
+  // If the last step was abandoned: the sums collected before it, whose number of histories they contain.
   if (abandoned()) range.last = range.first + (whole_->histories - count_of(before_));
   range.last += ends_;
   counted.ranges.push_back(range);

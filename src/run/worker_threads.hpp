@@ -1,4 +1,4 @@
-// The threads of a forward walk: they take batches in order until none is left or the run is to end.
+// The threads of a forward walk: they simulate batches in order until none is left or the run ends.
 #pragma once
 
 #include <atomic>
@@ -21,48 +21,48 @@ namespace lichtmc {
 
 class WorkerThreads {
  public:
-  // `threads` ≥ 1. All must outlive the crew. Where Control::team is not null, the crews of all its members work
-  // together: every call is then one of the whole team.
+  // `threads` ≥ 1. All references must outlive this. If Control::communicator is not null, the worker threads of all
+  // ranks work together: every call is then collective.
   WorkerThreads(const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
                 unsigned threads);
 
-  // Goes on from what an earlier session has counted. Before anything is simulated.
+  // Continues from an earlier session. Call it before histories are simulated.
   void restore(std::vector<HistoryRange> ranges, std::shared_ptr<const Totals> totals);
 
-  // Shows the state there when it is time; none until then. It must outlive the crew.
+  // Sets the record for checkpoints; without it there are none. It must outlive this.
   void begin(RunRecord& record);
 
-  // Simulates the histories from where the last call ended up to the `count`th, or until the watch says stop; a batch
-  // begun is finished. The histories done are always the first ones, without a gap. A count that is not one of whole
-  // batches ends the work. Rethrows what a thread or the callback threw.
+  // Simulates the histories from where the last call ended up to the `count`th, or until the watch requests a stop;
+  // batches that have begun are completed. The simulated histories are always the first ones, without gaps. A count
+  // that is not a multiple of a batch ends the work. Rethrows exceptions of threads and of the callback.
   void simulate_towards(std::uint64_t count);
 
-  // Of what an earlier session has counted, the ends of ranges within a batch, which states do not hold. Ends the work.
+  // Simulates the incomplete last batch of an earlier session, which states do not contain. Ends the work.
   void simulate_ends();
 
-  // What was counted so far. Exact integers: the same for any number of threads, members and sessions.
+  // The sums so far. Exact integers: the same for any number of threads, ranks and sessions.
   const Totals& totals();
 
-  // What of that a later session can go on from: whole batches.
+  // The part from which a later session can continue: whole batches.
   Counted state();
 
   // Histories that were simulated so far.
   std::uint64_t histories() const;
 
-  // Shown by the progress callback from now on, see Reporter.
+  // Values for the progress callback, see ProgressReporter.
   void set_error(double rms_relative_error, double histories_to_target) {
     reporter_.set_error(rms_relative_error, histories_to_target);
   }
   void set_stage(Progress::Stage stage) { reporter_.set_stage(stage); }
-  // New tallies, which the next call makes, are a part of what a checkpoint costs.
+  // The next call makes new tallies: their time is added to the cost of the checkpoint.
   void after_checkpoint() { after_checkpoint_ = true; }
 
  private:
   struct Worker {
     std::unique_ptr<Walk> walk;
-    std::optional<Tally> tally;  // of what was not collected yet; its memory is taken when there is something
-    double tally_seconds = 0.0;  // seconds that it took to make the tally
-    bool abandoned = false;      // a batch of it, because of a stop: it counts for the result, not for the state
+    std::optional<Tally> tally;  // scores not yet collected; allocated on demand
+    double tally_seconds = 0.0;  // s, time to make the tally
+    bool abandoned = false;  // a stop abandoned one of its batches, which is part of the result but not of the state
   };
 
   void simulate_alone(std::uint64_t end);
@@ -81,15 +81,15 @@ class WorkerThreads {
   RunRecord* record_ = nullptr;
   ProgressReporter reporter_;
   std::vector<Worker> workers_;
-  std::vector<HistoryRange> before_;    // earlier ranges than the one that grows
-  HistoryRange range_;                  // that grows, by whole batches
+  std::vector<HistoryRange> before_;    // ranges before the one that grows
+  HistoryRange range_;                  // the one that grows, by whole batches
   std::atomic<std::uint64_t> next_{0};  // first history that no thread of this process has taken
   bool after_checkpoint_ = false;
-  std::uint64_t round_ = 0;                      // batches in a round of the team
-  std::atomic<std::uint64_t> round_impacts_{0};  // of this member
-  std::shared_ptr<Totals> whole_;                // whole batches that were collected
-  std::uint64_t ends_ = 0;       // histories of batches that are not whole; they are in the first worker's tally
-  std::unique_ptr<Totals> sum_;  // of all, once the work has ended with more than whole batches
+  std::uint64_t round_ = 0;                      // batches in a round of all ranks
+  std::atomic<std::uint64_t> round_impacts_{0};  // of this rank
+  std::shared_ptr<Totals> whole_;                // collected sums of whole batches
+  std::uint64_t ends_ = 0;                       // histories of an incomplete batch; in the tally of the first worker
+  std::unique_ptr<Totals> sum_;                  // of all histories, if the work has ended within a batch
 };
 
 }  // namespace lichtmc

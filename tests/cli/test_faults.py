@@ -148,7 +148,7 @@ class Faults(FaultTest):
             self.assertIn(says, done.stderr)
             self.assertIn("Give --tile", done.stderr)
             self.assertFalse((out / "summary.json").exists())
-        self.assertIn("for 64 threads need 4.0 GB of memory (allowed: 2.0 GB, what there is)", done.stderr.replace(" 4 GB", " 4.0 GB").replace(" 2 GB", " 2.0 GB"))
+        self.assertIn("for 64 threads need 4.0 GB of memory (allowed: 2.0 GB, the available memory)", done.stderr.replace(" 4 GB", " 4.0 GB").replace(" 2 GB", " 2.0 GB"))
 
     def test_a_removed_folder_is_created_again_with_the_results(self):
         whole = self.reference()

@@ -123,7 +123,7 @@ class LongRuns(ProgramTest):
         out = self.folder / "out"
         done = lichtmc("run", ROOM, "-o", out, "--tile", "0.5", "--max-time", "0.4s", "--grid", "0.85", "--grid-spacing", "0.01", "--no-report")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("Warning: The run was stopped before the first walks back from the receivers", done.stderr)
+        self.assertIn("Warning: The run was stopped before the first backward walks from the receivers", done.stderr)
         self.assertTrue((out / "tiles.csv").exists())
         self.assertFalse((out / "receivers.csv").exists())
         summary = json.loads((out / "summary.json").read_text())

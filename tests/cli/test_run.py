@@ -133,7 +133,7 @@ class Run(ProgramTest):
         out, summary, _, _ = self.run_room("--photons", "10k", "--grid", "0.5", "--only", "tiles")
         self.assertFalse((out / "receivers.csv").exists())  # that of the run before is removed
         self.assertIsNone(summary["backward"])
-        self.assertIn("only tiles were asked for", " ".join(summary["ignored"]))
+        self.assertIn("only tiles were requested", " ".join(summary["ignored"]))
         table = self.folder / "wrong.csv"
         table.write_text("0,0,0,0,1,0\n1,2,x,0,1,0\n")
         self.refused("run", CUBE, "-o", out, "--receivers", table, says=["row 2", "'x'"])
@@ -194,7 +194,7 @@ class Run(ProgramTest):
         _, summary, _, said = self.run_room("--photons", "2000", "--light", "point:5,.5,.5:1W", "--reflectance", "wall=1",
                                             "--estimator", "weight", "--max-bounces", "3")
         self.assertEqual(len(summary["warnings"]), 3)
-        for words in "outside the room", "cut off while still in flight", "reflect all light":
+        for words in "outside the room", "cut off as residual", "have reflectance 1":
             self.assertIn(words, said)
         _, summary, _, said = self.run_room("--photons", "2000")
         self.assertEqual(summary["warnings"], [])

@@ -122,7 +122,7 @@ TEST_CASE("a stop before the choice of the estimator does not affect the choice 
   CHECK_THAT(stopped.choices.front(), ContainsSubstring("begins these walks anew"));
   const State state = written_and_read(stopped.state);
   CHECK(state.histories().empty());
-  CHECK_THROWS_WITH(result_of(room, state), ContainsSubstring("The state holds no walk"));
+  CHECK_THROWS_WITH(result_of(room, state), ContainsSubstring("The state contains no walk"));
   settings.photons = 500'000;
   CHECK(same_figures(simulate(room, settings), resume(room, state, settings)));
 }

@@ -171,7 +171,7 @@ TEST_CASE("states that do not belong together are refused with their difference"
   CHECK_THROWS_WITH(resume(darker, one, settings), ContainsSubstring("another room"));
   const State gap = merge({one, part(room, settings, 20'480, 30'720).state}, {"one.h5", "two.h5"});
   CHECK_THROWS_WITH(resume(room, gap, settings),
-                    ContainsSubstring("gaps: nothing is there of histories 10240 … 20479"));
+                    ContainsSubstring("gaps: it does not contain histories 10240 … 20479"));
   CHECK(result_of(room, gap).walk.histories == 20'480);
   // A part begins with a batch.
   CHECK_THROWS_WITH(part(room, settings, 1000, 20'480), ContainsSubstring("Begin at 0 or 1024"));
