@@ -1,7 +1,8 @@
-// Processes that share one run: all call simulate() with the same room and settings, and each simulates a part.
+// Processes (ranks) that share one run: all call simulate() with the same room and settings, and each simulates a part.
 //
-// The library needs three collective operations: every member calls the same one in the same order, and returns when
-// its result is there. lichtmc::mpi (lichtmc/mpi.hpp) does them by MPI; another transport is a class like it.
+// The library needs three collective operations: all ranks call the same operation in the same order, and each call
+// returns when its result is available. lichtmc::mpi (lichtmc/mpi.hpp) implements them by MPI; for another transport,
+// derive a class.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +15,15 @@ class Communicator {
  public:
   virtual ~Communicator() = default;
 
-  // This member's number, 0 … size() − 1. Member 0, the first, decides what hangs on rounding and calls back.
+  // Number of this rank, 0 … size() − 1. Rank 0 makes the decisions that depend on rounding or time, and the callbacks.
   virtual unsigned rank() const = 0;
   virtual unsigned size() const = 0;
 
-  // Every member gets the sums over all, element by element, modulo 2⁶⁴.
+  // Reduction: all ranks get the sums over all ranks, element by element, modulo 2⁶⁴.
   virtual void sum(std::span<std::uint64_t> words) = 0;
   // The same for integers of 128 bits: pairs of words, the low one first; modulo 2¹²⁸.
   virtual void sum_wide(std::span<std::uint64_t> words) = 0;
-  // Every member gets what the first has.
+  // All ranks get the bytes of rank 0.
   virtual void broadcast(std::span<std::byte> bytes) = 0;
 
  protected:

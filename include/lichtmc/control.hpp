@@ -12,12 +12,12 @@ namespace lichtmc {
 
 struct Control {
   // Called some times a second while a walk runs, by one thread at a time, which may be any thread of the run. It
-  // should return soon. An exception from it ends the run and is rethrown by simulate().
+  // should return quickly. An exception from it ends the run and is rethrown by simulate().
   std::function<void(const Progress&)> progress;
-  // Ends the run early; the result then holds what was simulated so far (StopReason::interrupt).
+  // Ends the run early; the result then contains what was simulated so far (StopReason::interrupt).
   std::stop_token stop;
-  // Called every checkpoint_seconds (≥ 0) with what was counted so far, for write_state(), by the thread that called
-  // simulate(); the walk waits meanwhile. Less often where that would take more than a hundredth of the time. Not
+  // Called every checkpoint_seconds (≥ 0) with the state so far, for write_state(), by the thread that called
+  // simulate(); the walk waits meanwhile. Less often if it would take more than 1 % of the time. Not
   // called while direct light is integrated or an estimator is being chosen. An exception from it ends the run.
   std::function<void(const State&)> checkpoint;
   double checkpoint_seconds = 60.0;

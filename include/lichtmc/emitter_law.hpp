@@ -6,7 +6,7 @@
 // Directions are unit vectors in the emitter's own frame: +Z is its axis, +X the reference of its azimuth. A law has
 //   sample(u, turns)   a direction with the law's density, by inversion; 0 < u < 1, 0 ≤ turns ≤ 1 (azimuth 2π·turns)
 //   density(local)     probability density of that direction in 1/sr; it integrates to 1 over the sphere
-//   extent()           the cone that holds the emitter's light
+//   extent()           the cone that contains the emitted power
 //   fault()            the first parameter that is out of its range, or none
 //   name()             a word for tables
 // The intensity in a direction is Φ times the density: see intensity().
@@ -129,7 +129,7 @@ struct SpotLaw {
   std::optional<LawFault> fault() const {
     if (!(outer >= smallest_outer && outer <= largest_outer))
       return LawFault{"outer cone angle", outer, "1e-6 to π/2 = 1.5708 rad",
-                      "Give the half angle of the cone that holds its light."};
+                      "Give the half angle of the cone that contains its light."};
     if (!(inner >= 0.0 && inner < outer))
       return LawFault{"inner cone angle", inner, "0 rad to below the outer angle",
                       "Give the half angle of the cone of full intensity."};
@@ -138,8 +138,8 @@ struct SpotLaw {
   static constexpr std::string_view name() { return "spot"; }
 };
 
-// Any of them. A class that is added here must satisfy the concept below, and every visit must know it: what does not,
-// does not compile.
+// One of the laws. A class that is added here must satisfy the concept below, and every visit must handle it; otherwise
+// the program does not compile.
 using EmitterLaw = std::variant<IsotropicLaw, LambertLaw, SpotLaw>;
 
 template <class Law>

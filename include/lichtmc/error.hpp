@@ -8,7 +8,7 @@
 
 namespace lichtmc {
 
-// Base of every exception that the library throws on purpose.
+// Base of all exceptions that the library itself throws.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

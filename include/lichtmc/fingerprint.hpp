@@ -1,4 +1,4 @@
-// What identifies a room, whatever file it came from.
+// Identification of a room, independent of its file.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace lichtmc {
 
 // Two rooms with the same fingerprint give the same figures: a hash (XXH3, 128 bits) of surfaces, reflectances,
-// emitters and receivers as modelled, not of the file that they came from.
+// emitters and receivers as modelled, not of the file.
 using Fingerprint = std::array<std::uint64_t, 2>;
 Fingerprint fingerprint(const Room& room);
 

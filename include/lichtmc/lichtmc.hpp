@@ -1,4 +1,4 @@
-// Everything another program needs of lichtmc.
+// All headers of lichtmc.
 #pragma once
 
 #include "lichtmc/communicator.hpp"    // IWYU pragma: export

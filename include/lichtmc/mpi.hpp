@@ -1,4 +1,4 @@
-// A team of processes that MPI connects: link lichtmc::mpi, which is there where lichtmc was built with LICHTMC_MPI.
+// A communicator by MPI. Link lichtmc::mpi, which exists if lichtmc was built with LICHTMC_MPI.
 #pragma once
 
 #include <memory>
@@ -7,16 +7,16 @@
 
 namespace lichtmc {
 
-// MPI lasts as long as the object does; its members leave together, by its destruction.
+// MPI is finalized when the object is destroyed, which is collective.
 class MpiCommunicator : public Communicator {
  public:
-  // Ends all members at once, with this exit status: where one of them cannot go on.
+  // Ends all ranks immediately with this exit status, if one of them cannot continue.
   [[noreturn]] virtual void abort(int status) = 0;
 };
 
-// Joins the processes that mpirun or a batch system has started together; null where this one was started alone, and
-// then MPI is not touched at all. Once in a process. The team's operations are to be called from the thread that calls
-// this. Throws RuntimeError where MPI fails.
+// Joins the processes that mpirun or a batch system has started together. Returns null if this process was started
+// alone; MPI is then not initialized. Call it once per process; call the collective operations from the same thread.
+// Throws RuntimeError if MPI fails.
 std::unique_ptr<MpiCommunicator> join_mpi();
 
 }  // namespace lichtmc

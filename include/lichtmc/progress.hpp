@@ -1,4 +1,4 @@
-// How far a run has come.
+// Progress of a run.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@ namespace lichtmc {
 
 struct Progress {
   enum class Stage {
-    direct_light,  // it is integrated; histories and target count tiles, or receivers
-    pilot,         // short walks by which Estimator::automatic chooses
+    direct_light,  // direct light is integrated; histories and target count tiles or receivers
+    pilot,         // short walks for the choice of Estimator::automatic
     tiles,         // walks for the tiles
     receivers,     // walks for the receivers
   };
@@ -20,7 +20,8 @@ struct Progress {
   double seconds = 0.0;  // since the walk, or its direct light, began
   // At the last error check; NaN before the first.
   double rms_relative_error = std::numeric_limits<double>::quiet_NaN();
-  // Forecast of the time until Settings::target_error is met, from the errors so far; NaN where there is none.
+  // Forecast of the time until Settings::target_error is met, in s, from the errors so far; NaN if there
+  // is none.
   double seconds_to_target = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -1,7 +1,8 @@
-// The room: surfaces that reflect diffusely, emitters that send light into it, receivers that look at it.
+// The room: diffusely reflecting surfaces, emitters, receivers.
 //
-// Plain data in world coordinates: metres, right-handed, Y up as in glTF. Fill it in yourself, or get one from
-// make_cuboid() or read_gltf(). A Room is only read by everything else; check_room() says whether it is sound.
+// Plain data in world coordinates: metres, right-handed, Y up as in glTF. Fill it in, or use make_cuboid() or
+// read_gltf(). All other functions only read it; check_room() checks whether it is valid. Power means radiant flux (W)
+// or luminous flux (lm), as Room::quantity states.
 #pragma once
 
 #include <cstddef>
@@ -21,16 +22,17 @@ namespace lichtmc {
 
 // Which sides of a surface have a tile map of their own.
 enum class Sides {
-  one,   // both sides count on one map; the share that came from behind is reported
-  both,  // front (counter-clockwise) and back have a map each
+  one,   // both sides score on one tile map; the fraction of the back is reported
+  both,  // front (counter-clockwise) and back have one tile map each
 };
 
-// How a map goes on beyond its edges.
+// The continuation of a reflectance map outside of u, v = 0 … 1.
 enum class Wrap { repeat, clamp, mirror };
 
-// Reflectance from point to point: values over texture coordinates u, v = 0 … 1, bilinear between their centres.
+// A reflectance that varies over a surface: values over texture coordinates u, v = 0 … 1, bilinear between their
+// centres.
 struct ReflectanceMap {
-  std::string name;           // for messages: the picture it was made of
+  std::string name;           // for messages: name of the image
   std::uint32_t columns = 0;  // ≥ 1, along u
   std::uint32_t rows = 0;     // ≥ 1, along v; row 0 lies at v = 0
   std::vector<float> values;  // ρ, 0 … 1, row by row
@@ -38,20 +40,20 @@ struct ReflectanceMap {
   Wrap wrap_v = Wrap::repeat;
 };
 
-// A surface: a mesh of triangles with one reflectance, or a map of it. It reflects by Lambert's law on the side that is
-// hit, whatever the winding of its triangles; the winding only tells front from back.
+// A surface: a mesh of triangles with one reflectance or a reflectance map. It reflects by Lambert's law on the side
+// that is hit, for either winding of its triangles; the winding only determines which side is the front.
 struct Surface {
   std::string name;      // unique in the room; names the tile map's file
   std::string material;  // for messages and tables; may be empty
   double reflectance =
-      0.5;  // ρ, share of the arriving power that is reflected, 0 … 1; with a map: its mean, for tables
+      0.5;  // ρ, fraction of the incident power that is reflected, 0 … 1; with a reflectance map: its mean, for tables
   Sides sides = Sides::one;
   std::vector<glm::dvec3> positions;           // m, world coordinates
-  std::vector<glm::dvec2> uvs;                 // texture coordinates for the tiles: one per position, or none at all
+  std::vector<glm::dvec2> uvs;                 // texture coordinates for the tiles: one per position, or none
   std::vector<glm::uvec3> triangles;           // three indices into positions; seen from the front counter-clockwise
-  std::optional<std::size_t> reflectance_map;  // index into Room::reflectance_maps: ρ from point to point
-  std::vector<glm::dvec2> reflectance_uvs;     // where on that map: one per position
-  std::size_t without_area = 0;                // triangles of the source that were left out, because they have no area
+  std::optional<std::size_t> reflectance_map;  // index into Room::reflectance_maps
+  std::vector<glm::dvec2> reflectance_uvs;     // coordinates on that map: one per position
+  std::size_t without_area = 0;                // number of triangles of the source left out because they have no area
 };
 
 // A point emitter with the same intensity in every direction: I = Φ/4π.
@@ -77,7 +79,7 @@ struct SpotEmitter {
   glm::dvec3 position{0.0};          // m
   glm::dvec3 axis{0.0, -1.0, 0.0};   // direction of the beam, any length but 0
   double inner = 0.0;                // rad, half angle of the cone of full intensity, 0 ≤ inner < outer
-  double outer = 0.785398163397448;  // rad, half angle of the cone that holds all light, 1e-6 ≤ outer ≤ π/2
+  double outer = 0.785398163397448;  // rad, half angle of the cone that contains all light, 1e-6 ≤ outer ≤ π/2
 
   SpotLaw law() const { return {inner, outer}; }
 };
@@ -102,42 +104,42 @@ inline EmitterLaw law_of(const Emitter& emitter) {
   return std::visit([](const auto& shape) -> EmitterLaw { return shape.law(); }, emitter.shape);
 }
 
-// A point at which irradiance is asked for.
+// A point at which irradiance is computed.
 struct Receiver {
   std::string name;
   glm::dvec3 position{0.0};          // m
-  glm::dvec3 normal{0.0, 1.0, 0.0};  // the way it looks, any length but 0
-  double half_angle_deg = 90.0;      // field of view, 0 … 90
+  glm::dvec3 normal{0.0, 1.0, 0.0};  // axis of the field of view, any length but 0
+  double half_angle_deg = 90.0;      // half angle of the field of view, 0 … 90
   double area_m2 = 1.0;              // for its gain H = E·A/Φ, ≥ 0
 };
 
-// Whether something matters for the figures.
+// Whether something has an influence on the figures.
 enum class Effect { none, figures };
 
-// What a room's source holds and the room does not model.
+// A part of the source that the room does not model.
 struct Ignored {
   std::string what;              // a sentence or two
-  Effect effect = Effect::none;  // whether figures may differ for it
+  Effect effect = Effect::none;  // whether it may change the figures
 };
 
 struct Room {
-  std::string source;  // where it came from, for messages: a file name, "cuboid", …
+  std::string source;  // origin, for messages: a file name, "cuboid", …
   Quantity quantity = Quantity::photometric;
   std::vector<Surface> surfaces;
   std::vector<Emitter> emitters;
   std::vector<Receiver> receivers;
   std::vector<ReflectanceMap> reflectance_maps;
-  std::vector<Ignored> ignored;        // what the source holds and this room does not model
-  std::vector<std::string> overrides;  // what was changed on request after reading, one sentence each
+  std::vector<Ignored> ignored;        // parts of the source that are not modelled
+  std::vector<std::string> overrides;  // input overrides: changes on request after reading, one sentence each
 };
 
-// Whether a room can be simulated: at least one triangle with an area and one emitter; 0 ≤ ρ ≤ 1; finite positions;
-// indices in range; axes with a length; exponents, cones, powers and receivers in their ranges; the sum of powers above
-// 0. Throws InputError naming the room's source, the surface or emitter, the value and what is allowed.
+// Checks whether a room can be simulated: at least one triangle with an area and one emitter; 0 ≤ ρ ≤ 1; finite
+// positions; indices in range; axes with a length; exponents, cones, powers and receivers in their ranges; the sum of
+// powers above 0. Throws InputError naming the room's source, the surface or emitter, the value and what is allowed.
 void check_room(const Room& room);
 
-// The mean of a surface's reflectance over its area; of one with a map by taking its triangles apart to about the map's
-// pixels.
+// The mean of a surface's reflectance over its area; with a reflectance map by dividing its triangles to about the size
+// of the map's pixels.
 double mean_reflectance(const Room& room, const Surface& surface);
 
 // Area of a surface in m², one side.

@@ -1,4 +1,4 @@
-// How to simulate: estimator, when to stop, how fine the tiles, which engine and how many threads.
+// Settings of a simulation: estimator, stop rules, size of the tiles, engine, number of threads.
 #pragma once
 
 #include <cstdint>
@@ -9,33 +9,33 @@
 
 namespace lichtmc {
 
-// What a photon scores on its way (Wasow 1950; Forsythe and Leibler 1950). All three estimate the same irradiance.
+// The scores of a photon (Wasow 1950; Forsythe and Leibler 1950). All three estimators have the same mean.
 enum class Estimator {
   weight,      // never absorbed; impact k scores the weight Π ρ of the surfaces before it
   collision,   // survives a surface with probability ρ; every impact scores 1
   absorption,  // as collision, but only the last impact scores, with 1/(1 − ρ)
-  automatic,   // the one that a short pilot of each finds to buy most accuracy per flight in this room
+  automatic,   // the one with the smallest error per flight in this room, by a short pilot of each
 };
 
-// How flights are traced.
+// The tracing of flights.
 enum class Engine {
-  automatic,    // the closed form where the room is an empty cuboid, else Embree
+  automatic,    // the closed form if the room is an empty cuboid, else Embree
   cuboid,       // closed form of the cuboid
   embree,       // any room
-  embree_fast,  // as embree, somewhat faster; a photon may slip between triangles that share an edge
+  embree_fast,  // as embree, somewhat faster; a photon may pass between triangles that share an edge
 };
 
 // What is measured.
 enum class Measured {
-  all,        // tiles; and receivers, where there are any
+  all,        // tiles; and receivers, if there are any
   tiles,      // tiles only
   receivers,  // receivers only
 };
 
-// How the light that comes to a tile straight from the emitters is found.
+// The computation of direct light on tiles.
 enum class Direct {
-  sampled,   // by the photons, as all other light
-  analytic,  // integrated over the tile, outside the statistics; the photons count what was reflected at least once
+  sampled,   // scored by photons, as reflected light
+  analytic,  // integrated over the tile; photons score reflected light only
 };
 
 // "weight", "collision", "absorption", "auto"; "auto", "cuboid", "embree", "embree-fast"; "all", "tiles", "receivers";
@@ -51,14 +51,15 @@ inline constexpr std::uint64_t no_photon_limit = std::uint64_t{1} << 62;
 // The first stop rule to be met ends the run.
 struct Settings {
   Estimator estimator = Estimator::collision;
-  std::uint64_t photons = 1'000'000;  // histories, ≥ 1: so many for the tiles; and so many, shared, for the receivers
-  std::uint64_t first_history = 0;    // simulate those from this one on: a multiple of State::batch
-  bool part = false;  // these histories are a part of a run that merge() completes: receivers get their share alone
-  std::optional<double> target_error;  // stop when the rms_relative_error of the walk is at most this, > 0
-  std::optional<double> max_seconds;   // stop after this wall-clock time, > 0; half of it each for tiles and receivers
+  std::uint64_t photons = 1'000'000;  // histories, ≥ 1: for the tiles, and the same number for all receivers together
+  std::uint64_t first_history = 0;    // number of the first history: a multiple of State::batch
+  bool part = false;  // a part of a run that merge() completes: receivers get only their share of these histories
+  std::optional<double> target_error;  // stop when WalkReport::rms_relative_error is at most this, > 0
+  std::optional<double>
+      max_seconds;  // s, stop after this wall-clock time, > 0; half of it each for tiles and receivers
   Measured measured = Measured::all;
-  WalkDirection tile_walk = WalkDirection::forward;  // of the walk that measures the tiles
-  Direct direct = Direct::sampled;  // of forward tiles; that of backward tiles and receivers is always computed
+  WalkDirection tile_walk = WalkDirection::forward;  // of the walk for the tiles
+  Direct direct = Direct::sampled;  // for tiles and a forward walk; otherwise direct light is always integrated
   // weight only: end every history after this many flights, ≥ 1; none: Russian roulette. (A bounce is a flight: the
   // first one, from the emitter, counts.)
   std::optional<std::uint32_t> max_bounces;

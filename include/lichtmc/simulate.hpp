@@ -1,4 +1,4 @@
-// The simulation: a room and settings in, irradiance of every tile out.
+// The simulation: from a room and settings to the irradiance of every tile and receiver.
 #pragma once
 
 #include "lichtmc/control.hpp"
@@ -9,30 +9,29 @@
 
 namespace lichtmc {
 
-// Follows Settings::photons photons through a room and returns the irradiance of every tile; where the room has
-// receivers, also follows as many backward walks from them and returns the irradiance at each.
+// Simulates Settings::photons histories and returns the irradiance of every tile; if the room has receivers, also
+// simulates the same number of backward histories and returns the irradiance at each receiver.
 //
-// The same room, settings and seed give the same results, bit for bit, for any number of threads and ranks (where a
-// time limit or an interrupt ends the run: for the same number of histories). The function keeps no state: several
-// simulations may run at once in one process.
+// The same room, settings and seed give the same results, bit for bit, for any number of threads and ranks (if a time
+// limit or an interrupt ends the run: for the same number of histories). The function keeps no state: several
+// simulations may run concurrently in one process.
 //
-// Throws InputError where the room or a setting is not sound: see check_room(); ρ = 1 with the absorption estimator; a
-// closed room in which nothing absorbs; a receiver that lies on an emitter; Measured::receivers without receivers;
-// Engine::cuboid for a room that is no cuboid. Throws RuntimeError where memory or the tracing device fails.
+// Throws InputError if the room (see check_room()) or a setting is not valid; for ρ = 1 with the absorption estimator;
+// a closed room without absorption; a receiver on an emitter; Measured::receivers without receivers; Engine::cuboid for
+// a room that is not a cuboid. Throws RuntimeError if memory or the tracing device fails.
 Result simulate(const Room& room, const Settings& settings = {}, const Control& control = {});
 
-// Goes on with a run of the same room until the first of the stop rules of `rules` is met: photons, counted from the
-// run's first; target_error; max_seconds, of this session, in which integrating direct light anew does not count. Its
-// threads count too; everything else is as the state has it. The result is, to the last digit, that of one run under
-// these rules (where they are looser than those that the state has ended by: that of the state). A run whose estimator
-// was chosen keeps its choice.
+// Continues a run of the same room until the first stop rule of `rules` is met: photons, counted from the first of the
+// run; target_error; max_seconds, of this session without repeated integration of direct light. rules.threads is used
+// too; all other settings are those of the state. The result is, bit for bit, that of one run with these rules; if the
+// state already meets them, that of the state. An estimator that was chosen is kept.
 //
-// Throws as simulate() does, and InputError where the room is not the state's, where versions differ, or where the
-// state has gaps.
+// Throws as simulate() does, and InputError if the room is not that of the state, versions differ, or the state has
+// gaps.
 Result resume(const Room& room, State state, const Settings& rules, const Control& control = {});
 
-// The result of what a state holds, of one run or of several that were merged. threads: as Settings::threads. Throws as
-// resume() does, and InputError where the state holds nothing; gaps do not matter.
+// The result of a state, of one run or of merged parts. threads: as Settings::threads. Throws as resume() does, but not
+// for gaps, and InputError if the state contains no walk.
 Result result_of(const Room& room, State state, unsigned threads = 0, const Control& control = {});
 
 }  // namespace lichtmc

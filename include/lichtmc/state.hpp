@@ -1,9 +1,9 @@
-// The state of a run: what it has counted so far, as exact integers. Enough to go on with it later, and to add the
-// runs of other machines to it: the sums, and so every digit of the results, are those of one uninterrupted run.
+// The state of a run: its sums so far, as exact integers. It is sufficient to continue the run later and to add parts
+// from other machines: the sums, and therefore all digits of the results, are those of one uninterrupted run.
 //
-// Histories are numbered, and every one draws random words of its own. They are simulated in batches of 1024
-// (State::batch); a state holds whole batches only. Where a run ended within one, that batch is simulated again when
-// results are made, in a millisecond.
+// Histories are numbered, and each has its own random words. They are simulated in batches of 1024 (State::batch); a
+// state contains whole batches only. If a run ended within a batch, that batch is simulated again when results are
+// computed, which takes a millisecond.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ struct HistoryRange {
   bool operator==(const HistoryRange&) const = default;
 };
 
-struct StateData;  // the library's own
+struct StateData;  // internal
 
-// A value: copies share what they hold, which does not change any more.
+// A value: copies share their immutable data.
 class State {
  public:
   static constexpr std::uint32_t batch = 1024;  // histories
@@ -38,19 +38,19 @@ class State {
 
   bool empty() const { return data_ == nullptr; }
 
-  // Of a state that is not empty:
-  // As the run was asked for; max_seconds is the walking time of all sessions together.
+  // For a state that is not empty:
+  // The requested settings; max_seconds is the limit of the walking time of all sessions together.
   const Settings& settings() const;
   const Fingerprint& room() const;
-  const std::string& version() const;  // of lichtmc that made it
-  const std::string& note() const;     // what write_state() was given
-  // Histories from the emitters to the tiles, in order, apart from each other; none where no photon was counted.
+  const std::string& version() const;  // version of lichtmc that made it
+  const std::string& note() const;     // text given to write_state()
+  // Histories of the forward walk, in order, not adjacent; empty if there was none.
   std::vector<HistoryRange> histories() const;
-  // Rounds of walks back, one from every receiver: in order, apart from each other.
+  // Rounds of backward walks, one from every receiver: in order, not adjacent.
   std::vector<HistoryRange> receiver_rounds() const;
-  // Histories back from the receivers, all together.
+  // Backward histories of all receivers together.
   std::uint64_t receiver_histories() const;
-  double seconds() const;  // wall-clock time that it took, of all walks
+  double seconds() const;  // wall-clock time of all walks, s
 
   const StateData& data() const { return *data_; }
 
@@ -58,20 +58,21 @@ class State {
   std::shared_ptr<const StateData> data_;
 };
 
-// Throws InputError where another version of lichtmc has made the state: it may count differently.
+// Throws InputError if another version of lichtmc has made the state: its scores may differ.
 void check_version(const State& state);
 
-// Adds states of one room and one setting whose histories do not overlap: those of one run that simulates all of them.
-// Order and grouping do not matter. Gaps are allowed. Throws InputError, naming states by `names` (one each), where
-// rooms, settings or versions differ, histories overlap, or one that is not the last ends within a batch.
+// Adds states with the same room and settings whose histories do not overlap: the result is the state of one run of all
+// these histories. Order and grouping have no influence. Gaps are allowed. Throws InputError, naming states by `names`
+// (one each), if rooms, settings or versions differ, histories overlap, or a range other than the last ends within a
+// batch.
 State merge(const std::vector<State>& states, const std::vector<std::string>& names);
 
-// Writes a state as HDF5 (docs/state.md has the layout): to a temporary file, flushed to the disk and renamed, so that
-// there is the old file or the new one whatever happens. note: of the caller, kept with it. Throws RuntimeError where
-// it cannot be written.
+// Writes a state as HDF5 (docs/state.md has the layout): atomically: to a temporary file, flushed to the disk and
+// renamed. note: text of the caller, stored in the file. Throws RuntimeError if it cannot be written.
 void write_state(const State& state, const std::filesystem::path& file, std::string_view note = {});
 
-// Reads it. Throws InputError where the file is missing, damaged in any bit, or of another layout.
+// Reads a state. Throws InputError if the file is missing, damaged in any bit, of another layout, or its contents are
+// not those of a run.
 State read_state(const std::filesystem::path& file);
 
 }  // namespace lichtmc

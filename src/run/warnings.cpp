@@ -80,10 +80,10 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result) {
   const HighestReflectance highest(room);
   for (const Surface& surface : room.surfaces) perfect += std::size_t{highest.of(surface) == 1.0};
   if (perfect > 0) {
-    warnings.push_back(
-        to_text(perfect, "surface") + " of " + std::to_string(room.surfaces.size()) +
-        " have reflectance 1, everywhere or in parts (the default of glTF is white). Real paint is below "
-        "0.9: set the materials' custom property 'reflectance', or use --max-reflectance 0.9.");
+    warnings.push_back("Reflectance 1 on " + to_text(perfect, "surface") + " of " +
+                       std::to_string(room.surfaces.size()) +
+                       " (on all of it or in parts; the default of glTF is white). Real paint is below "
+                       "0.9: set the materials' custom property 'reflectance', or use --max-reflectance 0.9.");
   }
   return warnings;
 }

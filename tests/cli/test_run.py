@@ -194,7 +194,7 @@ class Run(ProgramTest):
         _, summary, _, said = self.run_room("--photons", "2000", "--light", "point:5,.5,.5:1W", "--reflectance", "wall=1",
                                             "--estimator", "weight", "--max-bounces", "3")
         self.assertEqual(len(summary["warnings"]), 3)
-        for words in "outside the room", "cut off as residual", "have reflectance 1":
+        for words in "outside the room", "cut off as residual", "Reflectance 1 on":
             self.assertIn(words, said)
         _, summary, _, said = self.run_room("--photons", "2000")
         self.assertEqual(summary["warnings"], [])

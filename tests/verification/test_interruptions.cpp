@@ -119,7 +119,7 @@ TEST_CASE("a stop before the choice of the estimator does not affect the choice 
   REQUIRE(pilots.came());
   CHECK(stopped.walk.histories > 0);
   REQUIRE(stopped.choices.size() == 1);
-  CHECK_THAT(stopped.choices.front(), ContainsSubstring("begins these walks anew"));
+  CHECK_THAT(stopped.choices.front(), ContainsSubstring("restarts these walks"));
   const State state = written_and_read(stopped.state);
   CHECK(state.histories().empty());
   CHECK_THROWS_WITH(result_of(room, state), ContainsSubstring("The state contains no walk"));

@@ -129,7 +129,7 @@ TEST_CASE("reflectance maps: the absorption estimator refuses a texture that is 
   Room room = unit_cube(0.6, paper_emitter());
   give_map(room, 1, {"white spot", 2, 1, {0.5F, 1.0F}, Wrap::clamp, Wrap::clamp});
   CHECK_THROWS_WITH(simulate(room, settings_of(Estimator::absorption, Engine::automatic, 1000, 1)),
-                    ContainsSubstring("'ceiling'") && ContainsSubstring("in places of its texture"));
+                    ContainsSubstring("'ceiling'") && ContainsSubstring("in parts of its texture"));
   CHECK(simulate(room, settings_of(Estimator::collision, Engine::automatic, 1000, 1)).lost_histories == 0);
 }
 
