@@ -1,4 +1,4 @@
-// lichtmc_bench: how fast the engine is, as ratios of things measured side by side, each with the bar it must reach.
+// lichtmc_bench: the speed of the engine, as ratios of alternating measurements, each with its limit.
 #include <algorithm>
 #include <cstdio>
 #include <functional>
@@ -115,7 +115,7 @@ Measured two_threads(const Options& options) {
     return [&options, threads] {
       Settings settings = settings_for(Estimator::collision, Engine::automatic);
       settings.threads = threads;
-      // Long enough that starting threads does not count.
+      // Long enough that the start of threads is negligible.
       settings.photons = static_cast<std::uint64_t>(5.0 * options.impacts());
       return static_cast<double>(simulate(paper_cube(0.6), settings).walk.impacts);
     };
@@ -151,11 +151,11 @@ Measured estimator(const Options& options, Estimator which) {
           details_of(ratio, "estimator", "collision")};
 }
 
-// What a room that has a thing on which nothing depends costs against one without it.
+// The cost of an unused feature of a room, against the same room without it.
 Measured unused(const Options& options, const std::string& what, const std::function<void(Room&)>& add) {
   const Settings settings = settings_for(Estimator::collision, Engine::cuboid);
-  // Two equal things on a noisy machine: many short turns tell a percent, and a room's luck with its place in memory is
-  // dealt anew for each of several pairs, all of which are kept.
+  // Many short turns resolve a difference of 1 % on a machine with other load. The speed also depends on the position
+  // of a room in memory: so several pairs of rooms are measured.
   constexpr int pairs = 9;
   const double impacts = options.impacts() / pairs;
   std::vector<std::unique_ptr<Stage>> stages;
@@ -173,11 +173,7 @@ Measured unused(const Options& options, const std::string& what, const std::func
     ratios.push_back(one.value);
   }
   const Ratio ratio{median(ratios), median(without), median(with), ratios};
-  return {"cost of " + what + " that the light does not meet",
-          100.0 * (ratio.value - 1.0),
-          2.0,
-          false,
-          "%",
+  return {"cost of " + what + " that is not used", 100.0 * (ratio.value - 1.0), 2.0, false, "%",
           details_of(ratio, "without", "with")};
 }
 
@@ -193,7 +189,7 @@ Measured start_up(const Options& options) {
   return {"start to the first photons, 100 000 triangles", median(times), 1.0, false, "s", {{"times", times}}};
 }
 
-// In a process of its own: peaks do not come down again.
+// In a separate process: the peak memory of a process never decreases.
 Measured peak_memory() {
   const pid_t child = fork();
   if (child == 0) {
@@ -287,8 +283,8 @@ int run(const Options& options) {
                      .dump(2)
               << '\n';
   } else {
-    std::cout << "lichtmc " << version() << ", " << instructions() << ", one thread unless said, medians of "
-              << options.turns() << " turns\n\n| what | measured | bar | |\n|---|---|---|---|\n";
+    std::cout << "lichtmc " << version() << ", " << instructions() << ", one thread unless stated, medians of "
+              << options.turns() << " turns\n\n| what | measured | limit | |\n|---|---|---|---|\n";
     for (const Measured& one : measured) std::cout << row(one) << '\n';
   }
   return all ? 0 : 1;
@@ -299,8 +295,8 @@ int run(const Options& options) {
 static int run_program(int argc, char** argv) {
   Options options;
   CLI::App program{
-      "How fast lichtmc is on this machine: ratios measured side by side, with the bars they must reach.\n"
-      "Exit status 1 when a bar is missed."};
+      "Speed of lichtmc on this machine: ratios of alternating measurements, with their limits.\n"
+      "Exit status 1 if a limit is missed."};
   program.add_flag("--json", options.json, "Write JSON, with every turn, instead of the table");
   program.add_flag("--quick", options.quick, "Shorter turns: under a minute");
   program.add_option("--only", options.only, "One group of measurements")
@@ -321,7 +317,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     std::fprintf(stderr, "lichtmc_bench: %s\n", error.what());
   } catch (...) {
-    std::fputs("lichtmc_bench: an unknown fault\n", stderr);
+    std::fputs("lichtmc_bench: unknown error\n", stderr);
   }
   return 1;
 }

@@ -34,7 +34,7 @@ Ratio compare_speeds(const Work& first, const Work& second, int turns) {
   std::vector<double> speeds_first;
   std::vector<double> speeds_second;
   for (int turn = 0; turn < turns; ++turn) {
-    // Who comes first changes from turn to turn.
+    // The order alternates from turn to turn.
     if (turn % 2 == 0) speeds_first.push_back(speed_of(first));
     speeds_second.push_back(speed_of(second));
     if (turn % 2 != 0) speeds_first.push_back(speed_of(first));

@@ -1,5 +1,5 @@
-// Ratios of speeds, measured so that a shared and noisy machine does little harm: both sides take turns, and the median
-// of the ratios of neighbouring turns counts.
+// Ratios of speeds, robust against other load on the machine: both sides alternate, and the result is the median of the
+// ratios of adjacent turns.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 
 namespace lichtmc::bench {
 
-// Does some work and says how much it was (impacts, rays …).
+// Does some work and returns its amount (impacts, rays …).
 using Work = std::function<double()>;
 
 struct Ratio {
@@ -20,7 +20,7 @@ struct Ratio {
 // Speed of `first` over that of `second`, in `turns` (≥ 1) turns of both. Each is warmed up once.
 Ratio compare_speeds(const Work& first, const Work& second, int turns);
 
-// Seconds that something takes.
+// Wall-clock time of a function, s.
 double seconds_of(const std::function<void()>& work);
 
 double median(std::vector<double> values);

@@ -19,7 +19,7 @@ struct Flight {
   glm::vec3 direction;
 };
 
-// The walk by hand, so that every flight can be written down: collision, as the engine's waves fly.
+// A walk that records every flight: estimator collision, in waves as the engine.
 std::vector<Flight> flights_of(const Stage& stage, std::size_t count) {
   const Scene& scene = stage.scene();
   const Stream stream(1);
@@ -64,7 +64,7 @@ struct RawEmbree::Data {
   EmbreeQuery query;
 
   void take_in(const Stage& stage);
-  // Flights as Embree takes them, singly and in packets.
+  // Flights in the format of Embree, single and in packets.
   void prepare(const std::vector<Flight>& flights);
 
   ~Data() {
@@ -80,7 +80,7 @@ RawEmbree::RawEmbree(const Stage& stage, std::size_t count) : data_(std::make_un
   data_->prepare(flights_of(stage, count));
 }
 
-// The room as the engine gives it to Embree: one mesh, moved and scaled, robust.
+// The room in Embree as the engine builds it: one mesh, translated and scaled, robust.
 void RawEmbree::Data::take_in(const Stage& stage) {
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -141,7 +141,7 @@ void RawEmbree::Data::prepare(const std::vector<Flight>& flights) {
 }
 
 double RawEmbree::trace(int packet) {
-  // A query overwrites its ray: copies of a thousand at a time, which stay in the cache, cost little.
+  // A query overwrites its ray: the rays are copied a thousand at a time, which fit into the cache.
   constexpr std::size_t at_a_time = 1024;
   const auto run = [](auto& fresh, auto& copy, std::size_t lanes, const auto& intersect) {
     for (std::size_t first = 0; first < fresh.size(); first += at_a_time / lanes) {

@@ -1,4 +1,4 @@
-// Embree alone: how many of a walk's own flights it answers in a second.
+// Embree alone: the number of flights of a walk that it traces per second.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace lichtmc::bench {
 
 class RawEmbree {
  public:
-  // Takes the flights of the first `flights` impacts or so of a walk through the stage's room.
+  // Records the flights of about the first `flights` impacts of a walk through the stage's room.
   RawEmbree(const Stage& stage, std::size_t flights);
   ~RawEmbree();
   RawEmbree(const RawEmbree&) = delete;

@@ -1,4 +1,4 @@
-// Rooms to measure in.
+// Rooms for benchmarks.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,18 @@
 
 namespace lichtmc::bench {
 
-// The paper's cube, one reflectance.
+// The cube of the paper, with one reflectance.
 Room paper_cube(double reflectance);
 
-// A cube of 4 m with furniture of spheres in it, about so many triangles; 12: nothing in it; up to 1000: walls divided.
+// A cube of 4 m with spheres as furniture, about this number of triangles; 12: empty; up to 1000: divided walls.
 Room room_of_triangles(std::size_t triangles);
 
-// A room with all that a walk in it needs, for one thread.
+// A room with the data of a walk, for one thread.
 class Stage {
  public:
   Stage(Room room, const Settings& settings, double tile_edge_m);
 
-  // Simulates whole batches until at least so many impacts are done; returns how many were.
+  // Simulates whole batches until at least this number of impacts; returns their number.
   double walk(double impacts);
   const Scene& scene() const { return *scene_; }
   std::size_t tiles() const { return tiling_.tiles.size(); }

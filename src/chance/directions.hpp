@@ -12,8 +12,8 @@
 
 namespace lichtmc {
 
-// Sine and cosine of 2π·turns for 0 ≤ turns ≤ 1, accurate to 1.5e-7: plain arithmetic, so that a loop over photons
-// vectorises. Polynomials of degree 7 and 8 on [−π/4, π/4] by S. Moshier (Cephes, sinf.c).
+// Sine and cosine of 2π·turns for 0 ≤ turns ≤ 1, accurate to 1.5e-7, in arithmetic that vectorises in a loop over
+// photons. Polynomials of degree 7 and 8 on [−π/4, π/4] by S. Moshier (Cephes, sinf.c).
 inline void sine_cosine(float turns, float& sine, float& cosine) {
   const float quarters = turns * 4.0F;
   const int quadrant = static_cast<int>(quarters + 0.5F);  // nearest of 0 … 4
@@ -31,9 +31,9 @@ inline void sine_cosine(float turns, float& sine, float& cosine) {
   cosine = ((quadrant + 1) & 2) != 0 ? -cosine_size : cosine_size;
 }
 
-// Lambert's law, density cos θ/π: how a diffuse surface scatters. Two random words; every direction has cos θ > 0.
+// Lambert's law of diffuse reflection, density cos θ/π. Two random words; every direction has cos θ > 0.
 inline glm::vec3 sample_lambert(std::uint32_t word_polar, std::uint32_t word_azimuth) {
-  // (word + ½)/2³² in float: at least 2⁻³³, so that no photon flies along its own surface; at most 1.
+  // (word + ½)/2³² in float: at least 2⁻³³, so that no direction is tangential to the surface; at most 1.
   const float u = (static_cast<float>(word_polar) + 0.5F) * 0x1p-32F;
   const float cos_polar = std::sqrt(u);
   const float sin_polar = std::sqrt(1.0F - u);

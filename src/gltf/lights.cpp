@@ -25,7 +25,7 @@ const tinygltf::Value& member(const tinygltf::Value& object, const char* name) {
   return object.IsObject() && object.Has(name) ? object.Get(name) : empty_object();
 }
 
-// The light's entry in the file's list, read raw: the parser of Debian 12 does not tie lights to nodes.
+// The entry of the light in the file's list, read as JSON: the parser of Debian 12 does not assign lights to nodes.
 const tinygltf::Value* find_light(const Document& document, const tinygltf::Node& node, const std::string& where) {
   const auto on_node = node.extensions.find(lights_extension);
   if (on_node == node.extensions.end()) return nullptr;
@@ -41,7 +41,7 @@ const tinygltf::Value* find_light(const Document& document, const tinygltf::Node
   return &lights.Get<tinygltf::Value::Array>()[static_cast<std::size_t>(index)];
 }
 
-// Luminance of the light's colour: its intensity is per colour channel.
+// Luminance of the light's colour: the intensity in the file is per colour channel.
 double colour_of(const Document& document, const tinygltf::Value& light, const std::string& where) {
   const tinygltf::Value& colour = member(light, "color");
   if (!colour.IsArray()) return 1.0;
@@ -61,9 +61,10 @@ glm::dvec3 axis_of(const Document& document, const PlacedNode& placed) {
   const glm::dvec3 forward = placed.forward();
   const double length = glm::length(forward);
   if (length > 0.0) return forward / length;
-  refuse(document, placed.label +
-                       " is scaled to nothing along Z, so that its light has no direction (allowed: a scale other than "
-                       "0). Set its scale.");
+  refuse(document,
+         placed.label +
+             " has the scale 0 along Z, so that its light has no direction (allowed: a scale other than 0). Set "
+             "its scale.");
 }
 
 SpotEmitter read_spot(const Document& document, const tinygltf::Value& light, const PlacedNode& placed) {
@@ -81,14 +82,14 @@ SpotEmitter read_spot(const Document& document, const tinygltf::Value& light, co
   return spot;
 }
 
-// A point or spot light with the power that its intensity gives.
+// A point or spot light, with the power that follows from its intensity.
 std::optional<Emitter> read_punctual(const Document& document, const tinygltf::Value& light, const PlacedNode& placed,
                                      std::vector<Ignored>& ignored) {
   const std::string type = member(light, "type").IsString() ? light.Get("type").Get<std::string>() : "";
   if (type == "directional") {
     ignored.push_back({"The directional light of " + placed.label +
-                           " is not modelled: it has no place in a room. Put a shining surface (a material with "
-                           "emission) where daylight comes in, or a lamp.",
+                           " is not modelled: it has no position in a room. For daylight, place an emissive surface in "
+                           "the opening; or use a point or spot light.",
                        Effect::figures});
     return std::nullopt;
   }
@@ -99,8 +100,9 @@ std::optional<Emitter> read_punctual(const Document& document, const tinygltf::V
                          " cd (allowed: a finite number, 0 or more). Set its strength.");
   }
   if (light.Has("range"))
-    ignored.push_back(
-        {"The range of the light of " + placed.label + " is not modelled: light does not end.", Effect::figures});
+    ignored.push_back({"The range of the light of " + placed.label +
+                           " is not modelled: the intensity does not depend on the distance.",
+                       Effect::figures});
   Emitter emitter;
   if (type == "point") {
     emitter.power = 4.0 * pi * intensity;
@@ -125,7 +127,7 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
   const tinygltf::Value& of_light = light != nullptr ? member(*light, "extras") : empty_object();
   const std::string light_label = "the light of " + placed.label;
 
-  // What stands on the node goes before what stands on the light, which several nodes may share.
+  // Extras of the node take precedence over those of the light, which several nodes may share.
   const auto first = [](auto a, auto b) { return a ? a : b; };
   const auto exponent =
       first(exponent_in(document, node.extras, placed.label), exponent_in(document, of_light, light_label));
@@ -140,7 +142,7 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
   } else if (!exponent) {
     if (power)
       ignored.push_back({"'power' of " + placed.label +
-                             ": the node has neither a light nor 'lambert_exponent', it does not shine. Give it one of "
+                             ": the node has neither a light nor 'lambert_exponent' and is no emitter. Give it one of "
                              "them, or remove 'power'.",
                          Effect::figures});
     return std::nullopt;
@@ -152,7 +154,7 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
   result.emitter.name = node.name.empty() ? placed.label : node.name;
   result.quantity = unit.value_or(Quantity::photometric);
   if (power) result.emitter.power = *power;
-  // The shape changes, the power stays.
+  // This replaces the shape; the power is kept.
   if (exponent) result.emitter.shape = LambertEmitter{placed.position(), axis_of(document, placed), *exponent};
   return result;
 }

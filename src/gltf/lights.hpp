@@ -1,4 +1,4 @@
-// Emitters and receivers that hang on nodes.
+// Emitters and receivers of nodes.
 #pragma once
 
 #include <optional>
@@ -11,19 +11,19 @@
 
 namespace lichtmc {
 
-// An emitter with the kind of its power.
+// An emitter with the quantity of its power.
 struct FileEmitter {
   Emitter emitter;
   Quantity quantity = Quantity::photometric;
 };
 
-// The emitter on a node: its KHR_lights_punctual light, or a generalized Lambert emitter made of extras alone. None
-// where the node has neither, or a directional light, which is noted in `ignored`. Throws InputError naming the node
+// The emitter of a node: its KHR_lights_punctual light, or a generalized Lambert emitter made of extras alone. None
+// if the node has neither, or a directional light, which is added to `ignored`. Throws InputError naming the node
 // and the value.
 std::optional<FileEmitter> read_light(const Document& document, const PlacedNode& placed,
                                       std::vector<Ignored>& ignored);
 
-// The receiver on a node with extras.receiver.
+// The receiver of a node with extras.receiver.
 std::optional<Receiver> read_receiver(const Document& document, const PlacedNode& placed);
 
 }  // namespace lichtmc

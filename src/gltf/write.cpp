@@ -68,7 +68,7 @@ int wrap_mode(Wrap wrap) {
 
 std::size_t Writer::add_texture(const ReflectanceMap& map) {
   Json& json = document_.json;
-  // Numbers first: a list that is new moves the others.
+  // Indices first: a new list moves the others.
   const std::size_t image = document_.add_png(map.name, png_of(map));
   const std::size_t sampler = json["samplers"].size();
   json["samplers"].push_back({{"wrapS", wrap_mode(map.wrap_u)}, {"wrapT", wrap_mode(map.wrap_v)}});
@@ -89,7 +89,7 @@ std::size_t Writer::material_of(std::size_t k) {
                 {"doubleSided", surface.sides == Sides::both},
                 {"extras", {{"reflectance", rho}}}};
   if (surface.reflectance_map) {
-    // The picture alone says the reflectance; it has the first texture coordinates.
+    // Only the image contains the reflectance; it uses the first texture coordinates.
     material.erase("extras");
     material["pbrMetallicRoughness"]["baseColorFactor"] = {1.0, 1.0, 1.0, 1.0};
     material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", textures_[*surface.reflectance_map]}};
@@ -114,7 +114,7 @@ void Writer::add_surface(std::size_t k) {
   const Surface& surface = room_->surfaces[k];
   if (surface.triangles.empty()) return;
   Json attributes{{"POSITION", document_.add_positions(as_floats(surface.positions))}};
-  // Those for the tiles come last, where they are looked for first.
+  // The coordinates of the tiles have the highest number: read_gltf() prefers it.
   for (const std::vector<glm::dvec2>* set : {&surface.reflectance_uvs, &surface.uvs}) {
     if (set->empty()) continue;
     std::vector<std::array<float, 2>> uvs;
@@ -132,21 +132,20 @@ void Writer::add_surface(std::size_t k) {
   document_.add_node({{"name", surface.name}, {"mesh", meshes.size() - 1}});
 }
 
-// A unit quaternion (x, y, z, w) that turns −Z to a direction: half of the turn from −Z to it, about their common
-// normal.
+// A unit quaternion (x, y, z, w) that rotates −Z to a direction, about their common normal.
 std::array<double, 4> looking_along(const glm::dvec3& direction) {
   const glm::dvec3 from(0.0, 0.0, -1.0);
   const glm::dvec3 to = glm::normalize(direction);
   const glm::dvec3 half = from + to;
   const double length = glm::length(half);
-  // Opposite directions: any half turn about an axis across will do.
+  // Opposite directions: a rotation by π about any perpendicular axis.
   if (length < 1e-9) return {1.0, 0.0, 0.0, 0.0};
   const glm::dvec3 middle = half / length;
   const glm::dvec3 axis = glm::cross(from, middle);
   return {axis.x, axis.y, axis.z, glm::dot(from, middle)};
 }
 
-// The light of KHR_lights_punctual that stands for an emitter, and what its node has besides the position.
+// The light of KHR_lights_punctual for an emitter, and the other properties of its node.
 struct PunctualLight {
   Json light;
   Json node_extras = Json::object();
@@ -189,7 +188,7 @@ void Writer::add_receiver(const Receiver& receiver) {
   document_.add_node(std::move(node));
 }
 
-// What a Room may hold and glTF cannot.
+// Values that a Room may have and glTF cannot represent.
 void check_writable(const Room& room) {
   std::vector<bool> emits(room.surfaces.size(), false);
   for (const Emitter& emitter : room.emitters) {
@@ -201,13 +200,13 @@ void check_writable(const Room& room) {
         emitter.shape);
     if (!std::isfinite(parameter) || !std::isfinite(emitter.power)) {
       throw InputError("The power or exponent of emitter " + in_quotes(emitter.name) +
-                       " is not finite (a file holds finite numbers only). Use a large number, for example 1e30.");
+                       " is not finite (a file contains finite numbers only). Use a large number, for example 1e30.");
     }
     const std::optional<std::size_t> surface = emitting_surface(emitter);
     if (!surface || *surface >= emits.size()) continue;
     if (emits[*surface]) {
       throw InputError("Surface " + in_quotes(room.surfaces[*surface].name) +
-                       " has two emitters (a file holds one for each surface). Add their powers.");
+                       " has two emitters (a file contains one for each surface). Add their powers.");
     }
     emits[*surface] = true;
   }
@@ -218,8 +217,8 @@ void check_writable(const Room& room) {
 void write_gltf(const Room& room, const std::filesystem::path& file) {
   const std::string ending = file.extension().string();
   if (ending != ".glb" && ending != ".gltf") {
-    throw InputError("Cannot tell the form of " + file.string() + " by its ending '" + ending +
-                     "' (allowed: .glb or .gltf). Give it one of these.");
+    throw InputError("Cannot determine the format of " + file.string() + " by its ending '" + ending +
+                     "' (allowed: .glb or .gltf). Use one of these.");
   }
   check_writable(room);
   GltfBuilder document = std::move(Writer(room).document());

@@ -1,4 +1,4 @@
-// Where an emitter is, for pictures.
+// The position of an emitter, for pictures.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -7,7 +7,7 @@
 
 namespace lichtmc {
 
-// Its point, or the middle of its surface by area, in m.
+// The position of a point emitter, or the area-weighted centroid of an emitting surface, in m.
 glm::dvec3 place_of(const Room& room, const Emitter& emitter);
 
 }  // namespace lichtmc

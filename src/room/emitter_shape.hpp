@@ -1,4 +1,4 @@
-// Emitters are points or surfaces: one visit for both kinds, which every use of an emitter's shape goes through.
+// Emitters are points or surfaces: one visit for both kinds, for every use of an emitter's shape.
 #pragma once
 
 #include <algorithm>
@@ -26,11 +26,11 @@ concept SurfaceShape = requires(const Shape& shape) {
   shape.surface;
 };
 
-// The frame of a point emitter: its normal is the axis. An emitter without an axis has that of +Z.
+// The frame of a point emitter: its normal is the axis. Without an axis: +Z.
 template <PointShape Shape>
 Frame frame_of(const Shape& shape) {
   if constexpr (requires { shape.axis; }) {
-    // Scaled by its largest component first: the square of a very long or short axis would not be a double.
+    // Scaled by its largest component first: the square of a very long or short axis would overflow or underflow.
     const glm::dvec3& a = shape.axis;
     return frame_about(glm::normalize(a / std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)})));
   } else {

@@ -26,7 +26,7 @@ std::string to_text(const glm::dvec3& v) {
   return "(" + to_text(v.x) + ", " + to_text(v.y) + ", " + to_text(v.z) + ")";
 }
 
-// One fault of a room: "The reflectance of surface 'x' in room.glb is 2 (allowed: 0 to 1). Do this."
+// Reports an invalid value of a room: "The reflectance of surface 'x' in room.glb is 2 (allowed: 0 to 1). Do this."
 [[noreturn]] void refuse(const Room& room, const std::string& what, const std::string& value,
                          const std::string& allowed, const std::string& remedy) {
   throw InputError("The " + what + " in " + room.source + " is " + value + " (allowed: " + allowed + "). " + remedy);
@@ -46,7 +46,7 @@ void check_map(const Room& room, const ReflectanceMap& map) {
   }
   for (const float value : map.values) {
     require(value >= 0.0F && value <= 1.0F, room, "value " + of, double{value}, "0 to 1",
-            "Give the share of light that is reflected.");
+            "Give the fraction of the flux that is reflected.");
   }
 }
 
@@ -54,7 +54,7 @@ void check_surface_map(const Room& room, const Surface& surface, const std::stri
   if (!surface.reflectance_map) return;
   if (*surface.reflectance_map >= room.reflectance_maps.size()) {
     refuse(room, "number of the reflectance map " + of, std::to_string(*surface.reflectance_map),
-           "below " + std::to_string(room.reflectance_maps.size()), "Let it name a map.");
+           "below " + std::to_string(room.reflectance_maps.size()), "Give the index of a reflectance map.");
   }
   if (surface.reflectance_uvs.size() != surface.positions.size()) {
     refuse(room, "number of coordinates on its reflectance map " + of, std::to_string(surface.reflectance_uvs.size()),
@@ -72,7 +72,7 @@ void check_surface(const Room& room, const Surface& surface) {
   const std::string of = "of surface " + in_quotes(surface.name);
   require(surface.reflectance >= 0.0 && surface.reflectance <= 1.0, room,
           "reflectance " + of + " (material " + in_quotes(surface.material) + ")", surface.reflectance, "0 to 1",
-          "Give the share of light that it reflects.");
+          "Give the fraction of the incident flux that it reflects.");
   if (!surface.uvs.empty() && surface.uvs.size() != surface.positions.size()) {
     refuse(room, "number of texture coordinates " + of, std::to_string(surface.uvs.size()),
            std::to_string(surface.positions.size()) + ", one per position, or none", "Give one for each position.");
@@ -82,7 +82,7 @@ void check_surface(const Room& room, const Surface& surface) {
     for (int k = 0; k < 3; ++k) {
       if (triangle[k] >= surface.positions.size()) {
         refuse(room, "index of a triangle " + of, std::to_string(triangle[k]),
-               "below " + std::to_string(surface.positions.size()), "Let it name one of the surface's positions.");
+               "below " + std::to_string(surface.positions.size()), "Give the index of a position of the surface.");
       }
       const glm::dvec3& position = surface.positions[triangle[k]];
       if (!finite(position))
@@ -115,7 +115,7 @@ template <SurfaceShape Shape>
 void check_shape(const Room& room, const Shape& shape, const std::string& of) {
   if (shape.surface >= room.surfaces.size()) {
     refuse(room, "number of the surface " + of, std::to_string(shape.surface),
-           "below " + std::to_string(room.surfaces.size()), "Let it name a surface.");
+           "below " + std::to_string(room.surfaces.size()), "Give the index of a surface.");
   }
   require(surface_area(room.surfaces[shape.surface]) > 0.0, room,
           "area in m² of the emitting surface " + in_quotes(room.surfaces[shape.surface].name) + " " + of, 0.0,
@@ -129,7 +129,7 @@ void check_receiver(const Room& room, const Receiver& receiver) {
   check_axis(room, receiver.normal, of);
   require(receiver.half_angle_deg >= 0.0 && receiver.half_angle_deg <= 90.0, room,
           "field of view (half angle in degrees) " + of, receiver.half_angle_deg, "0 to 90",
-          "Give the half angle it sees; 90 is the whole hemisphere.");
+          "Give the half angle; 90 is the whole hemisphere.");
   require(receiver.area_m2 >= 0.0 && std::isfinite(receiver.area_m2), room, "area in m² " + of, receiver.area_m2,
           "a finite number, 0 or more", "Give its sensitive area.");
 }
@@ -142,7 +142,7 @@ void check_surfaces(const Room& room) {
   for (const Surface& surface : room.surfaces) {
     check_surface(room, surface);
     if (!names.insert(surface.name).second) {
-      throw InputError("There are two surfaces of the name " + in_quotes(surface.name) + " in " + room.source +
+      throw InputError("There are two surfaces with the name " + in_quotes(surface.name) + " in " + room.source +
                        " (allowed: one of each name). Rename one.");
     }
   }

@@ -18,7 +18,7 @@ std::mutex& library_mutex() {
 
 using Closer = herr_t (*)(hid_t);
 
-// An object of HDF5, closed at the end.
+// An HDF5 object, closed by the destructor.
 class Handle {
  public:
   Handle() = default;
@@ -54,7 +54,7 @@ Handle space_of(Shape shape) {
   return {H5Screate_simple(shape.columns == 1 ? 1 : 2, sizes.data(), nullptr), H5Sclose, "describe an array"};
 }
 
-// A member of the group, and not a link to something elsewhere.
+// Requires a member of the group itself, not a link.
 void require_member(hid_t group, const char* name) {
   H5L_info_t info{};
   check(H5Lget_info(group, name, &info, H5P_DEFAULT), (std::string("find ") + name).c_str());
@@ -71,7 +71,7 @@ Handle file_access() {
 
 struct Hdf5File::Handles {
   std::unique_lock<std::mutex> lock{library_mutex()};
-  // Errors come as exceptions, not as text on stderr.
+  // Errors are exceptions, not text on stderr.
   H5E_auto2_t old_report = nullptr;
   void* old_data = nullptr;
   Handle file;
@@ -102,7 +102,7 @@ struct Hdf5File::Handles {
     Handle found(H5Aopen(group, name, H5P_DEFAULT), H5Aclose, "find an attribute");
     const Handle space(H5Aget_space(found), H5Sclose, "read an attribute");
     if (H5Sget_simple_extent_type(space) != H5S_SCALAR)
-      throw Hdf5Error(std::string("attribute ") + name + " is no scalar");
+      throw Hdf5Error(std::string("attribute ") + name + " is not a scalar");
     return found;
   }
   void read_attribute(const char* name, hid_t type, void* value) const {
@@ -130,7 +130,7 @@ struct Hdf5File::Handles {
     if (H5Tequal(own, type) <= 0) throw Hdf5Error(std::string("array ") + name + " is of another type");
     if (shape.rows > 0) check(H5Dread(found, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "read an array");
   }
-  // Whether the file itself has all that an array says it has, in one piece, as arrays are written.
+  // Whether all rows of an array are stored in the file itself, contiguously, as arrays are written.
   bool is_stored(const Handle& array, std::uint64_t rows, std::uint64_t columns) const {
     const Handle creation(H5Dget_create_plist(array), H5Pclose, "read an array");
     if (H5Pget_layout(creation) != H5D_CONTIGUOUS || H5Pget_external_count(creation) != 0) return false;
@@ -151,7 +151,7 @@ Hdf5File Hdf5File::in_memory(std::uint64_t user_bytes, std::uint64_t about) {
   Hdf5File made;
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "set up HDF5");
   check(H5Pset_userblock(creation, user_bytes), "set up HDF5");
-  // The same state makes the same bytes.
+  // The same state gives the same bytes.
   check(H5Pset_obj_track_times(creation, false), "set up HDF5");
   const Handle access = file_access();
   constexpr std::uint64_t page = 1 << 16;
@@ -163,7 +163,7 @@ Hdf5File Hdf5File::in_memory(std::uint64_t user_bytes, std::uint64_t about) {
   return made;
 }
 
-// Without asking for locks, which network file systems may not have.
+// Without file locks, which network file systems may not support.
 Hdf5File::Hdf5File(const std::filesystem::path& file) : Hdf5File() {
   const Handle access = file_access();
   check(H5Pset_file_locking(access, false, true), "set up HDF5");
@@ -177,10 +177,10 @@ std::string_view Hdf5File::image() {
   Handles& h = *handles_;
   h.group.close();
   check(H5Fflush(h.file, H5F_SCOPE_GLOBAL), "finish the file");
-  // Without the user's bytes, and without what is behind the last byte in use: room to grow.
+  // Without the user block, and without the reserve after the last byte in use.
   const ssize_t size = H5Fget_file_image(h.file, nullptr, 0);
   if (size < 0) throw Hdf5Error("cannot finish the file");
-  // Of a file in memory the handle points to the pointer to its bytes.
+  // For a file in memory the handle points to the pointer to its bytes.
   void* handle = nullptr;
   check(H5Fget_vfd_handle(h.file, H5P_DEFAULT, &handle), "finish the file");
   return {*static_cast<const char* const*>(handle) + h.user_bytes, static_cast<std::size_t>(size)};
@@ -200,7 +200,7 @@ void Hdf5File::enter(const std::string& group) {
 
 bool Hdf5File::has_group(const std::string& group) const {
   const htri_t exists = H5Lexists(handles_->file, group.c_str(), H5P_DEFAULT);
-  if (exists < 0) throw Hdf5Error("cannot look for a group");
+  if (exists < 0) throw Hdf5Error("cannot search for a group");
   return exists > 0;
 }
 
@@ -239,7 +239,7 @@ void Hdf5File::read(const char* attribute, std::string& text) {
   const Handle found = handles_->attribute(attribute);
   const Handle type(H5Aget_type(found), H5Tclose, "read text");
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
-    throw Hdf5Error(std::string("attribute ") + attribute + " is no text of fixed length");
+    throw Hdf5Error(std::string("attribute ") + attribute + " is not text of fixed length");
   const std::size_t size = H5Tget_size(type);
   if (size > handles_->file_bytes) throw Hdf5Error(std::string("attribute ") + attribute + " is longer than the file");
   text.assign(size, '\0');
@@ -257,7 +257,7 @@ std::uint64_t Hdf5File::rows(const char* array, std::uint64_t columns) const {
     throw Hdf5Error(std::string("array ") + array + " has another shape");
   if (!handles_->is_stored(found, sizes[0], columns))
     throw Hdf5Error(std::string("array ") + array + " has " + std::to_string(sizes[0]) +
-                    " rows, which are not in the file as they should be");
+                    " rows, which are not stored in the file as required");
   return sizes[0];
 }
 

@@ -1,11 +1,11 @@
-// The little of HDF5 that states need: groups with attributes (numbers, text) and arrays of 64-bit numbers.
+// The subset of HDF5 that states need: groups with attributes (numbers, text) and arrays of 64-bit numbers.
 //
-// HDF5 keeps state for the whole process and may be called by one thread at a time: an Hdf5File holds a lock as long as
-// it lives. A file is made in memory: where a disk is full HDF5 1.10 cannot let go of a file on it any more.
+// HDF5 has state for the whole process and may be called by one thread at a time: an Hdf5File holds a lock during its
+// lifetime. A file is made in memory, because HDF5 1.10 cannot close a file on a full disk.
 //
-// Reading takes only what writing makes: whole numbers, reals and text of the types that are written, groups and arrays
-// that are members of the file itself, arrays all of whose rows are in it. HDF5 would convert other types, follow links
-// to other files, and promise rows that nobody has written.
+// Reading accepts only what writing makes: integers, reals and text of the written types, groups and arrays that are
+// members of the file itself, arrays with all rows stored in it. HDF5 itself would convert other types, follow links to
+// other files, and return rows that are not stored.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@
 
 namespace lichtmc {
 
-// What HDF5 has refused, or what is not as states have it: a short text, the middle of a message.
+// HDF5 failed, or the contents differ from those of a state. The text is a part of a message.
 class Hdf5Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Rows of `columns` numbers; one column makes a plain list.
+// Rows of `columns` numbers; one column: a one-dimensional array.
 struct Shape {
   std::uint64_t rows = 0;
   std::uint64_t columns = 1;
@@ -32,10 +32,10 @@ struct Shape {
 
 class Hdf5File {
  public:
-  // A new file, in memory, that leaves `user_bytes` (a power of two ≥ 512) free at its beginning. about: bytes that it
-  // will have. Throws Hdf5Error, as everything here does.
+  // A new file, in memory, that leaves `user_bytes` (a power of two ≥ 512) free at its beginning. about: its expected
+  // size in bytes. All functions of this class throw Hdf5Error.
   static Hdf5File in_memory(std::uint64_t user_bytes, std::uint64_t about);
-  // An existing one, to read.
+  // An existing file, to read.
   explicit Hdf5File(const std::filesystem::path& file);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
@@ -43,10 +43,10 @@ class Hdf5File {
   Hdf5File(Hdf5File&&) noexcept;
   Hdf5File& operator=(Hdf5File&&) noexcept;
 
-  // What follows is inside this group; "/" is the outermost. When writing it is made.
+  // Selects the current group ("/": the root group); when writing, creates it.
   void enter(const std::string& group);
   bool has_group(const std::string& group) const;
-  // How many groups and arrays the outermost group has.
+  // Number of groups and arrays in the root group.
   std::uint64_t members() const;
 
   void write(const char* attribute, std::uint64_t value);
@@ -58,12 +58,12 @@ class Hdf5File {
   void read(const char* attribute, std::uint64_t& value);
   void read(const char* attribute, double& value);
   void read(const char* attribute, std::string& text);
-  // How many rows of so many columns there are, no more than the file has bytes for.
+  // Number of rows of an array with this number of columns; at most as many as the file has bytes for.
   std::uint64_t rows(const char* array, std::uint64_t columns) const;
   void read(const char* array, std::uint64_t* values, Shape shape);
   void read(const char* array, double* values, Shape shape);
 
-  // All bytes of a file in memory but the user's; they are there until something is written or the object ends.
+  // All bytes of a file in memory after the user block; valid until the next write or the end of the object.
   std::string_view image();
 
  private:

@@ -52,22 +52,22 @@ class PhotonsCheck {
       differ("behind", totals_.behind.size(), "tile_maps", totals_.tile_maps.size());
   }
 
-  // The balance: emitted = absorbed + escaped + residual + lost. Modulo 2¹²⁸ first, which no number in a file can
-  // overflow: with three of the four within bounds, the fourth is.
+  // The balance: emitted = absorbed + escaped + residual + lost. First modulo 2¹²⁸, which no number in a file can
+  // overflow; if three of the four are within bounds, the fourth is too.
   void check_balance() const {
     const Ends& ends = totals_.ends;
     const uint128 most = uint128{totals_.histories} * unit_;
     const uint128 gone = static_cast<uint128>(ends.absorbed) + static_cast<uint128>(ends.escaped) +
                          static_cast<uint128>(ends.residual) + static_cast<uint128>(ends.lost);
     if (gone != most) refuse("in /photons absorbed, escaped, residual and lost do not add up to what was emitted");
-    // Each impact absorbs at most a whole photon, and each history leaves once.
+    // Each impact absorbs at most one photon, and each history escapes at most once.
     const auto within = [](int128 value, uint128 bound) { return value >= 0 && static_cast<uint128>(value) <= bound; };
     if (!within(ends.absorbed, uint128{totals_.impacts} * unit_) || !within(ends.escaped, most))
       refuse("/photons has more absorbed, or escaped, than there were photons");
     if (ends.lost_histories > totals_.histories || !within(ends.lost, uint128{ends.lost_histories} * unit_) ||
         static_cast<uint128>(ends.lost) < ends.lost_histories)
       refuse("in /photons lost does not fit " + std::to_string(ends.lost_histories) + " lost_histories");
-    // Only weights are cut off, and only roulette adds some.
+    // Only weights have a residual, and only Russian roulette adds weight.
     if ((!weighted_ && ends.residual != 0) || (truncated_ && ends.residual < 0))
       refuse("/photons has a residual that its estimator does not leave");
   }
@@ -77,7 +77,7 @@ class PhotonsCheck {
   bool truncated_;
   bool weighted_;
   bool hits_apart_;
-  std::uint64_t unit_;  // of the scores: what a photon is
+  std::uint64_t unit_;  // of the scores: units per photon
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ State read_state(const std::filesystem::path& file) {
     return State(std::make_shared<const StateData>(read_layout(hdf5)));
   } catch (const Hdf5Error& error) {
     throw InputError("Cannot read the state " + in_quotes(file.string()) + ": " + error.what() +
-                     " (allowed: a file state.h5 that lichtmc has written). Run anew.");
+                     " (allowed: a file state.h5 that lichtmc has written). Start a new run.");
   } catch (const std::bad_alloc&) {
     throw RuntimeError("There is not enough memory to read the state " + in_quotes(file.string()) +
                        ". Free some, or use a machine that has more.");

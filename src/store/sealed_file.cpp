@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of what follows the seal; n: its bytes.
+// Checksum of all bytes after the seal; n: their number.
 std::array<std::uint64_t, 2> checksum_of_rest(std::istream& in, std::uint64_t& n) {
   Checksum sum;
   std::vector<char> piece(std::size_t{1} << 20);
@@ -41,7 +41,7 @@ std::string seal_with(std::string_view title, const std::array<std::uint64_t, 2>
   return text;
 }
 
-// Which program writes states of this title.
+// The program that writes states with this title.
 std::string writer_of(std::string_view title) {
   return title == "lichtmc state, layout 1" ? "lichtmc 0.1.0" : "another version of lichtmc";
 }
@@ -72,18 +72,18 @@ void check_seal(const fs::path& file, std::string_view title) {
     if (first_line.compare(0, kind, title.substr(0, kind)) != 0)
       refuse(file,
              "it is no state of lichtmc, or its beginning is damaged (allowed: a file state.h5 that lichtmc has "
-             "written). Give another file, or run anew.");
+             "written). Give another file, or start a new run.");
     refuse(file, "it is a " + in_quotes(first_line) + ", as " + writer_of(first_line) +
                      " writes it (allowed: " + in_quotes(title) + ", as lichtmc " + std::string(version()) +
-                     " writes it). Go on with that version, or run anew.");
+                     " writes it). Use that version, or start a new run.");
   }
   std::uint64_t n = 0;
   stream.clear();
   const std::array<std::uint64_t, 2> checksum = checksum_of_rest(stream, n);
   if (found != seal_with(title, checksum, n)) {
     refuse(file,
-           "it is damaged: its checksum is wrong (allowed: the file as it was written). Take a copy of it, if "
-           "there is one, or run anew.");
+           "it is damaged: its checksum is wrong (allowed: the unchanged file). Use a copy of it, if there is "
+           "one, or start a new run.");
   }
 }
 

@@ -1,5 +1,5 @@
-// A seal on a file: its first 512 bytes say what it is, how long, and the checksum of all that follows. Any bit that
-// changes, anywhere, is found before anything else reads the file. HDF5 leaves such a block to its users.
+// The seal of a file: its first 512 bytes (the user block of HDF5) contain its title, its size, and the checksum of all
+// following bytes. A changed bit anywhere is detected before the file is read.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@ namespace lichtmc {
 
 inline constexpr std::size_t seal_bytes = 512;
 
-// What a file with this title (a line) begins with, where `rest` follows.
+// The seal of a file with this title (one line) whose other bytes are `rest`.
 std::string seal_of(std::string_view title, std::string_view rest);
 
-// Throws InputError saying what is wrong: the file is missing, of another title, or damaged.
+// Throws InputError if the file is missing, has another title, or is damaged.
 void check_seal(const std::filesystem::path& file, std::string_view title);
 
 }  // namespace lichtmc

@@ -22,39 +22,39 @@ constexpr std::uint64_t most_histories = std::uint64_t{1} << 63;  // as check_se
   throw Hdf5Error(what);
 }
 
-// The same rules as for options. What their messages say after the value is about options.
+// The same rules as for options. The part of their messages after the value is about options and is left out.
 void check_settings_of(const StateData& data) {
   try {
     check_settings(data.settings);
   } catch (const InputError& error) {
     const std::string message = error.what();
-    refuse("its settings are not sound. " + message.substr(0, message.find(" (")));
+    refuse("its settings are not valid. " + message.substr(0, message.find(" (")));
   }
   if (data.settings.measured == Measured::receivers && data.settings.tile_walk == WalkDirection::backward)
-    refuse("its settings ask for tiles to be walked from, and for no tiles");
+    refuse("its settings request backward walks from tiles, and no tiles");
   if (data.engine == Engine::automatic) refuse("the engine that was used is given as 'auto'");
 }
 
-// Photons come first: a state that should have them does, but where the run was stopped while it chose an estimator.
-// Walks back from tiles or receivers may be missing where it was stopped before their first round.
+// /photons exists if the settings request it, unless the run was stopped while it chose an estimator. Backward walks
+// from tiles or receivers may be missing if it was stopped before their first round.
 void check_groups(const StateData& data) {
   const Settings& settings = data.settings;
   const bool tiles = settings.measured != Measured::receivers;
   const bool photons = tiles && settings.tile_walk == WalkDirection::forward;
-  if (data.photons && !photons) refuse("it has /photons, which its settings do not ask for");
-  if (data.tile_walks && (!tiles || photons)) refuse("it has /tile_walks, which its settings do not ask for");
+  if (data.photons && !photons) refuse("it has /photons, which its settings do not request");
+  if (data.tile_walks && (!tiles || photons)) refuse("it has /tile_walks, which its settings do not request");
   if (data.receivers && settings.measured == Measured::tiles)
-    refuse("it has /receivers, which its settings do not ask for");
+    refuse("it has /receivers, which its settings do not request");
   if (settings.estimator == Estimator::automatic) return;
-  if (photons && !data.photons) refuse("it has no /photons, which its settings ask for");
-  if (!data.photons && !data.tile_walks && !data.receivers) refuse("it holds no walks");
+  if (photons && !data.photons) refuse("it has no /photons, which its settings request");
+  if (!data.photons && !data.tile_walks && !data.receivers) refuse("it contains no walks");
 }
 
 std::string in_words(const HistoryRange& range) {
   return std::to_string(range.first) + ":" + std::to_string(range.last);
 }
 
-// In order, apart from each other, of whole batches but for the end of the last one.
+// Ranges are in order, not adjacent, of whole batches except for the end of the last.
 void check_ranges(const Walked& walked, const std::string& group, std::uint64_t batch) {
   if (walked.ranges.empty()) refuse("ranges of " + group + " are missing");
   for (std::size_t k = 0; k < walked.ranges.size(); ++k) {
@@ -72,11 +72,11 @@ void check_ranges(const Walked& walked, const std::string& group, std::uint64_t 
   }
 }
 
-// What walks in either direction have.
+// The common data of walks in both directions.
 void check_walked(const Settings& settings, const Walked& walked, const TraceCount& traced, const std::string& group) {
   const std::string estimator(to_string(walked.estimator));
   if (walked.estimator == Estimator::automatic) refuse("the estimator that " + group + " used is given as 'auto'");
-  // Parts that are merged are all cut off, or none is.
+  // max_bounces is the same for all merged parts.
   if (settings.max_bounces && walked.estimator != Estimator::weight)
     refuse(group + " has the estimator '" + estimator + "', and its settings a number of bounces");
   const auto is_time = [](double seconds) { return std::isfinite(seconds) && seconds >= 0.0; };
@@ -90,8 +90,8 @@ void check_walked(const Settings& settings, const Walked& walked, const TraceCou
     refuse(group + " has " + std::to_string(traced.rays) + " rays, fewer than of some kinds");
 }
 
-// The estimator that was asked for, where one was. (Receivers may have another: a sum of parts has the settings of the
-// first, and that one may have been stopped before it came to them.)
+// The estimator is the requested one, unless that is `automatic`. (Receivers may have another: merged parts have the
+// settings of the first part, which may have been stopped before its receivers.)
 void check_estimator(const Settings& settings, const Walked& walked, const std::string& group) {
   if (settings.estimator == Estimator::automatic || settings.estimator == walked.estimator) return;
   refuse(group + " has the estimator '" + std::string(to_string(walked.estimator)) + "', its settings have '" +
@@ -109,7 +109,7 @@ void check_photons_of(const StateData& data) {
            std::to_string(data.settings.first_history));
   if (photons.pilot > most_histories || (photons.pilot > 0 && data.settings.estimator != Estimator::automatic))
     refuse(group + " has a pilot of " + std::to_string(photons.pilot) +
-           " histories, which its settings do not ask for");
+           " histories, which its settings do not request");
   check_photons(photons, data.settings.max_bounces.has_value());
 }
 

@@ -36,11 +36,11 @@ std::string printable(const std::string& text) {
   throw Hdf5Error(std::string("the value of ") + name + " is not known: " + value);
 }
 
-// One row of the array "convergence": an integer among its numbers is exact up to 2⁵³.
+// One row of the array "convergence"; integers are exact up to 2⁵³.
 using ConvergenceRow = std::array<double, 3>;
 
-// Both archives have one function per type of field. Structs with fields of their own are written in place; settings
-// and walks are groups.
+// Both archives have one function per type of field. Nested structs are written into the same group; settings and walks
+// are groups.
 class Writer {
  public:
   explicit Writer(Hdf5File& file) : file_(file) {}
@@ -60,7 +60,7 @@ class Writer {
   void field(const char* name, bool value) { file_.write(name, std::uint64_t{value}); }
   void field(const char* name, double value) { file_.write(name, value); }
   void field(const char* name, const std::string& value) { file_.write(name, value); }
-  // 0 or NaN where there is none.
+  // 0 or NaN if there is none.
   void field(const char* name, const std::optional<std::uint32_t>& value) { field(name, value.value_or(0)); }
   void field(const char* name, const std::optional<double>& value) {
     field(name, value.value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -213,8 +213,8 @@ class Reader {
   Hdf5File& file_;
 };
 
-// A group or array that no field names would go unnoticed: a missing one may only have another name. /settings and the
-// array "room" are always there.
+// Refuses groups and arrays that are not fields: one of them may be a missing field under a wrong name. /settings and
+// the array "room" always exist.
 void check_members(const Hdf5File& file, const StateData& data) {
   const std::uint64_t known = 2U + (data.photons ? 1U : 0U) + (data.tile_walks ? 1U : 0U) + (data.receivers ? 1U : 0U);
   if (file.members() != known)

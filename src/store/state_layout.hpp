@@ -6,10 +6,10 @@
 
 namespace lichtmc {
 
-// The first line of the file. Another number wherever the fields or their storage change.
+// The first line of the file. Its number changes whenever the fields or their storage change.
 inline constexpr const char* state_title = "lichtmc state, layout 2";
 
-// Puts what the data holds into the file, or fills it in from there. Throw Hdf5Error.
+// Write the data into the file, or read them from it. Throw Hdf5Error.
 void write_layout(Hdf5File& file, const StateData& data);
 StateData read_layout(Hdf5File& file);
 

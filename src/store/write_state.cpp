@@ -8,7 +8,7 @@ namespace lichtmc {
 
 namespace {
 
-// So that the memory for the file is taken once.
+// The expected size, so that the memory for the file is allocated once.
 std::uint64_t size_of(const StateData& data) {
   std::uint64_t bytes = std::uint64_t{1} << 17;  // groups and attributes
   if (data.photons) {

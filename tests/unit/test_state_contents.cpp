@@ -152,7 +152,7 @@ TEST_CASE("a state with impossible settings is refused") {
           d.settings.estimator = Estimator::collision;
           d.settings.max_bounces = 3;
         }},
-       {"ask for tiles to be walked from, and for no tiles",
+       {"request backward walks from tiles, and no tiles",
         [](StateData& d) {
           d.settings.measured = Measured::receivers;
           d.settings.tile_walk = WalkDirection::backward;
@@ -167,7 +167,7 @@ TEST_CASE("a state with other walks than its settings require is refused") {
                  {"it has /receivers, which", [](StateData& d) { d.settings.measured = Measured::tiles; }},
                  {"it has no /photons, which", [](StateData& d) { d.photons.reset(); }},
                  {"it has /tile_walks, which", [](StateData& d) { d.tile_walks = d.receivers; }},
-                 {"it holds no walks",
+                 {"it contains no walks",
                   [](StateData& d) {
                     d.photons.reset();
                     d.receivers.reset();

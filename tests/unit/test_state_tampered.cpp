@@ -213,7 +213,7 @@ TEST_CASE("arrays and groups that are elsewhere are refused") {
        }},
       {"it has 4 groups and arrays, of which 3 are known",
        [](hid_t f) { H5Lmove(f, "/receivers", f, "/recievers", H5P_DEFAULT, H5P_DEFAULT); }},
-      {"it has no /photons, which its settings ask for", [](hid_t f) { H5Ldelete(f, "/photons", H5P_DEFAULT); }},
+      {"it has no /photons, which its settings request", [](hid_t f) { H5Ldelete(f, "/photons", H5P_DEFAULT); }},
   });
 }
 
