@@ -45,8 +45,8 @@ struct ReflectanceMap {
 struct Surface {
   std::string name;      // unique in the room; names the tile map's file
   std::string material;  // for messages and tables; may be empty
-  double reflectance =
-      0.5;  // ρ, fraction of the incident power that is reflected, 0 … 1; with a reflectance map: its mean, for tables
+  // ρ, fraction of the incident power that is reflected, 0 … 1; with a reflectance map: its mean, for tables.
+  double reflectance = 0.5;
   Sides sides = Sides::one;
   std::vector<glm::dvec3> positions;           // m, world coordinates
   std::vector<glm::dvec2> uvs;                 // texture coordinates for the tiles: one per position, or none

@@ -55,8 +55,7 @@ struct Settings {
   std::uint64_t first_history = 0;    // number of the first history: a multiple of State::batch
   bool part = false;  // a part of a run that merge() completes: receivers get only their share of these histories
   std::optional<double> target_error;  // stop when WalkReport::rms_relative_error is at most this, > 0
-  std::optional<double>
-      max_seconds;  // s, stop after this wall-clock time, > 0; half of it each for tiles and receivers
+  std::optional<double> max_seconds;   // s, wall-clock time limit, > 0; half of it each for tiles and receivers
   Measured measured = Measured::all;
   WalkDirection tile_walk = WalkDirection::forward;  // of the walk for the tiles
   Direct direct = Direct::sampled;  // for tiles and a forward walk; otherwise direct light is always integrated

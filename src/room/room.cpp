@@ -32,9 +32,9 @@ std::string to_text(const glm::dvec3& v) {
   throw InputError("The " + what + " in " + room.source + " is " + value + " (allowed: " + allowed + "). " + remedy);
 }
 
-void require(bool sound, const Room& room, const std::string& what, double value, const std::string& allowed,
+void require(bool valid, const Room& room, const std::string& what, double value, const std::string& allowed,
              const std::string& remedy) {
-  if (!sound) refuse(room, what, to_text(value), allowed, remedy);
+  if (!valid) refuse(room, what, to_text(value), allowed, remedy);
 }
 
 void check_map(const Room& room, const ReflectanceMap& map) {

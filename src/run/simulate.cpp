@@ -243,18 +243,19 @@ class Run {
 // differs.
 void check_ranks_agree(Communicator* communicator, const StateData& data) {
   const auto check = [communicator](const Fingerprint& mine, const std::string& what) {
-    Fingerprint of_first = mine;
-    broadcast(communicator, of_first);
-    const std::uint64_t others = count_votes(communicator, of_first != mine);
+    Fingerprint of_rank_0 = mine;
+    broadcast(communicator, of_rank_0);
+    const std::uint64_t others = count_votes(communicator, of_rank_0 != mine);
     if (others > 0)
       throw InputError(std::to_string(others) + " of " + std::to_string(size_of(communicator)) + " processes have " +
                        what);
   };
   check(data.room,
-        "another room than the first (allowed: the same file for all). Put the room where all machines see it.");
+        "another room than rank 0 (allowed: the same file for all). Put the room on a file system shared by all "
+        "machines.");
   check(fingerprint(data),
-        "other settings, another state or another version of lichtmc than the first (allowed: the same for all). Give "
-        "all the same options and the same program, and put state.h5 where all machines see it.");
+        "other settings, another state or another version of lichtmc than rank 0 (allowed: the same for all). Use the "
+        "same options and the same program for all, and put state.h5 on a file system shared by all machines.");
 }
 
 // The common part of a new run and of a continued one.

@@ -13,7 +13,7 @@ namespace lichtmc {
 
 // Calls make.operator()<Policy, Reflectance>(max_flights) for an estimator (not Estimator::automatic, which is resolved
 // before) and returns what that returns. max_bounces: flights after which a history of the weight estimator ends; none:
-// Russian roulette. max_flights is 0 where there is no limit. mapped: the room has reflectance maps.
+// Russian roulette. max_flights 0: no limit. mapped: the room has reflectance maps.
 template <class Make>
 auto choose_policy(Estimator estimator, std::optional<std::uint32_t> max_bounces, bool mapped, const Make& make) {
   const auto with = [&]<class Policy, class MappedPolicy>(std::uint32_t max_flights) {

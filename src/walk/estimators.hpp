@@ -104,7 +104,7 @@ struct WeightPolicy {
 
 // Variant 1 ended by Russian roulette: below 1/8 the photon continues with weight 1/4 or ends, with the same
 // expectation. The two numbers are a compromise between the length of the walk and variance: with weights between 1/8
-// and 1/4 the roulette adds little variance to a score whose own spread is that of hitting the tile or not.
+// and 1/4 the roulette adds little variance to a score whose variance is mainly that of hitting the tile or not.
 struct RouletteWeightPolicy : WeightPolicy {
   static constexpr double threshold = 0.125;
   static constexpr double restored = 0.25;

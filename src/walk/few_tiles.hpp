@@ -33,7 +33,7 @@ class FewTiles {
  private:
   std::vector<std::uint32_t> first_tile_;
   std::vector<std::uint64_t> scores_;
-  std::vector<std::uint64_t> hits_;  // empty where hits are the score
+  std::vector<std::uint64_t> hits_;  // empty if hits are the score
   std::vector<std::uint64_t> tile_map_scores_;
   // Sums over full batches with small scores; 64 bits suffice for most_folded batches.
   std::vector<std::uint64_t> sums_;

@@ -22,7 +22,7 @@ class GoalBase {
   // The treatment of a flight that hits no surface; the counter of rays.
   static Misses misses() { return Misses::escape; }
   TraceCount& traced() { return traced_; }
-  // Where photons ended, in units of the score.
+  // The balance of the photons, in units of the score.
   Ends& ends() { return ends_; }
 
   // Sets the histories' numbers of all photons.
@@ -43,7 +43,7 @@ class GoalBase {
 
   // Photon `from` moves to position `to`; the wave has already moved its own data for the next flight.
   void move(Wave& /*wave*/, std::size_t /*from*/, std::size_t /*to*/) {}
-  // Where the kernel stores the cosines of the angles to the normals at which photons leave, or null.
+  // Array for the cosines of the angles at which photons leave surfaces, filled by the kernel; or null.
   float* cosines() { return nullptr; }
 
   // Whether the kernel calls absorb(); and whether it may process survival in lanes: then move() does nothing and

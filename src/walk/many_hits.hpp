@@ -1,4 +1,4 @@
-// The hits of a batch in rooms with many tiles, where hits are the score.
+// The hits of a batch in rooms with many tiles, if hits are the score.
 //
 // Each impact accesses another address in memory: a tile takes four bytes, so that as many tiles as possible fit into
 // the cache. With many tiles, most batches that hit a tile hit it once, some twice: these batches are counted and added

@@ -1,4 +1,4 @@
-// The scores of a batch in rooms with many tiles, where impacts score weights.
+// The scores of a batch in rooms with many tiles, if impacts score weights.
 //
 // Each impact accesses one address in memory, and closing a batch accesses none: a tile's score is stored with the
 // number of the batch that it belongs to, and is added to the totals when another batch hits the tile. Hits are stored

@@ -57,7 +57,7 @@ struct Totals : Counts {
   Totals(std::size_t tiles, std::size_t tile_maps, Hits hits);
 
   std::vector<Moments> tiles;       // per tile
-  std::vector<std::uint64_t> hits;  // per tile; empty where hits are the score
+  std::vector<std::uint64_t> hits;  // per tile; empty if hits are the score
   std::vector<Moments> tile_maps;   // per tile map
   std::vector<uint128> behind;      // per tile map: score on the back
 
