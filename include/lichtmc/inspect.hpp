@@ -79,7 +79,7 @@ struct Inspection {
   std::uint64_t tiles = 0;
   double memory_bytes = 0.0;     // estimate for the tiles of a run with one thread
   double suggested_scale = 1.0;  // factor on ReadOptions::scale; 1 if the size is plausible
-  bool looks_z_up = false;       // the room is probably Z-up
+  bool probably_z_up = false;    // the vertical axis of the file is probably Z
 
   std::vector<SurfaceFacts> surfaces;
   std::vector<Finding> findings;  // faults first, then warnings, then notes

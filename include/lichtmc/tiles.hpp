@@ -1,6 +1,6 @@
 // Tiles: the parts of surfaces on which irradiance is computed.
 //
-// Each side of a surface has a tile map: a grid of cells over the surface's UV chart (both sides share one where the
+// Each side of a surface has a tile map: a grid of cells over the surface's UV chart (both sides share one if the
 // surface has Sides::one). A cell that contains a part of the surface is a tile; its area is the area of that part in
 // 3-D. One index numbers all tiles of a room.
 #pragma once

@@ -111,7 +111,7 @@ void FindingsCollector::size() {
 }
 
 void FindingsCollector::up_axis() {
-  if (!facts_.looks_z_up) return;
+  if (!facts_.probably_z_up) return;
   add(Severity::warning, "up-axis", "More area is perpendicular to Z than to Y: the room is probably Z-up.",
       "If it is, give --up z, or export the room with Y up.");
 }

@@ -130,7 +130,7 @@ Inspection inspect_with(const Room& room, const Tiling* tiling, double tile_edge
   count_triangles(room, facts);
   inspect_mesh(WeldedMesh(room), facts);
   facts.cuboid = recognise_cuboid(room).has_value();
-  facts.looks_z_up = looks_z_up(room, facts.high - facts.low);
+  facts.probably_z_up = looks_z_up(room, facts.high - facts.low);
   if (const auto unit = guess_unit(facts.high - facts.low)) facts.suggested_scale = unit->metres;
   inspect_surfaces(room, facts);
   Tiling made;

@@ -97,7 +97,7 @@ std::string inspection_json(const Room& room, const Inspection& inspection) {
                   {"low", point(inspection.low)},
                   {"high", point(inspection.high)},
                   {"suggested_scale", number(inspection.suggested_scale)},
-                  {"suggested_up", inspection.looks_z_up ? "z" : "y"},
+                  {"suggested_up", inspection.probably_z_up ? "z" : "y"},
                   {"triangles", inspection.triangles},
                   {"triangles_without_area", inspection.triangles_without_area},
                   {"duplicate_triangles", inspection.duplicate_triangles},

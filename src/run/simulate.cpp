@@ -79,8 +79,7 @@ void complete(Result& result, const Room& room) {
       "Nothing absorbs the light of an emitter in " + room.source +
       ": it is enclosed by surfaces of reflectance 1 (allowed: at least one below 1, or an opening), so that the "
       "irradiance would be infinite. Give materials a reflectance below 1, for example with --max-reflectance 0.9, or "
-      "limit the "
-      "number of flights with --estimator weight --max-bounces N.");
+      "limit the number of flights with --estimator weight --max-bounces N.");
 }
 
 template <class Walk>
@@ -118,16 +117,13 @@ struct PlannedWalks {
 
 constexpr const char* tiles_left_out =
     "The state has no walk for the tiles: the run was stopped while it chose their estimator. The results do not "
-    "include "
-    "them; resuming the run restarts them.";
+    "include them; resuming the run restarts them.";
 constexpr const char* receivers_not_measured =
     "The run was stopped before the first backward walks from the receivers: they were not measured. Resume it, with "
-    "more "
-    "time than the integration of their direct light takes.";
+    "more time than the integration of their direct light takes.";
 constexpr const char* receivers_left_out =
     "The run was stopped before the direct light of the receivers was computed again: the results do not include them. "
-    "The "
-    "state has their backward walks; resuming the run includes them.";
+    "The state has their backward walks; resuming the run includes them.";
 
 // The engine of a state follows from the room: another one means that the file was changed by another program.
 void note_engine(StateData& data, Engine used) {
@@ -339,8 +335,7 @@ Result result_of(const Room& room, State state, unsigned threads, const Control&
   if (!found.photons && !found.tile_walks && !found.receivers) {
     throw InputError(
         "The state contains no walk: the run was stopped before an estimator was chosen (allowed: a state with a "
-        "walk). "
-        "Continue it by lichtmc resume.");
+        "walk). Continue it by lichtmc resume.");
   }
   Settings settings = state.settings();
   settings.threads = threads;

@@ -41,8 +41,9 @@ std::vector<OutsideEmitter> emitters_outside(const Room& room) {
                               short_number(p.y) + ", " + short_number(p.z) + ") m lies ";
     if (bounds.holds(p, slack)) {
       if (emits_backwards(emitter) && !bounds.holds(p, -slack)) {
-        outside.push_back({which + "on the boundary of the room: the light that it emits outwards is lost.",
-                           "Move it some centimetres inwards."});
+        outside.push_back(
+            {which + "on the boundary of the room: the light that it emits outwards escapes without an impact.",
+             "Move it some centimetres inwards."});
       }
       continue;
     }

@@ -21,9 +21,8 @@ namespace lichtmc {
 // The data of a surface that a walk needs.
 struct SurfaceOptics {
   double reflectance = 0.0;
-  std::uint32_t map = 0;  // its tile map; that of its back, if there is one, is the next
-  std::uint32_t tiles_to_back =
-      0;  // tile number of the back minus that of the front; 0 if both sides share one tile map
+  std::uint32_t map = 0;            // its tile map; that of its back, if there is one, is the next
+  std::uint32_t tiles_to_back = 0;  // tile number on the back minus that on the front; 0: both share one tile map
 };
 
 // The position of a facet on a reflectance map: (u, v) = uv_0 + s·uv_s + t·uv_t.
