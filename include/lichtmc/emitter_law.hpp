@@ -81,8 +81,8 @@ struct LambertLaw {
   }
   // cos^m θ falls to 10⁻¹⁶ at 1 − cos θ = 36.8/m, and by half over an angle of about √(2 ln 2/m).
   EmitterExtent extent() const {
-    constexpr double decades = 36.8;
-    const double versine = -std::expm1(-decades / std::fmax(exponent, 1.0));
+    constexpr double log_of_1e16 = 36.8;
+    const double versine = -std::expm1(-log_of_1e16 / std::fmax(exponent, 1.0));
     return {std::fmin(0.5 * std::numbers::pi, 2.0 * std::asin(std::sqrt(0.5 * versine))),
             1.0 / std::sqrt(exponent + 1.0)};
   }

@@ -23,23 +23,18 @@ constexpr std::uint64_t histories_at_a_time = 8192;
       "and the files in its folder are unchanged. Give it more time.");
 }
 
-Settings with_estimator(Settings settings, Estimator estimator) {
-  settings.estimator = estimator;
-  return settings;
-}
-
 }  // namespace
 
 BackwardWork::BackwardWork(const RunContext& context, const BackwardTask& task, Estimator estimator,
-                           Progress::Stage stage, const std::vector<DirectIrradiance>& direct)
+                           Progress::Stage stage, std::shared_ptr<const std::vector<DirectIrradiance>> direct)
     : context_(context),
       task_(task),
-      settings_(with_estimator(context.settings, estimator)),
+      settings_(context.settings_with(estimator)),
       together_(task.origins * task.group),
       range_(rounds_of(settings_, together_)),
       reporter_(context.control, context.watch, stage == Progress::Stage::pilot ? stage : task.stage,
                 histories_of(range_.last - range_.first)) {
-  found_.direct = direct;
+  found_.direct = std::move(direct);
   found_.sums = std::make_shared<std::vector<BackwardSums>>(task.origins);
   found_.group = task.group;
   found_.unit = task.unit;
@@ -101,7 +96,7 @@ Pilot BackwardWork::pilot() {
   pilot.estimator = settings_.estimator;
   pilot.flights = static_cast<double>(count_.traced.rays);
   for (std::size_t k = 0; k < found_.sums->size(); ++k) {
-    pilot.values.push_back(found_.direct[k].value + found_.indirect(k));
+    pilot.values.push_back((*found_.direct)[k].value + found_.indirect(k));
     pilot.errors.push_back(found_.indirect_error(k));
   }
   return pilot;
@@ -226,11 +221,11 @@ namespace {
 class BackwardMeasurement final : public Measurement {
  public:
   BackwardMeasurement(const RunContext& context, const BackwardTask& task) : context_(context), task_(task) {
-    const bool continues = stored(context.record.data()) != nullptr;
-    if (!continues) check_rounds(context.settings, task.origins * task.group, task.name);
-    direct_seconds_ = outside_time_limit(context, continues, [&] {
-      direct_ =
-          direct_light_of(task.origins, task.direct, context.control, context.threads, context.watch, direct_count_);
+    const bool resumed = stored(context.record.data()) != nullptr;
+    if (!resumed) check_rounds(context.settings, task.origins * task.group, task.name);
+    direct_cost_ = compute_direct(context, resumed, [&](TraceCount& rays) {
+      direct_ = std::make_shared<const std::vector<DirectIrradiance>>(
+          direct_light_of(task.origins, task.direct, context.control, context.threads, context.watch, rays));
     });
   }
 
@@ -247,18 +242,13 @@ class BackwardMeasurement final : public Measurement {
     return choose_best(pilots, pooled_values(pilots), task_.weights, task_.name);
   }
 
-  void add_direct(WalkReport& report) const {
-    report.rays += direct_count_.rays;
-    report.shadow_rays += direct_count_.shadow_rays;
-    report.direct_seconds = direct_seconds_;
-  }
+  const DirectCost& direct_cost() const { return direct_cost_; }
 
  private:
   const RunContext& context_;
   const BackwardTask& task_;
-  std::vector<DirectIrradiance> direct_;
-  TraceCount direct_count_;
-  double direct_seconds_ = 0.0;
+  std::shared_ptr<const std::vector<DirectIrradiance>> direct_;
+  DirectCost direct_cost_;
 };
 
 }  // namespace
@@ -269,7 +259,7 @@ BackwardOutcome walk_backward(const RunContext& context, const BackwardTask& tas
   const OriginEstimates& found = static_cast<const BackwardWork&>(*driven.work).estimates();
   if (found.rounds == 0) refuse_too_short();
   BackwardOutcome outcome{found, std::move(driven.report)};
-  measurement.add_direct(outcome.report);
+  measurement.direct_cost().add_to(outcome.report);
   finish_report(outcome.report, task.error(found));
   return outcome;
 }

@@ -21,11 +21,11 @@ namespace lichtmc {
 
 // Direct light and reflected light of every origin.
 struct OriginEstimates {
-  std::vector<DirectIrradiance> direct;             // per origin
-  std::shared_ptr<std::vector<BackwardSums>> sums;  // per origin, of all rounds
-  std::uint64_t rounds = 0;                         // per origin
-  std::uint32_t group = 1;                          // walks in a round
-  double unit = 1.0;                                // of the sums, W/m² or lx
+  std::shared_ptr<const std::vector<DirectIrradiance>> direct;  // per origin
+  std::shared_ptr<std::vector<BackwardSums>> sums;              // per origin, of all rounds
+  std::uint64_t rounds = 0;                                     // per origin
+  std::uint32_t group = 1;                                      // walks in a round
+  double unit = 1.0;                                            // of the sums, W/m² or lx
 
   std::uint64_t histories() const { return rounds * group * sums->size(); }
   // Irradiance at origin k by reflected light, and its standard error: NaN if fewer than two rounds were simulated.
@@ -51,7 +51,7 @@ class BackwardWork final : public Work {
  public:
   // direct: of every origin. Context, task and direct must outlive the work.
   BackwardWork(const RunContext& context, const BackwardTask& task, Estimator estimator, Progress::Stage stage,
-               const std::vector<DirectIrradiance>& direct);
+               std::shared_ptr<const std::vector<DirectIrradiance>> direct);
 
   std::uint64_t done() const override { return found_.rounds; }
   std::uint64_t histories_of(std::uint64_t rounds) const override;

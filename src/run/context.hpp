@@ -20,6 +20,13 @@ struct RunContext {
   StopWatch& watch;   // of this walk
   RunRecord& record;  // of the run
   unsigned threads;   // of this process
+
+  // The settings with the estimator of one walk.
+  Settings settings_with(Estimator estimator) const {
+    Settings own = settings;
+    own.estimator = estimator;
+    return own;
+  }
 };
 
 }  // namespace lichtmc

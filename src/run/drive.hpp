@@ -30,16 +30,29 @@ Driven drive(const RunContext& context, Measurement& measurement);
 // Sets the relative standard error at the end, the figure of merit, and the last point of the convergence.
 void finish_report(WalkReport& report, double rms_relative_error);
 
-// Runs compute(), which every session repeats. If a state is continued, its time does not count for the time limit:
-// without its results the walks of the state could not be used. Returns its wall-clock time in s.
+// Rays and time of the direct light that is computed before a walk.
+struct DirectCost {
+  TraceCount traced;
+  double seconds = 0.0;
+
+  void add_to(WalkReport& report) const {
+    report.rays += traced.rays;
+    report.shadow_rays += traced.shadow_rays;
+    report.direct_seconds = seconds;
+  }
+};
+
+// Runs compute(rays), which computes the direct light; a resumed session repeats it. The time limit does not include
+// the repetition: without direct light the walks of the state would be lost.
 template <class Compute>
-double outside_time_limit(const RunContext& context, bool continues, const Compute& compute) {
-  if (continues) context.watch.suspend_limit();
+DirectCost compute_direct(const RunContext& context, bool resumed, const Compute& compute) {
+  DirectCost cost;
+  if (resumed) context.watch.suspend_limit();
   const double began = context.watch.seconds();
-  compute();
-  const double seconds = context.watch.seconds() - began;
-  if (continues) context.watch.restart_limit();
-  return seconds;
+  compute(cost.traced);
+  cost.seconds = context.watch.seconds() - began;
+  if (resumed) context.watch.restart_limit();
+  return cost;
 }
 
 }  // namespace lichtmc

@@ -12,19 +12,10 @@
 
 namespace lichtmc {
 
-namespace {
-
-Settings with_estimator(Settings settings, Estimator estimator) {
-  settings.estimator = estimator;
-  return settings;
-}
-
-}  // namespace
-
 ForwardWork::ForwardWork(const RunContext& context, Estimator estimator, Progress::Stage stage,
                          const std::vector<TileDirect>& direct)
     : context_(context),
-      settings_(with_estimator(context.settings, estimator)),
+      settings_(context.settings_with(estimator)),
       scores_(context.room, context.tiling, score_law(estimator, context.scene.has_reflectance_maps()), direct),
       workers_(context.scene, settings_, context.control, context.watch, context.threads),
       photons_(context.settings.photons),

@@ -25,7 +25,7 @@ namespace {
 }
 
 double error_at(const OriginEstimates& found, std::size_t k) {
-  return std::hypot(found.indirect_error(k), found.direct[k].standard_error);
+  return std::hypot(found.indirect_error(k), (*found.direct)[k].standard_error);
 }
 
 // Rms of the relative errors of the receivers with an irradiance above 0.
@@ -33,7 +33,7 @@ double error_of_receivers(const OriginEstimates& found) {
   double squares = 0.0;
   std::size_t lit = 0;
   for (std::size_t k = 0; k < found.sums->size(); ++k) {
-    const double irradiance = found.direct[k].value + found.indirect(k);
+    const double irradiance = (*found.direct)[k].value + found.indirect(k);
     if (!(irradiance > 0.0)) continue;
     const double error = error_at(found, k);
     squares += error * error / (irradiance * irradiance);
@@ -48,8 +48,8 @@ std::vector<TileResult> tiles_of(const Tiling& tiling, const TileFaces& faces, c
   for (TileResult& tile : tiles) tile.direct = 0.0;
   for (std::size_t face = 0; face < faces.size(); ++face) {
     TileResult& tile = tiles[faces[face].tile];
-    tile.direct += found.direct[face].value;
-    tile.irradiance += found.direct[face].value + found.indirect(face);
+    tile.direct += (*found.direct)[face].value;
+    tile.irradiance += (*found.direct)[face].value + found.indirect(face);
     tile.standard_error = std::hypot(tile.standard_error, error_at(found, face));
     tile.hits += found.rounds * found.group;
   }
@@ -64,7 +64,7 @@ std::vector<SurfaceResult> surfaces_of(const Room& room, const Tiling& tiling, c
   std::vector<double> behind(results.size(), 0.0);
   for (std::size_t face = 0; face < faces.size(); ++face) {
     if (!faces[face].behind) continue;
-    const double irradiance = found.direct[face].value + found.indirect(face);
+    const double irradiance = (*found.direct)[face].value + found.indirect(face);
     behind[tiling.tiles[faces[face].tile].map] += irradiance * faces.area_m2(face);
   }
   for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -103,7 +103,7 @@ std::vector<ReceiverResult> receiver_results(const Room& room, const OriginEstim
   std::vector<ReceiverResult> results(room.receivers.size());
   for (std::size_t k = 0; k < results.size(); ++k) {
     ReceiverResult& one = results[k];
-    one.direct = found.direct[k].value;
+    one.direct = (*found.direct)[k].value;
     one.indirect = found.indirect(k);
     one.irradiance = one.direct + one.indirect;
     one.standard_error = error_at(found, k);

@@ -104,21 +104,20 @@ Balance Scores::balance(const Totals& totals) const {
   return balance;
 }
 
-void Scores::incident(const Totals& totals, double& power, double& standard_error) const {
-  counted(totals, power, standard_error);
+Estimate Scores::incident(const Totals& totals) const {
+  Estimate sum = counted(totals);
   for (const DirectPower& direct : direct_power_) {
-    power += direct.power;
-    standard_error = std::hypot(standard_error, direct.standard_error);
+    sum.mean += direct.power;
+    sum.standard_error = std::hypot(sum.standard_error, direct.standard_error);
   }
+  return sum;
 }
 
 // The scores of the photons on all tiles.
-void Scores::counted(const Totals& totals, double& power, double& standard_error) const {
+Estimate Scores::counted(const Totals& totals) const {
   if (!law_.at_most_one_per_history) {
     const Estimate all = estimate(totals.incident, totals.histories);
-    power = power_ * law_.unit * all.mean;
-    standard_error = power_ * law_.unit * all.standard_error;
-    return;
+    return {power_ * law_.unit * all.mean, power_ * law_.unit * all.standard_error};
   }
   // Each history scores at most once, the factor of the surface that absorbed it: mean and mean square follow from the
   // counts.
@@ -132,9 +131,9 @@ void Scores::counted(const Totals& totals, double& power, double& standard_error
     mean += share * factor;
     mean_square += share * factor * factor;
   }
-  power = power_ * mean;
-  standard_error = n < 2.0 ? std::numeric_limits<double>::quiet_NaN()
-                           : power_ * std::sqrt(std::max(mean_square - mean * mean, 0.0) / (n - 1.0));
+  const double error = n < 2.0 ? std::numeric_limits<double>::quiet_NaN()
+                               : power_ * std::sqrt(std::max(mean_square - mean * mean, 0.0) / (n - 1.0));
+  return {power_ * mean, error};
 }
 
 }  // namespace lichtmc

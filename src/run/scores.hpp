@@ -25,7 +25,7 @@ class Scores {
   std::vector<SurfaceResult> surfaces(const Totals& totals, const std::vector<TileResult>& tiles) const;
   Balance balance(const Totals& totals) const;
   // Incident power of all tiles, with standard error.
-  void incident(const Totals& totals, double& power, double& standard_error) const;
+  Estimate incident(const Totals& totals) const;
 
  private:
   struct DirectPower {   // integrated direct light of a tile map
@@ -33,7 +33,7 @@ class Scores {
     double behind = 0.0;
     double standard_error = 0.0;
   };
-  void counted(const Totals& totals, double& power, double& standard_error) const;
+  Estimate counted(const Totals& totals) const;
   double power_of_no_hit(std::size_t surface, std::uint64_t histories) const;
   Estimate incident_power(const Moments& moments, std::size_t surface, std::uint64_t histories) const;
 

@@ -20,9 +20,10 @@ class ForwardTiles final : public Measurement {
  public:
   explicit ForwardTiles(const RunContext& context) : context_(context) {
     if (context.settings.direct != Direct::analytic) return;
-    direct_seconds_ = outside_time_limit(context, stored(context.record.data()) != nullptr, [&] {
+    const bool resumed = stored(context.record.data()) != nullptr;
+    direct_cost_ = compute_direct(context, resumed, [&](TraceCount& rays) {
       const TileLight light(context.room, context.tiling, context.scene, context.settings, WalkDirection::forward);
-      direct_ = light.of_tiles(context.control, context.threads, context.watch, direct_count_);
+      direct_ = light.of_tiles(context.control, context.threads, context.watch, rays);
     });
   }
 
@@ -49,18 +50,12 @@ class ForwardTiles final : public Measurement {
     return choose_best(pilots, means, tiles.areas, name());
   }
 
-  // Adds the rays and the time of direct light.
-  void add_direct(WalkReport& report) const {
-    report.rays += direct_count_.rays;
-    report.shadow_rays += direct_count_.shadow_rays;
-    report.direct_seconds = direct_seconds_;
-  }
+  const DirectCost& direct_cost() const { return direct_cost_; }
 
  private:
   const RunContext& context_;
   std::vector<TileDirect> direct_;  // of every tile, if it is integrated
-  TraceCount direct_count_;
-  double direct_seconds_ = 0.0;
+  DirectCost direct_cost_;
 };
 
 }  // namespace
@@ -76,10 +71,12 @@ TileMeasurement measure_tiles_forward(const RunContext& context) {
   }
   TileMeasurement measured;
   measured.report = std::move(driven.report);
-  tiles.add_direct(measured.report);
+  tiles.direct_cost().add_to(measured.report);
   measured.lost_histories = totals.ends.lost_histories;
   measured.balance = work.scores().balance(totals);
-  work.scores().incident(totals, measured.incident, measured.incident_standard_error);
+  const Estimate incident = work.scores().incident(totals);
+  measured.incident = incident.mean;
+  measured.incident_standard_error = incident.standard_error;
   measured.tiles = work.scores().tiles(totals);
   measured.surfaces = work.scores().surfaces(totals, measured.tiles);
   finish_report(measured.report, rms_relative_error(context.tiling, measured.tiles));

@@ -46,8 +46,9 @@ class GoalBase {
   // Array for the cosines of the angles at which photons leave surfaces, filled by the kernel; or null.
   float* cosines() { return nullptr; }
 
-  // Whether the kernel calls absorb(); and whether it may process survival in lanes: then move() does nothing and
-  // absorb_all() is called instead of absorb().
+  // Whether the kernel calls absorb(); and whether it may process survival in lanes. Then move() does nothing,
+  // absorb_all() is called instead of absorb(), and land() must set Wave::surface if the policy reads it, as those of
+  // the estimators do.
   static constexpr bool watches_absorption = false;
   static constexpr bool in_lanes = false;
 

@@ -124,7 +124,7 @@ class Kernel {
     }
   }
 
-  // As below, several photons at a time.
+  // The same result as survive_one_by_one(), several photons at a time.
   void survive_in_lanes(Goal& goal) {
     const std::size_t n = wave_.rays.size;
     Policy::choose(*scene_, wave_, goal.ends(), survivors_);
