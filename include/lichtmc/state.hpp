@@ -67,7 +67,7 @@ void check_version(const State& state);
 // batch.
 State merge(const std::vector<State>& states, const std::vector<std::string>& names);
 
-// Writes a state as HDF5 (docs/state.md has the layout): atomically: to a temporary file, flushed to the disk and
+// Writes a state as HDF5 (docs/state.md has the layout) atomically: to a temporary file, flushed to the disk and
 // renamed. note: text of the caller, stored in the file. Throws RuntimeError if it cannot be written.
 void write_state(const State& state, const std::filesystem::path& file, std::string_view note = {});
 

@@ -107,10 +107,10 @@ TEST_CASE("if pilots had no hits, no estimator is chosen and the report says so"
   const std::vector<Pilot> dark{pilot(Estimator::collision, 1000.0, {0.0}), pilot(Estimator::weight, 1000.0, {0.0})};
   const Choice choice = choose_best(dark, {0.0}, {1.0}, "the tiles");
   CHECK(choice.best == 0);
-  CHECK(choice.reason.find("too little light") != std::string::npos);
+  CHECK(choice.reason.find("too few photons scored") != std::string::npos);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Pilot> unknown{pilot(Estimator::collision, 1000.0, {nan}), pilot(Estimator::weight, 1000.0, {nan})};
-  CHECK(choose_best(unknown, {1.0}, {1.0}, "the tiles").reason.find("too little light") != std::string::npos);
+  CHECK(choose_best(unknown, {1.0}, {1.0}, "the tiles").reason.find("too few photons scored") != std::string::npos);
 }
 
 TEST_CASE("a forecast extrapolates the slope of the errors") {

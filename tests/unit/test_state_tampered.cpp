@@ -89,8 +89,8 @@ TEST_CASE("numbers and text that are missing or of other types are refused") {
       {"attribute seed is of another type", [&](hid_t f) { put_attribute(f, "/settings", "seed", H5T_C_S1, "7"); }},
       {"attribute seconds is of another type",
        [&](hid_t f) { put_attribute(f, "/photons", "seconds", H5T_STD_U64LE, &seven); }},
-      {"attribute engine is no text", [&](hid_t f) { put_attribute(f, "/", "engine", H5T_STD_U64LE, &seven); }},
-      {"attribute note is no text of fixed length",
+      {"attribute engine is not text", [&](hid_t f) { put_attribute(f, "/", "engine", H5T_STD_U64LE, &seven); }},
+      {"attribute note is not text of fixed length",
        [&](hid_t f) {
          const Opened type(H5Tcopy(H5T_C_S1), H5Tclose);
          H5Tset_size(type, H5T_VARIABLE);
@@ -105,7 +105,7 @@ TEST_CASE("numbers and text that are missing or of other types are refused") {
          const std::uint64_t wide = std::uint64_t{1} << 40;
          put_attribute(f, "/receivers", "group", H5T_STD_U64LE, &wide);
        }},
-      {"attribute seed is no scalar",
+      {"attribute seed is not a scalar",
        [&](hid_t f) {
          H5Adelete_by_name(f, "/settings", "seed", H5P_DEFAULT);
          const hsize_t one = 1;
