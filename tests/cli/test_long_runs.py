@@ -89,7 +89,7 @@ class LongRuns(ProgramTest):
         three = self.run_to("three", "--histories", "40960:61440")
         nothing = self.folder / "nothing"
         self.refused("merge", one, one, "-o", nothing, says=["overlap", "0:20480", "twice"])
-        self.refused("merge", one, two, "-o", nothing, says=["seeds 1 and 2"])
+        self.refused("merge", one, two, "-o", nothing, says=["'seed' (--seed): 1 and 2"])
         self.refused("merge", one, self.folder, "-o", nothing, says=["No such file", "state.h5"])
         self.refused("merge", one, three / "tiles.csv", "-o", nothing, says=["no state of lichtmc"])
         damaged = self.folder / "damaged.h5"
