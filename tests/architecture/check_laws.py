@@ -46,7 +46,7 @@ SHAPE = """struct UnknownEmitter {
 """
 # (header, text that occurs once, what replaces it)
 CHANGES = [
-    ("emitter_law.hpp", "// Any of them. A class that is added here", LAW + "// Any of them. A class that is added here"),
+    ("emitter_law.hpp", "using EmitterLaw = ", LAW + "using EmitterLaw = "),
     ("emitter_law.hpp", "std::variant<IsotropicLaw, ", "std::variant<UnknownLaw, IsotropicLaw, "),
     ("emitter_law.hpp", "static_assert(DirectionalLaw<", "static_assert(DirectionalLaw<UnknownLaw> && DirectionalLaw<"),
     ("room.hpp", "struct Emitter {", SHAPE + "struct Emitter {"),
