@@ -312,8 +312,7 @@ std::string plan_svg(const Result& result, const SurfacePlan& plan, const std::s
   svg += legend(scale, result.quantity, side + width + 16.0, y + 10.0, legend_height - 20.0);
   std::string note = plan.why_no_isolines;
   if (note.empty()) {
-    note = "Isolines of the " + std::string(irradiance_word(result.quantity)) +
-           ", smoothed by a Gaussian (standard deviation " + short_number(plan.smoothing_m) + " m).";
+    note = "Isolines, smoothed over " + short_number(plan.smoothing_m) + " m (Gaussian).";
   }
   if (plan.flat) {
     svg += scale_bar(unit / glm::length(plan.across), width, side, y + legend_height + 14.0);

@@ -74,7 +74,7 @@ class PlanDrawer {
     tile_of_pixel_.clear();
     if (subject.piece.triangles.empty()) {
       draw_map(plan);
-      plan.why_no_isolines = "Tile map. No isolines: the surface is curved, or has many small flat parts.";
+      plan.why_no_isolines = "Tile map (curved, or many parts): no isolines.";
     } else {
       draw_piece(subject, plan);
       add_isolines(plan);
@@ -304,19 +304,17 @@ void PlanDrawer::add_isolines(SurfacePlan& plan) const {
   const double step = std::max(1.0, longer / field_side);  // pixels between points of the field
   const auto tile = typical_tile();
   if (!tile) {
-    plan.why_no_isolines = "No isolines: the surface is too narrow for them.";
+    plan.why_no_isolines = "No isolines: the surface is too narrow.";
     return;
   }
   if (!std::isfinite(tile->error)) {
-    plan.why_no_isolines = "No isolines: the standard errors of the tiles are unknown. Simulate more photons.";
+    plan.why_no_isolines = "No isolines: too few photons.";
     return;
   }
   const Field field = field_of(plan, step);
   const auto radius = smoothing_radius(plan, field, step, *tile);
   if (!radius) {
-    plan.why_no_isolines =
-        "No isolines: the differences of irradiance on this surface do not exceed their standard errors. Simulate "
-        "more photons.";
+    plan.why_no_isolines = "No isolines: differences within the errors.";
     return;
   }
   plan.smoothing_m = *radius;
@@ -331,7 +329,7 @@ void PlanDrawer::add_isolines(SurfacePlan& plan) const {
       if (length_of(line) >= min_line_length_px) plan.isolines.push_back(std::move(line));
     }
   }
-  if (plan.isolines.empty()) plan.why_no_isolines = "No isolines: the irradiance is nearly uniform here.";
+  if (plan.isolines.empty()) plan.why_no_isolines = "No isolines: nearly uniform.";
 }
 
 }  // namespace
