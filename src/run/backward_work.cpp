@@ -61,15 +61,14 @@ std::uint64_t BackwardWork::pilot_rounds(const RunContext& context, const Backwa
 }
 
 void BackwardWork::restore(StateData& data) {
-  const BackwardState& before = *(data.*task_.slot);
+  BackwardState& before = *(data.*task_.slot);
   if (before.sums->size() != task_.origins || before.group != task_.group) {
     throw InputError("The state has walks from " + std::to_string(before.sums->size()) + " origins, the room has " +
                      std::to_string(task_.origins) +
                      " (allowed: the same number). The state does not belong to this room; start a new run.");
   }
   if (!context_.record.only_read()) check_whole(settings_, together_, before, task_.name);
-  found_.sums = before.sums.use_count() > 1 ? std::make_shared<std::vector<BackwardSums>>(*before.sums)
-                                            : std::const_pointer_cast<std::vector<BackwardSums>>(before.sums);
+  found_.sums = own(std::move(before.sums));
   count_ = before.count;
   found_.rounds = before.size();
   before_ = before.ranges;
@@ -127,7 +126,7 @@ bool BackwardWork::simulate_step(std::uint64_t rounds) {
   if (context_.watch.reason()) return false;
   reduce(context_.control.communicator, sums);
   reduce(context_.control.communicator, count);
-  if (found_.sums.use_count() > 1) found_.sums = std::make_shared<std::vector<BackwardSums>>(*found_.sums);
+  found_.sums = own<std::vector<BackwardSums>>(std::move(found_.sums));
   add_fields(*found_.sums, sums);
   add_fields(count_, count);
   found_.rounds = rounds;
@@ -182,7 +181,7 @@ std::vector<DirectIrradiance> direct_light_of(std::size_t origins,
   ProgressReporter reporter(control, watch, Progress::Stage::direct_light, origins);
   const Part mine = part_of(control.communicator, origins);
   next = mine.first;
-  BackwardCount traced_here;
+  TraceCount traced_here;
   watch.run_on_threads(threads, [&](unsigned) {
     TraceCount count;
     while (!watch.would_stop()) {
@@ -193,13 +192,13 @@ std::vector<DirectIrradiance> direct_light_of(std::size_t origins,
       reporter.add(last - first, 0);
     }
     const std::lock_guard lock(mutex);
-    traced_here.traced.add(count);
+    traced_here.add(count);
   });
   watch.agree();
   if (watch.reason()) refuse_too_short();
   combine(control.communicator, found);
   reduce(control.communicator, traced_here);
-  traced.add(traced_here.traced);
+  traced.add(traced_here);
   return found;
 }
 

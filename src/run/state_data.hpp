@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/fields.hpp"
@@ -46,6 +47,13 @@ struct BackwardState : Walked {
   BackwardCount count;
   std::shared_ptr<const std::vector<BackwardSums>> sums;  // per origin
 };
+
+// Sums of a state that may be modified: copied only if there is another reference to them.
+template <class Sums>
+std::shared_ptr<Sums> own(std::shared_ptr<const Sums> sums) {
+  if (sums.use_count() > 1) return std::make_shared<Sums>(*sums);
+  return std::const_pointer_cast<Sums>(std::move(sums));
+}
 
 struct StateData {
   std::string version;

@@ -14,12 +14,6 @@ namespace {
 // Length of a round: it bounds the latency of a stop and the time spent waiting for the slowest rank.
 constexpr double round_seconds = 0.25;
 
-// Totals that may be modified: copied only if there is another reference to them.
-std::shared_ptr<Totals> own(std::shared_ptr<const Totals> totals) {
-  if (totals.use_count() > 1) return std::make_shared<Totals>(*totals);
-  return std::const_pointer_cast<Totals>(std::move(totals));
-}
-
 }  // namespace
 
 WorkerThreads::WorkerThreads(const Scene& scene, const Settings& settings, const Control& control, StopWatch& watch,
@@ -162,7 +156,7 @@ bool WorkerThreads::abandoned() const {
 // Adds whole batches from the threads' tallies to the sum. Abandoned batches are not added: the work has ended.
 void WorkerThreads::collect() {
   if (ends_ > 0 || abandoned()) return;
-  whole_ = own(std::move(whole_));
+  whole_ = own<Totals>(std::move(whole_));
   const auto add_tallies = [this](Totals& sum) {
     for (Worker& worker : workers_) {
       if (worker.tally) worker.tally->add_to(sum);
