@@ -1,0 +1,55 @@
+#include "inspect/topics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/message.hpp"
+#include "inspect/finding_text.hpp"
+#include "run/warnings.hpp"
+
+namespace lichtmc {
+
+void find_emitters(const Room& room, Inspection& facts) {
+  // Extends the advice of check_room() by a possible position.
+  const auto fault = std::find_if(facts.findings.begin(), facts.findings.end(),
+                                  [](const Finding& f) { return f.topic == "emitters"; });
+  if (room.emitters.empty() && fault != facts.findings.end()) {
+    fault->advice =
+        "Add a point or spot light or an emissive material to the room, or give --light, for example at a point inside "
+        "the room: --light point:" +
+        short_number(facts.inside.x) + "," + short_number(facts.inside.y) + "," + short_number(facts.inside.z) +
+        ":1000lm.";
+  }
+  for (const OutsideEmitter& outside : emitters_outside(room))
+    add(facts, Severity::warning, "emitters", outside.what, outside.advice);
+  Names dark;
+  for (const Emitter& emitter : room.emitters) {
+    if (emitter.power == 0.0) dark.add(in_quotes(emitter.name));
+  }
+  if (dark.count() > 0) {
+    add(facts, Severity::warning, "emitters", to_text(dark.count(), "emitter") + " with power 0: " + dark.text() + ".",
+        "Set the intensity or strength, or the custom property 'power'; or remove the emitters.");
+  }
+  const glm::dvec3 size = facts.high - facts.low;
+  const double power = total_power(room);
+  const double mean = power / (size.x * size.z);
+  if (room.quantity != Quantity::photometric || !(power > 0.0) || !std::isfinite(mean)) return;
+  // Luminous flux per floor area in lm/m²: a night light to full daylight; offices have some 10³.
+  constexpr double least = 1.0;
+  constexpr double most = 1e5;
+  if (mean >= least && mean <= most) return;
+  add(facts, Severity::warning, "emitters",
+      "The total luminous flux of the emitters is " + short_number(power) + " lm, " + short_number(mean) +
+          " lm for every square metre of floor; rooms usually have some hundreds.",
+      "Check the emitters: glTF gives the intensity of lights in cd and the luminance of emissive materials in cd/m². "
+      "The custom property 'power' gives the luminous flux in lm.");
+}
+
+void find_receivers(const Room& room, Inspection& facts) {
+  if (room.receivers.empty()) return;
+  add(facts, Severity::note, "receivers",
+      to_text(room.receivers.size(), "receiver") + ", the first is " + in_quotes(room.receivers.front().name) + ".",
+      "A run computes the irradiance of the tiles and at the receivers.");
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,38 @@
+#include "inspect/topics.hpp"
+
+#include <algorithm>
+
+#include "base/message.hpp"
+#include "inspect/finding_text.hpp"
+#include "inspect/guesses.hpp"
+
+namespace lichtmc {
+
+void find_size(const Room& /*room*/, Inspection& facts) {
+  const glm::dvec3 size = facts.high - facts.low;
+  const std::string is = "The room is " + size_text(size) + " (x, height y, z)";
+  if (const auto unit = guess_unit(size)) {
+    add(facts, Severity::warning, "size",
+        is + ", which is not plausible. In " + unit->name + " it would be " + size_text(size * unit->metres) + ".",
+        "If that is right, give --scale " + to_text(unit->metres) + ", or export the room in metres.");
+    return;
+  }
+  constexpr double smallest_room = 1.0;
+  if (std::max({size.x, size.y, size.z}) < smallest_room) {
+    add(facts, Severity::warning, "size", is + ", which is small for a room.",
+        "If the file is not in metres, give --scale the length of its unit in metres: for a given power of the "
+        "emitters, "
+        "the irradiance is proportional to 1/length².");
+    return;
+  }
+  add(facts, Severity::note, "size", is + ".",
+      "If that is wrong, give --scale the length of the file's unit in metres.");
+}
+
+void find_up_axis(const Room& /*room*/, Inspection& facts) {
+  if (!facts.probably_z_up) return;
+  add(facts, Severity::warning, "up-axis", "More area is perpendicular to Z than to Y: the room is probably Z-up.",
+      "If it is, give --up z, or export the room with Y up.");
+}
+
+}  // namespace lichtmc

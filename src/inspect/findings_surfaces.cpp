@@ -1,0 +1,80 @@
+#include "inspect/topics.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "base/message.hpp"
+#include "inspect/finding_text.hpp"
+#include "room/emitter_shape.hpp"
+
+namespace lichtmc {
+
+void find_seen_from_behind(const Room& room, Inspection& facts) {
+  constexpr double mostly = 0.5;
+  Names away;
+  for (const SurfaceFacts& surface : facts.surfaces) {
+    if (surface.sides == Sides::one && surface.seen_from_behind > mostly)
+      away.add(in_quotes(surface.name) + " (" + in_percent(surface.seen_from_behind) + ")");
+  }
+  if (away.count() > 0) {
+    add(facts, Severity::note, "behind",
+        to_text(away.count(), "surface") + " of " + std::to_string(facts.surfaces.size()) +
+            " receive most of their light on the back face: " + away.text() + ".",
+        "Nothing to do: the side that is hit reflects. Other renderers may not show these faces; there, recalculate "
+        "the "
+        "normals.");
+  }
+  for (const Emitter& emitter : room.emitters) {
+    const std::optional<std::size_t> number = emitting_surface(emitter);
+    if (!number || *number >= facts.surfaces.size()) continue;
+    const SurfaceFacts& surface = facts.surfaces[*number];
+    if (surface.sides != Sides::one || !(surface.seen_from_behind > mostly)) continue;
+    add(facts, Severity::warning, "behind",
+        "The emissive surface " + in_quotes(surface.name) +
+            " emits from its front face, but receives the light of the room on its back face: it probably emits away "
+            "from the room.",
+        "If that is wrong, flip its faces (in Blender: Mesh, Normals, Flip).");
+  }
+}
+
+void find_duplicates(const Room& /*room*/, Inspection& facts) {
+  if (facts.duplicate_triangles == 0) return;
+  add(facts, Severity::warning, "duplicates",
+      to_text(facts.duplicate_triangles, "triangle") + (facts.duplicate_triangles == 1 ? " has" : " have") +
+          " the same corners as another. Rounding decides which of the two a photon hits.",
+      "The tiles of both share the light: remove the copies (in Blender: Merge by Distance on each mesh), especially "
+      "if "
+      "their materials differ.");
+}
+
+void find_zero_area(const Room& /*room*/, Inspection& facts) {
+  if (facts.triangles_without_area == 0) return;
+  add(facts, Severity::note, "zero-area",
+      to_text(facts.triangles_without_area, "triangle") + " of " +
+          std::to_string(facts.triangles + facts.triangles_without_area) + " have no area and are left out.",
+      "Nothing to do: they receive no light.");
+}
+
+void find_reflectances(const Room& /*room*/, Inspection& facts) {
+  constexpr double doubtful = 0.95;  // reflectance of fresh snow; white paint has 0.85
+  std::map<std::string, double> high;
+  for (const SurfaceFacts& surface : facts.surfaces) {
+    if (!(surface.highest_reflectance > doubtful)) continue;
+    double& most = high[surface.material];
+    most = std::max(most, surface.highest_reflectance);
+  }
+  if (high.empty()) return;
+  Names names;
+  for (const auto& [material, reflectance] : high)
+    names.add(in_quotes(material) + " (" + short_number(reflectance) + ")");
+  add(facts, Severity::warning, "reflectance",
+      to_text(high.size(), "material") + (high.size() == 1 ? " reflects" : " reflect") +
+          " more than 95 % of the light, everywhere or in some places; hardly any real surface does: " + names.text() +
+          ".",
+      "Set the custom property 'reflectance', or give --reflectance MATERIAL=R or --max-reflectance 0.9. The "
+      "irradiance is proportional to 1/(1 − ρ) if all surfaces have the reflectance ρ: from 0.9 to 0.99 it increases "
+      "tenfold.");
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,36 @@
+// The findings of an inspection, one function per topic. Each adds to facts.findings what it has to say about the facts
+// and the room; findings.cpp has the list in which they are called.
+#pragma once
+
+#include "lichtmc/inspect.hpp"
+#include "lichtmc/room.hpp"
+
+namespace lichtmc {
+
+// findings_size.cpp
+void find_size(const Room& room, Inspection& facts);
+void find_up_axis(const Room& room, Inspection& facts);
+
+// findings_emitters.cpp
+void find_emitters(const Room& room, Inspection& facts);
+void find_receivers(const Room& room, Inspection& facts);
+
+// findings_file.cpp: contents of the file that are not modelled
+void find_not_modelled(const Room& room, Inspection& facts);
+
+// findings_openings.cpp
+void find_openings(const Room& room, Inspection& facts);
+void find_open_edges(const Room& room, Inspection& facts);
+void find_shape(const Room& room, Inspection& facts);
+
+// findings_surfaces.cpp
+void find_seen_from_behind(const Room& room, Inspection& facts);
+void find_duplicates(const Room& room, Inspection& facts);
+void find_zero_area(const Room& room, Inspection& facts);
+void find_reflectances(const Room& room, Inspection& facts);
+
+// findings_tiles.cpp
+void find_texture_coordinates(const Room& room, Inspection& facts);
+void find_tiles(const Room& room, Inspection& facts);
+
+}  // namespace lichtmc
