@@ -4,7 +4,9 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "commands.hpp"
@@ -44,12 +46,13 @@ std::string point(const glm::dvec3& p) {
   return "(" + four_digits(p.x) + ", " + four_digits(p.y) + ", " + four_digits(p.z) + ")";
 }
 
-// Materials with their reflectances and areas.
+// Materials with their reflectances, the sources of these, and areas.
 void print_materials(const Inspection& facts) {
   struct Cover {
     double low = 1.0;
     double high = 0.0;
     double area = 0.0;
+    std::set<std::string_view> sources;
   };
   std::map<std::string, Cover> covers;
   for (const SurfaceFacts& surface : facts.surfaces) {
@@ -57,13 +60,16 @@ void print_materials(const Inspection& facts) {
     cover.low = std::min(cover.low, surface.reflectance);
     cover.high = std::max(cover.high, surface.reflectance);
     cover.area += surface.area_m2;
+    cover.sources.insert(reflectance_source_word(surface.reflectance_source));
   }
-  std::cout << "\nMaterials (reflectance, area)\n";
+  std::cout << "\nMaterials (reflectance and its source, area)\n";
   for (const auto& [name, cover] : covers) {
     const bool several = four_digits(cover.low) != four_digits(cover.high);
+    std::string sources;
+    for (const std::string_view source : cover.sources) sources += (sources.empty() ? "" : ", ") + std::string(source);
     std::cout << "  " << (name.empty() ? "(no name)" : name) << ": "
-              << (several ? four_digits(cover.low) + " to " + four_digits(cover.high) : four_digits(cover.high)) << ", "
-              << four_digits(cover.area) << " m^2\n";
+              << (several ? four_digits(cover.low) + " to " + four_digits(cover.high) : four_digits(cover.high)) << " ("
+              << sources << "), " << four_digits(cover.area) << " m^2\n";
   }
 }
 

@@ -2,7 +2,9 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <new>
 #include <string>
 
 #include "commands.hpp"
@@ -110,10 +112,17 @@ Failure current_failure() {
     return {std::string(error.what()) + "\nSee lichtmc --help, or lichtmc COMMAND --help.", exit_wrong_input};
   } catch (const lichtmc::InputError& error) {
     return {error.what(), exit_wrong_input};
-  } catch (const std::exception& error) {
+  } catch (const lichtmc::Error& error) {
     return {error.what(), exit_failed};
-  } catch (...) {
-    return {"an unknown error occurred. Please report it.", exit_failed};
+  } catch (const std::bad_alloc&) {
+    return {"The memory was not sufficient. Use larger tiles or fewer threads, free some memory, or split the room.",
+            exit_failed};
+  } catch (const std::filesystem::filesystem_error& error) {
+    return {"Cannot use " + error.path1().string() + " (" + error.code().message() +
+                "). Check the path, its permissions and its disk.",
+            exit_failed};
+  } catch (...) {  // the texts of other exceptions of libraries mean nothing to a user
+    return {"An internal error occurred. Please report it together with the command and the room file.", exit_failed};
   }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -37,7 +38,8 @@ struct SurfaceFacts {
   std::string material;
   double reflectance = 0.0;          // with a reflectance map: its mean
   double highest_reflectance = 0.0;  // of any point of the surface
-  double area_m2 = 0.0;              // one side
+  ReflectanceSource reflectance_source = ReflectanceSource::given;
+  double area_m2 = 0.0;  // one side
   std::size_t triangles = 0;
   std::size_t triangles_without_area = 0;  // left out
   Sides sides = Sides::one;
@@ -48,6 +50,10 @@ struct SurfaceFacts {
   double seen_from_behind = std::numeric_limits<double>::quiet_NaN();  // share of the impacts on the back face, 0 … 1;
                                                                        // NaN without impacts
 };
+
+// The source in words, for tables and JSON: "given" (by an option or a program), "property", "base colour", "texture",
+// "vertex colours", "default (white)".
+std::string_view reflectance_source_word(ReflectanceSource source);
 
 // Light leaves the room through this side of the room's bounding box.
 struct Opening {

@@ -26,6 +26,16 @@ enum class Sides {
   both,  // front (counter-clockwise) and back have one tile map each
 };
 
+// Where the reflectance of a surface comes from.
+enum class ReflectanceSource {
+  given,           // by the program that made the room, or by set_reflectance()
+  property,        // custom property 'reflectance' of the material
+  base_colour,     // base colour factor of the material
+  texture,         // base colour texture, times the factor
+  vertex_colours,  // colours of the vertices, times factor and texture
+  default_white,   // glTF's default: no material, or a material without a base colour
+};
+
 // The continuation of a reflectance map outside of u, v = 0 … 1.
 enum class Wrap { repeat, clamp, mirror };
 
@@ -47,6 +57,7 @@ struct Surface {
   std::string material;  // for messages and tables; may be empty
   // ρ, fraction of the incident power that is reflected, 0 … 1; with a reflectance map: its mean, for tables.
   double reflectance = 0.5;
+  ReflectanceSource reflectance_source = ReflectanceSource::given;  // for messages and tables
   Sides sides = Sides::one;
   std::vector<glm::dvec3> positions;           // m, world coordinates
   std::vector<glm::dvec2> uvs;                 // texture coordinates for the tiles: one per position, or none

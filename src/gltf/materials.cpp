@@ -114,6 +114,9 @@ Material read_material(const Document& document, int index, bool by_number) {
   const std::string where = label("material", material.name, k);
   result.reflectance = read_reflectance(document, material, where);
   result.factor = base_colour_factor(material);
+  result.source = gives_reflectance(material)        ? ReflectanceSource::property
+                  : result.factor == glm::dvec3(1.0) ? ReflectanceSource::default_white
+                                                     : ReflectanceSource::base_colour;
   result.textures = read_texture_uses(document, material, where);
   if (material.pbrMetallicRoughness.baseColorTexture.index >= 0 && !gives_reflectance(material) && !by_number)
     result.base_colour = result.textures.front();

@@ -38,6 +38,7 @@ struct Emission {
 struct Material {
   std::string name;
   double reflectance = 1.0;               // uniform; used where a surface has no coordinates for `base_colour`
+  ReflectanceSource source = ReflectanceSource::default_white;  // of `reflectance`; not a texture
   std::optional<TextureUse> base_colour;  // the texture that determines ρ point by point
   glm::dvec3 factor{1.0};                 // base colour factor, linear; multiplies the texture
   std::vector<TextureUse> textures;       // all textures of the material, base colour first

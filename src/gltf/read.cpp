@@ -110,10 +110,12 @@ class RoomReader {
     surface.name = unique(name);
     surface.material = material.name;
     surface.reflectance = material.reflectance;
+    surface.reflectance_source = material.source;
     surface.sides = material.sides;
     if (material.base_colour && !surface.reflectance_uvs.empty()) {
       surface.reflectance_map = reflectance_maps_.find_or_make(material.base_colour->texture, material.factor,
                                                                "material " + in_quotes(material.name));
+      surface.reflectance_source = ReflectanceSource::texture;
     }
     room_.surfaces.push_back(std::move(surface));
     if (!material.emission) return;

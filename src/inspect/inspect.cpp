@@ -51,6 +51,7 @@ void inspect_surfaces(const Room& room, Inspection& facts) {
     one.material = surface.material;
     one.reflectance = surface.reflectance;
     one.highest_reflectance = highest.of(surface);
+    one.reflectance_source = surface.reflectance_source;
     one.area_m2 = surface_area(surface);
     one.triangles = surface.triangles.size();
     one.triangles_without_area = surface.without_area;
@@ -108,6 +109,24 @@ void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters, Inspe
 }
 
 }  // namespace
+
+std::string_view reflectance_source_word(ReflectanceSource source) {
+  switch (source) {
+    case ReflectanceSource::given:
+      return "given";
+    case ReflectanceSource::property:
+      return "property";
+    case ReflectanceSource::base_colour:
+      return "base colour";
+    case ReflectanceSource::texture:
+      return "texture";
+    case ReflectanceSource::vertex_colours:
+      return "vertex colours";
+    case ReflectanceSource::default_white:
+      break;
+  }
+  return "default (white)";
+}
 
 std::size_t Inspection::count(Severity severity) const {
   return static_cast<std::size_t>(std::count_if(

@@ -31,6 +31,7 @@ Json surfaces_of(const Inspection& inspection) {
                {"material", s.material},
                {"reflectance", number(s.reflectance)},
                {"highest_reflectance", number(s.highest_reflectance)},
+               {"reflectance_source", reflectance_source_word(s.reflectance_source)},
                {"area", number(s.area_m2)},
                {"two_sided", s.sides == Sides::both},
                {"triangles", s.triangles},

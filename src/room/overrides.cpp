@@ -34,6 +34,7 @@ void set_reflectance(Room& room, const std::string& material, double reflectance
   for (Surface& surface : room.surfaces) {
     if (surface.material != material) continue;
     surface.reflectance = reflectance;
+    surface.reflectance_source = ReflectanceSource::given;
     surface.reflectance_map.reset();
     surface.reflectance_uvs.clear();
     ++changed;
