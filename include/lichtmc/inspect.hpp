@@ -82,8 +82,8 @@ struct Inspection {
   std::uint64_t flights_that_left = 0;
   std::vector<Opening> openings;  // in descending order of `share`
 
-  std::uint64_t tiles = 0;
-  double memory_bytes = 0.0;     // estimate for the tiles of a run with one thread
+  std::uint64_t tiles = 0;       // 0 if they need more memory than there is: a fault
+  double memory_bytes = 0.0;     // estimate for the tiles of a run with two threads
   double suggested_scale = 1.0;  // factor on ReadOptions::scale; 1 if the size is plausible
   bool probably_z_up = false;    // the vertical axis of the file is probably Z
 

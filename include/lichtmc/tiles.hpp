@@ -26,7 +26,7 @@ enum class Side { front, back };
 
 enum class ChartSource {
   file,    // the surface's own UVs
-  engine,  // made by lichtmc, because the UVs are absent, degenerate, overlapping or wrapping
+  engine,  // made by lichtmc, because the UVs are absent, degenerate, overlapping, wrapping or uneven
 };
 
 // The grid of cells of one side of one surface. Row 0 lies at the smallest v, column 0 at the smallest u.

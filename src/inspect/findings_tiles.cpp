@@ -28,9 +28,10 @@ void find_tiles(const Room& /*room*/, Inspection& facts) {
   constexpr double large = 2e9;
   add(facts, facts.memory_bytes > large ? Severity::warning : Severity::note, "tiles",
       to_text(static_cast<std::size_t>(facts.tiles), "tile") + ", about " + short_number(facts.memory_bytes / 1e6) +
-          " MB of memory per thread.",
-      facts.memory_bytes > large ? "Give --tile a greater length, or use fewer --threads."
-                                 : "Nothing to do; --tile changes the edge of a tile.");
+          " MB of memory for a run of two threads.",
+      facts.memory_bytes > large
+          ? "Give --tile a greater length. Each thread beyond two (--threads) needs up to a quarter more."
+          : "Nothing to do; --tile changes the edge of a tile.");
 }
 
 }  // namespace lichtmc

@@ -74,10 +74,13 @@ void inspect_tiles(const Tiling& tiling, double tile_edge_m, Inspection& facts) 
   facts.memory_bytes = memory_needed(tiling);
 }
 
-// The tiles with this edge. If they need too much memory, adds a fault and returns one tile per surface, for the rays.
+// The tiles with this edge, and what there is to say of them. If they need too much memory, adds a fault, says nothing
+// of tiles, and returns one tile per surface, for the rays.
 Tiling tiling_within_memory(const Room& room, double tile_edge_m, Inspection& facts) {
   try {
-    return make_tiling(room, tile_edge_m);
+    Tiling tiling = make_tiling(room, tile_edge_m);
+    inspect_tiles(tiling, tile_edge_m, facts);
+    return tiling;
   } catch (const InputError& fault) {
     if (!(tile_edge_m > 0.0) || !std::isfinite(tile_edge_m)) throw;
     add_fault(fault.what(), "tiles", facts.findings);
@@ -156,8 +159,9 @@ Inspection inspect_with(const Room& room, const Tiling* tiling, double tile_edge
   if (tiling == nullptr) {
     made = tiling_within_memory(room, tile_edge_m, facts);
     tiling = &made;
+  } else {
+    inspect_tiles(*tiling, tile_edge_m, facts);
   }
-  inspect_tiles(*tiling, tile_edge_m, facts);
   trace_rays(room, *tiling, own_emitters, facts);
   add_findings(room, facts);
   std::stable_sort(facts.findings.begin(), facts.findings.end(),

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 #include <tuple>
+
+#include "room/sort_in_groups.hpp"
 
 namespace lichtmc {
 
@@ -19,22 +20,31 @@ struct Edge {
   std::uint32_t number = 0;  // 0 … 2
 };
 
-// A number for every position: equal coordinates give equal numbers. The bits of the coordinates are compared, after −0
-// has become +0, because they order all values.
+using Bits = std::array<std::uint64_t, 3>;
+
+// −0 becomes +0, so that equal coordinates have equal bits.
+Bits bits_of(const glm::dvec3& position) {
+  const glm::dvec3 p = position + 0.0;
+  return {std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y), std::bit_cast<std::uint64_t>(p.z)};
+}
+
+// A number for every position: equal coordinates give equal numbers.
 std::vector<std::uint32_t> places(const Surface& surface) {
-  const auto key = [&surface](std::uint32_t n) {
-    const glm::dvec3 p = surface.positions[n] + 0.0;
-    return std::tuple(std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y),
-                      std::bit_cast<std::uint64_t>(p.z));
-  };
-  std::vector<std::uint32_t> order(surface.positions.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&key](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  std::vector<std::uint32_t> place(order.size());
-  std::uint32_t number = 0;
-  for (std::size_t n = 0; n < order.size(); ++n) {
-    if (n > 0 && key(order[n]) != key(order[n - 1])) ++number;
-    place[order[n]] = number;
+  constexpr std::uint32_t none = 0xFFFFFFFF;
+  const std::size_t count = surface.positions.size();
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * count + 1), none);  // by hash: the first position with its bits
+  std::vector<std::uint32_t> place(count);
+  for (std::uint32_t n = 0; n < count; ++n) {
+    const Bits bits = bits_of(surface.positions[n]);
+    std::uint64_t hash = 0;
+    for (const std::uint64_t part : bits) {
+      hash = (hash ^ part) * 0x9E3779B97F4A7C15U;  // 2⁶⁴ over the golden ratio
+      hash ^= hash >> 32U;
+    }
+    std::size_t at = hash & (table.size() - 1);
+    while (table[at] != none && bits_of(surface.positions[table[at]]) != bits) at = (at + 1) & (table.size() - 1);
+    if (table[at] == none) table[at] = n;
+    place[n] = table[at];
   }
   return place;
 }
@@ -52,9 +62,9 @@ std::vector<Edge> sorted_edges(const Surface& surface) {
       edges.push_back({low, high, k, n});
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
+  sort_in_groups(
+      edges, place.size(), [](const Edge& edge) { return edge.low; },
+      [](const Edge& a, const Edge& b) { return std::tie(a.high, a.triangle) < std::tie(b.high, b.triangle); });
   return edges;
 }
 

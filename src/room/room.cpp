@@ -44,10 +44,10 @@ void check_map(const Room& room, const ReflectanceMap& map) {
            "columns times rows, " + std::to_string(map.columns) + " × " + std::to_string(map.rows) + ", at least one",
            "Give one for each place.");
   }
-  for (const float value : map.values) {
-    require(value >= 0.0F && value <= 1.0F, room, "value " + of, double{value}, "0 to 1",
-            "Give the fraction of the flux that is reflected.");
-  }
+  const auto wrong =
+      std::find_if(map.values.begin(), map.values.end(), [](float value) { return !(value >= 0.0F && value <= 1.0F); });
+  if (wrong == map.values.end()) return;
+  refuse(room, "value " + of, to_text(double{*wrong}), "0 to 1", "Give the fraction of the flux that is reflected.");
 }
 
 void check_surface_map(const Room& room, const Surface& surface, const std::string& of) {

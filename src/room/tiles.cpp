@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <unistd.h>
-
 #include <glm/geometric.hpp>
 
 #include "base/memory.hpp"
@@ -50,7 +48,8 @@ double cell_count(const Surface& surface, const Chart& chart) {
   return chart.cells.x * chart.cells.y * (surface.sides == Sides::both ? 2.0 : 1.0);
 }
 
-void check_cells(const Room& room, const std::vector<Chart>& charts, double edge_m) {
+// The number of cells of all tile maps, which memory must hold.
+double check_cells(const Room& room, const std::vector<Chart>& charts, double edge_m) {
   double total = 0.0;
   double most = 0.0;
   std::size_t worst = 0;
@@ -62,15 +61,18 @@ void check_cells(const Room& room, const std::vector<Chart>& charts, double edge
     worst = k;
   }
   const double allowed = std::min(most_cells, std::floor(memory_limit() / bytes_per_cell));
-  if (total <= allowed) return;
+  if (total <= allowed) return total;
+  const double area_m2 = surface_area(room.surfaces[worst]);
   // Two digits, rounded up.
   const double exact = edge_m * std::sqrt(total / allowed);
   const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 1.0);
   const double enough = std::ceil(exact / digit * 1.001) * digit;
-  throw InputError("Tiles of " + to_text(edge_m) + " m divide the room into " + to_text(total) +
-                   " cells (allowed: " + to_text(allowed) + ", what memory holds), " + to_text(most) +
-                   " of them on the surface " + in_quotes(room.surfaces[worst].name) + ". Give --tile " +
-                   to_text(enough) + " or more, or check that the room's coordinates are metres.");
+  throw InputError("Tiles of " + to_text(edge_m) + " m divide the room into " + to_text(total) + " cells, " +
+                   to_text(most) + " of them on the surface " + in_quotes(room.surfaces[worst].name) + " of " +
+                   short_number(area_m2) + " m^2, " + short_number(most * edge_m * edge_m / area_m2) +
+                   " for each tile of that area (allowed: " + to_text(allowed) +
+                   " cells, what memory holds). Give --tile " + to_text(enough) +
+                   " or more; if the area is wrong, give --scale the length of the file's unit in metres.");
 }
 
 // Fills one tile map.
@@ -147,7 +149,6 @@ void TileMapBuilder::add(std::size_t triangle, double area_m2, const std::array<
 }
 
 void TileMapBuilder::finish(std::uint32_t tile_map_index, std::vector<Tile>& tiles) {
-  tiles.reserve(tiles.size() + drafts_.size());
   for (std::uint32_t& number : tile_map_.tile_of_cell) {
     if (number == no_tile) continue;
     const Draft& draft = drafts_[number];
@@ -184,7 +185,6 @@ void add_back(Tiling& tiling, std::size_t first_tile) {
   for (std::uint32_t& tile : back.tile_of_cell) {
     if (tile != no_tile) tile += static_cast<std::uint32_t>(count);
   }
-  tiling.tiles.reserve(tiling.tiles.size() + count);
   for (std::size_t n = 0; n < count; ++n) {
     tiling.tiles.push_back(tiling.tiles[first_tile + n]);
     tiling.tiles.back().map = static_cast<std::uint32_t>(tiling.maps.size());
@@ -211,9 +211,11 @@ Tiling make_tiling(const Room& room, double edge_m) {
     shapes.push_back(triangle_shapes(surface));
     charts.push_back(make_chart(surface, shapes.back(), edge_m));
   }
-  check_cells(room, charts, edge_m);
+  const double cells = check_cells(room, charts, edge_m);
 
   Tiling tiling;
+  // A cell is a tile at most. The pages that empty cells would fill are never touched.
+  tiling.tiles.reserve(static_cast<std::size_t>(cells));
   for (std::size_t k = 0; k < charts.size(); ++k) {
     const Surface& surface = room.surfaces[k];
     const std::size_t first_tile = tiling.tiles.size();

@@ -23,9 +23,21 @@ constexpr double wrap_tolerance = 1e-6;
 // precisely.
 constexpr double collapsed_share = 1e-6;
 
+// A grid on the file's UVs may have this many times the cells that the surface's area needs. Blender's default cube,
+// scaled to a board, needs 6 (two faces of 1/16 each of a rectangle of 12/16); good unwraps need 1.1 to 4. Charts made
+// by lichtmc need 1 to 2.3, so a layout that needs more than this wastes most of its cells, or makes most of its tiles
+// far smaller than was asked for.
+constexpr double most_cells_over_area = 10.0;
+
 FlatTriangle uv_corners(const Surface& surface, std::size_t triangle) {
   const glm::uvec3 corner = surface.triangles[triangle];
   return {surface.uvs[corner.x], surface.uvs[corner.y], surface.uvs[corner.z]};
+}
+
+double doubled_area(const FlatTriangle& t) {
+  const glm::dvec2 b = t[1] - t[0];
+  const glm::dvec2 c = t[2] - t[0];
+  return b.x * c.y - b.y * c.x;
 }
 
 struct Rectangle {
@@ -130,20 +142,51 @@ glm::dvec2 mean_square_stretch(const Surface& surface, const std::vector<Triangl
   return sum / area;
 }
 
+// The chart's lengths along u and v, in metres.
+glm::dvec2 lengths_m(const Surface& surface, const std::vector<TriangleShape>& shapes, const Rectangle& bounds,
+                     double noise) {
+  return (bounds.high - bounds.low) * glm::sqrt(mean_square_stretch(surface, shapes, noise));
+}
+
+// Whether a grid on the UVs would need far more cells than the area does: where the scale is uneven, because the mean
+// square of the stretch belongs to the coarse parts and the fine ones get tiles far smaller than asked for; where the
+// UVs fill little of their rectangle, because most cells are empty. It does not depend on the edge of a tile.
+std::string spread(const Surface& surface, const std::vector<TriangleShape>& shapes, const Rectangle& bounds,
+                   double noise) {
+  double area_m2 = 0.0;
+  double uv_area = 0.0;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    if (!(shapes[k].area_m2 > 0.0)) continue;
+    area_m2 += shapes[k].area_m2;
+    uv_area += 0.5 * std::abs(doubled_area(uv_corners(surface, k)));
+  }
+  const glm::dvec2 length_m = lengths_m(surface, shapes, bounds, noise);
+  const double cells_over_area = length_m.x * length_m.y / area_m2;
+  if (!(cells_over_area > most_cells_over_area)) return {};
+  const glm::dvec2 size = bounds.high - bounds.low;
+  const double empty = size.x * size.y / uv_area;  // the factor that empty cells contribute; the scale has the rest
+  const std::string needs = "a grid on them would have " + short_number(cells_over_area) +
+                            " times the cells of its area; allowed: " + short_number(most_cells_over_area) + ")";
+  if (empty * empty > cells_over_area) return "its UVs fill little of their rectangle (" + needs;
+  return "the scale of its UVs is uneven (" + needs;
+}
+
 }  // namespace
 
 std::string uv_fault(const Surface& surface, const std::vector<TriangleShape>& shapes) {
   if (surface.uvs.empty() || surface.uvs.size() != surface.positions.size()) return "it has no UVs";
   if (std::string fault = wrapping(surface, shapes); !fault.empty()) return fault;
-  const double noise = uv_noise(uv_bounds(surface, shapes));
+  const Rectangle bounds = uv_bounds(surface, shapes);
+  const double noise = uv_noise(bounds);
   if (std::string fault = collapsed(surface, shapes, noise); !fault.empty()) return fault;
+  if (std::string fault = spread(surface, shapes, bounds, noise); !fault.empty()) return fault;
   return overlapping(surface, shapes, noise);
 }
 
 Chart make_uv_chart(const Surface& surface, const std::vector<TriangleShape>& shapes, double edge_m) {
   const Rectangle bounds = uv_bounds(surface, shapes);
   const double noise = uv_noise(bounds);
-  const glm::dvec2 length_m = (bounds.high - bounds.low) * glm::sqrt(mean_square_stretch(surface, shapes, noise));
+  const glm::dvec2 length_m = lengths_m(surface, shapes, bounds, noise);
   Chart chart;
   chart.cells = {cells_along(length_m.x, edge_m), cells_along(length_m.y, edge_m)};
   chart.uv_min = bounds.low;

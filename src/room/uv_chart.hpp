@@ -10,9 +10,10 @@
 
 namespace lichtmc {
 
-// Why a surface's UVs do not distinguish its points, as the part of a sentence after "because": "it has no UVs", "its
-// UVs wrap …", "its UVs are degenerate …", "its UVs overlap …". Empty if the UVs can be used. Triangles without area
-// are ignored.
+// Why a surface's UVs do not distinguish its points, or would need far more cells than its area does, as the part of a
+// sentence after "because": "it has no UVs", "its UVs wrap …", "its UVs are degenerate …", "the scale of its UVs is
+// uneven …", "its UVs fill little of their rectangle …", "its UVs overlap …". Empty if the UVs can be used. Triangles
+// without area are ignored.
 std::string uv_fault(const Surface& surface, const std::vector<TriangleShape>& shapes);
 
 // The chart of a surface without a uv_fault(): the grid spans the bounds of its UVs, and the number of cells along a

@@ -1,53 +1,78 @@
 #include "room/welded_mesh.hpp"
 
 #include <algorithm>
-#include <unordered_map>
+#include <bit>
+#include <cmath>
+#include <functional>
 #include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "room/bounds.hpp"
+#include "room/sort_in_groups.hpp"
 
 namespace lichtmc {
 
 namespace {
 
-// Gives positions within a distance of each other the same number.
+// Gives positions within a distance of each other the same number: that of the first of them.
 class Welder {
  public:
-  Welder(const glm::dvec3& low, double distance, std::vector<glm::dvec3>& places)
-      : low_(low), distance_(distance), places_(places) {}
+  Welder(const glm::dvec3& low, double distance, std::size_t positions, std::vector<glm::dvec3>& places)
+      : low_(low), distance_(distance), places_(places), first_(std::bit_ceil(2 * positions + 1), none) {}
 
   std::uint32_t number(const glm::dvec3& position) {
-    const glm::dvec3 cell = glm::floor((position - low_) / distance_);
-    for (int i = -1; i <= 1; ++i) {
-      for (int j = -1; j <= 1; ++j) {
-        for (int k = -1; k <= 1; ++k) {
-          const auto range = cells_.equal_range(key(cell + glm::dvec3(i, j, k)));
-          for (auto entry = range.first; entry != range.second; ++entry) {
-            if (glm::length(places_[entry->second] - position) <= distance_) return entry->second;
-          }
-        }
+    const glm::dvec3 at = (position - low_) / (cell_size * distance_);
+    // The cells that a place within the distance can lie in: most often one. The step is a little longer than the
+    // distance, for rounding.
+    constexpr double step = 1.001 / cell_size;
+    const Cell from = cell_of(at - step);
+    const Cell to = cell_of(at + step);
+    std::uint32_t found = none;
+    for (std::int64_t x = from[0]; x <= to[0]; ++x) {
+      for (std::int64_t y = from[1]; y <= to[1]; ++y) {
+        for (std::int64_t z = from[2]; z <= to[2]; ++z) found = std::min(found, nearby(bucket_of({x, y, z}), position));
       }
     }
+    if (found != none) return found;
     const auto fresh = static_cast<std::uint32_t>(places_.size());
+    std::uint32_t& first = first_[bucket_of(cell_of(at))];
     places_.push_back(position);
-    cells_.emplace(key(cell), fresh);
+    next_.push_back(first);
+    first = fresh;
     return fresh;
   }
 
  private:
-  // A hash of the cell's coordinates, which are below 10⁶ + 2 in size; equal hashes of different cells cost only time.
-  static std::uint64_t key(const glm::dvec3& cell) {
-    const auto part = [](double c) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(c) + 2); };
-    return part(cell.x) | part(cell.y) << 21 | part(cell.z) << 42;
+  using Cell = std::array<std::int64_t, 3>;
+  static constexpr std::uint32_t none = 0xFFFFFFFF;
+  static constexpr double cell_size = 16.0;  // distances
+
+  static Cell cell_of(const glm::dvec3& at) {
+    const auto part = [](double c) { return static_cast<std::int64_t>(std::floor(c)); };
+    return {part(at.x), part(at.y), part(at.z)};
+  }
+  // Cells share buckets by chance, which costs time only: distances decide. The factor spreads neighbours (2⁶⁴ over the
+  // golden ratio).
+  std::size_t bucket_of(const Cell& cell) const {
+    std::uint64_t hash = 0;
+    for (const std::int64_t part : cell) hash = (hash ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15U;
+    return (hash >> 32U) & (first_.size() - 1);
+  }
+  std::uint32_t nearby(std::size_t bucket, const glm::dvec3& position) const {
+    std::uint32_t found = none;
+    for (std::uint32_t n = first_[bucket]; n != none; n = next_[n]) {
+      if (glm::length(places_[n] - position) <= distance_) found = std::min(found, n);
+    }
+    return found;
   }
 
   glm::dvec3 low_;
   double distance_;
   std::vector<glm::dvec3>& places_;
-  std::unordered_multimap<std::uint64_t, std::uint32_t> cells_;
+  std::vector<std::uint32_t> first_;  // place of each bucket, the newest
+  std::vector<std::uint32_t> next_;   // in the bucket of each place
 };
 
 bool has_three_corners(const WeldedMesh::Triangle& t) {
@@ -55,7 +80,7 @@ bool has_three_corners(const WeldedMesh::Triangle& t) {
 }
 
 // Keeps one of several triangles with the same corners; the others get three equal corners.
-std::vector<std::size_t> drop_copies(std::vector<WeldedMesh::Triangle>& triangles) {
+std::vector<std::size_t> drop_copies(std::vector<WeldedMesh::Triangle>& triangles, std::size_t places) {
   std::vector<std::pair<WeldedMesh::Triangle, std::size_t>> order;
   order.reserve(triangles.size());
   for (std::size_t n = 0; n < triangles.size(); ++n) {
@@ -63,7 +88,8 @@ std::vector<std::size_t> drop_copies(std::vector<WeldedMesh::Triangle>& triangle
     order.emplace_back(triangles[n], n);
     std::sort(order.back().first.begin(), order.back().first.end());
   }
-  std::sort(order.begin(), order.end());
+  sort_in_groups(
+      order, places, [](const auto& one) { return one.first[0]; }, std::less<>());
   std::vector<std::size_t> copies;
   for (std::size_t i = 1; i < order.size(); ++i) {
     if (order[i].first != order[i - 1].first) continue;
@@ -74,7 +100,7 @@ std::vector<std::size_t> drop_copies(std::vector<WeldedMesh::Triangle>& triangle
   return copies;
 }
 
-std::vector<WeldedEdge> sorted_edges(const std::vector<WeldedMesh::Triangle>& triangles) {
+std::vector<WeldedEdge> sorted_edges(const std::vector<WeldedMesh::Triangle>& triangles, std::size_t places) {
   std::vector<WeldedEdge> edges;
   edges.reserve(3 * triangles.size());
   for (std::size_t n = 0; n < triangles.size(); ++n) {
@@ -83,8 +109,11 @@ std::vector<WeldedEdge> sorted_edges(const std::vector<WeldedMesh::Triangle>& tr
     for (std::size_t k = 0; k < 3; ++k)
       edges.push_back({std::min(c[k], c[(k + 1) % 3]), std::max(c[k], c[(k + 1) % 3]), n});
   }
-  std::sort(edges.begin(), edges.end(),
-            [](const WeldedEdge& a, const WeldedEdge& b) { return std::pair(a.from, a.to) < std::pair(b.from, b.to); });
+  sort_in_groups(
+      edges, places, [](const WeldedEdge& edge) { return edge.from; },
+      [](const WeldedEdge& a, const WeldedEdge& b) {
+        return std::pair(a.to, a.triangle) < std::pair(b.to, b.triangle);
+      });
   return edges;
 }
 
@@ -101,7 +130,9 @@ WeldedMesh::WeldedMesh(const Room& room) {
   const double distance = 1e-6 * std::max({size.x, size.y, size.z});
   if (corners_.empty() || !(distance > 0.0)) return;
 
-  Welder welder(bounds.low, distance, places_);
+  std::size_t positions = 0;
+  for (const Surface& surface : room.surfaces) positions += surface.positions.size();
+  Welder welder(bounds.low, distance, positions, places_);
   std::size_t n = 0;
   std::vector<std::uint32_t> numbers;  // of a surface's positions, which triangles share
   constexpr std::uint32_t none = 0xFFFFFFFF;
@@ -116,8 +147,8 @@ WeldedMesh::WeldedMesh(const Room& room) {
       ++n;
     }
   }
-  copies_ = drop_copies(triangles_);
-  edges_ = sorted_edges(triangles_);
+  copies_ = drop_copies(triangles_, places_.size());
+  edges_ = sorted_edges(triangles_, places_.size());
 }
 
 }  // namespace lichtmc

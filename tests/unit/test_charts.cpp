@@ -118,6 +118,46 @@ TEST_CASE("UVs that cannot be used are refused with the reason") {
   }
 }
 
+namespace {
+
+// Squares of these edges (m) in a row, each with the square of texture coordinates from `low` to `high`.
+struct SquareInUv {
+  double edge_m = 1.0;
+  glm::dvec2 low{0.0};
+  glm::dvec2 high{1.0};
+};
+
+Surface squares(const std::vector<SquareInUv>& list) {
+  Surface surface;
+  double x = 0.0;
+  for (const SquareInUv& one : list) {
+    const std::size_t first = surface.positions.size();
+    add_quad(surface, {x, 0.0, 0.0}, {one.edge_m, 0.0, 0.0}, {0.0, 0.0, one.edge_m});
+    for (std::size_t n = first; n < surface.positions.size(); ++n) {
+      const glm::dvec2 share((surface.positions[n].x - x) / one.edge_m, surface.positions[n].z / one.edge_m);
+      surface.uvs.push_back(one.low + share * (one.high - one.low));
+    }
+    x += 2.0 * one.edge_m;
+  }
+  return surface;
+}
+
+}  // namespace
+
+TEST_CASE("UVs that would need more than ten times the cells of the area are refused with the reason") {
+  // A wall of 3 m at 15 m for each unit of u and v, a poster of 0.1 m that takes half of the square: 15² = 225 m² of
+  // cells for 9.01 m².
+  CHECK_THAT(fault_of(squares({{3.0, {0.0, 0.0}, {0.2, 0.2}}, {0.1, {0.3, 0.3}, {1.0, 1.0}}})),
+             ContainsSubstring("the scale of its UVs is uneven (a grid on them would have 25 times the cells"));
+  // The other way round, the scale of the wall is that of nearly all area: (3/0.7)² m² over the square of 0.7 + 0.3.
+  CHECK(fault_of(squares({{3.0, {0.3, 0.3}, {1.0, 1.0}}, {0.1, {0.0, 0.0}, {0.02, 0.02}}})).empty());
+  // Two squares in opposite corners of the square: 10² m² for 2 m², at an even scale.
+  CHECK_THAT(fault_of(squares({{1.0, {0.0, 0.0}, {0.1, 0.1}}, {1.0, {0.9, 0.9}, {1.0, 1.0}}})),
+             ContainsSubstring("its UVs fill little of their rectangle (a grid on them would have 50 times the cells"));
+  // A board with the unwrap of Blender's default cube: 12 m² for 2 m².
+  CHECK(fault_of(squares({{1.0, {0.0, 0.0}, {0.25, 0.25}}, {1.0, {0.5, 0.75}, {0.75, 1.0}}})).empty());
+}
+
 TEST_CASE("triangles without area do not count in the test of the UVs") {
   Surface surface = make_floor(4.0, 3.0, 2);
   add_triangle(surface, {1.0, 0.0, 1.0}, {2.0, 0.0, 2.0}, {3.0, 0.0, 3.0});

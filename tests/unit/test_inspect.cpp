@@ -100,7 +100,10 @@ TEST_CASE("conditions that would prevent a simulation are faults") {
   room = office();
   room.emitters[0].power = std::nan("");
   CHECK(find(inspect(room), "emitters", Severity::fault) != nullptr);
-  CHECK(find(inspect(office(), 1e-6), "tiles", Severity::fault) != nullptr);
+  facts = inspect(office(), 1e-6);
+  CHECK(find(facts, "tiles", Severity::fault) != nullptr);
+  CHECK(find(facts, "tiles", Severity::note) == nullptr);  // nothing is said of tiles that there are not
+  CHECK(facts.tiles == 0);
 
   room = office();
   room.surfaces[0].reflectance = 2.0;

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "lichtmc/error.hpp"
@@ -297,7 +298,7 @@ TEST_CASE("too many cells are refused before memory is allocated") {
   small.name = "small";
   Surface large = make_box({1000.0, 500.0, 800.0});
   const Room room = room_of({small, large});
-  CHECK_THROWS_WITH(make_tiling(room, 1e-3), ContainsSubstring("on the surface 'box'"));
+  CHECK_THROWS_WITH(make_tiling(room, 1e-3), ContainsSubstring("on the surface 'box' of 3.4e+06 m^2, 1 for each tile"));
   CHECK_THROWS_WITH(make_tiling(room, 1e-3), ContainsSubstring("memory holds"));
   // Numbers of cells beyond the range of integers and doubles.
   for (const double edge : {1e-9, 1e-300, std::numeric_limits<double>::denorm_min()}) {
@@ -307,6 +308,28 @@ TEST_CASE("too many cells are refused before memory is allocated") {
   Surface both = make_floor(1.0, 1.0);
   both.sides = Sides::both;
   CHECK_THROWS_AS(make_tiling(room_of({both}), 1.0 / 40000.0), InputError);
+}
+
+TEST_CASE("the tiles of thousands of surfaces are made in a short time") {
+  std::vector<Surface> surfaces;
+  for (int k = 0; k < 4000; ++k) {
+    surfaces.push_back(make_floor(1.0, 1.0));
+    surfaces.back().name = "floor " + std::to_string(k);
+    surfaces.back().sides = k % 2 == 0 ? Sides::one : Sides::both;
+  }
+  CHECK(make_tiling(room_of(surfaces), 0.1).tiles.size() == 600'000);
+}
+
+TEST_CASE("a poster that fills the atlas does not divide the room into its own tiles") {
+  Surface surface;  // 9 m² in a fifth of the square each way, 0.01 m² in the rest
+  add_quad(surface, {0.0, 0.0, 0.0}, {3.0, 0.0, 0.0}, {0.0, 0.0, 3.0});
+  add_quad(surface, {4.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.0, 0.1});
+  for (const glm::dvec3& p : surface.positions)
+    surface.uvs.push_back(p.x <= 3.0 ? glm::dvec2(p.x, p.z) / 15.0 : 0.3 + glm::dvec2(p.x - 4.0, p.z) * 7.0);
+  const Tiling tiling = make_tiling(room_of({surface}), 0.1);
+  CHECK(tiling.tiles.size() == 901);  // 22 500 cells with the file's UVs, 11 025 of them on the poster
+  CHECK(tiling.maps[0].chart == ChartSource::engine);
+  CHECK_THAT(tiling.maps[0].chart_reason, ContainsSubstring("uneven"));
 }
 
 TEST_CASE("an empty cell belongs to the nearest tile") {
