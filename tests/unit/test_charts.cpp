@@ -148,7 +148,7 @@ TEST_CASE("UVs that would need more than ten times the cells of the area are ref
   // A wall of 3 m at 15 m for each unit of u and v, a poster of 0.1 m that takes half of the square: 15² = 225 m² of
   // cells for 9.01 m².
   CHECK_THAT(fault_of(squares({{3.0, {0.0, 0.0}, {0.2, 0.2}}, {0.1, {0.3, 0.3}, {1.0, 1.0}}})),
-             ContainsSubstring("the scale of its UVs is uneven (a grid on them would have 25 times the cells"));
+             ContainsSubstring("the scale of its UVs is uneven (a grid on them would have 24.9 times the cells"));
   // The other way round, the scale of the wall is that of nearly all area: (3/0.7)² m² over the square of 0.7 + 0.3.
   CHECK(fault_of(squares({{3.0, {0.3, 0.3}, {1.0, 1.0}}, {0.1, {0.0, 0.0}, {0.02, 0.02}}})).empty());
   // Two squares in opposite corners of the square: 10² m² for 2 m², at an even scale.
