@@ -52,6 +52,10 @@ struct SurfaceResult {
   double behind_share = 0.0;    // fraction of the power on the back, 0 … 1 (0 or 1 if each side has a tile map)
   std::uint64_t hits = 0;
   double mean_direct = std::numeric_limits<double>::quiet_NaN();  // as TileResult::direct
+  // Absorbed power in W or lm: the incident power times (1 − reflectance). In a forward walk through a room with
+  // reflectance maps it is counted photon by photon, and adds up to Balance::absorbed. NaN (unknown) for a surface with
+  // a reflectance map in backward walks.
+  double absorbed = std::numeric_limits<double>::quiet_NaN();
 };
 
 // One receiver.

@@ -146,8 +146,14 @@ std::string balance_section(const Result& result) {
   constexpr std::size_t max_surfaces = 8;
   constexpr const char* absorbed = "#0072B2";
   std::vector<Share> shares;
-  for (const SurfaceResult& s : result.surfaces)
-    shares.push_back({"absorbed by " + s.name, s.power * (1.0 - s.reflectance), absorbed});
+  std::size_t unknown = 0;
+  for (const SurfaceResult& s : result.surfaces) {
+    if (std::isnan(s.absorbed)) {
+      ++unknown;
+    } else {
+      shares.push_back({"absorbed by " + s.name, s.absorbed, absorbed});
+    }
+  }
   std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& c) { return a.power > c.power; });
   if (shares.size() > max_surfaces) {
     Share others{"absorbed by " + to_text(shares.size() - max_surfaces + 1, "other surface"), 0.0, "#56B4E9"};
@@ -157,7 +163,10 @@ std::string balance_section(const Result& result) {
   }
   std::string note =
       "The power that a surface absorbs is its incident power times (1 − reflectance); its relative standard error is "
-      "that of the mean in the table of the surfaces.";
+      "that of the mean in the table of the surfaces. In rooms with textures it is counted photon by photon.";
+  if (unknown > 0)
+    note += " Backward walks do not determine the power that " + to_text(unknown, "surface") +
+            " with a texture absorb" + (unknown == 1 ? "s." : ".");
   if (std::isfinite(b.absorbed)) {
     if (b.escaped > 0.0) shares.push_back({"escaped through openings", b.escaped, "#E69F00"});
     if (b.residual != 0.0) shares.push_back({"cut off, or net effect of roulette", b.residual, "#CC79A7"});

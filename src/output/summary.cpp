@@ -34,6 +34,7 @@ Json surfaces_of(const Result& result) {
                {"standard_error", number(s.standard_error)},
                {"direct", number(s.mean_direct)},
                {"power", number(s.power)},
+               {"absorbed", number(s.absorbed)},
                {"behind_share", number(s.behind_share)},
                {"hits", s.hits},
                {"file", "tiles/" + files[m]}};

@@ -51,6 +51,12 @@ void ForwardWork::check_totals(const Counted& stored) const {
                      std::to_string(tiling.tiles.size()) +
                      " (allowed: the same number). The state does not belong to this room; start a new run.");
   }
+  if (context_.scene.has_reflectance_maps() == totals.absorbed_by.empty()) {
+    throw InputError(
+        std::string("The state has ") + (totals.absorbed_by.empty() ? "no absorbed power" : "absorbed power") +
+        " of each surface (allowed: it exists exactly if the room has textures). The state does not belong "
+        "to this room; start a new run.");
+  }
   const bool hits_apart = score_law(settings_.estimator, context_.scene.has_reflectance_maps()).hits == Hits::apart;
   if (hits_apart == totals.hits.empty()) {
     throw InputError(std::string("The state counts hits ") + (hits_apart ? "as" : "apart from") +

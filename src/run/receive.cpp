@@ -78,6 +78,8 @@ std::vector<SurfaceResult> surfaces_of(const Room& room, const Tiling& tiling, c
     surface.mean_irradiance = surface.power / surface.area_m2;
     surface.standard_error /= surface.area_m2;
     if (surface.power > 0.0) surface.behind_share = behind[m] / surface.power;
+    if (!room.surfaces[tiling.maps[m].surface].reflectance_map)
+      surface.absorbed = surface.power * (1.0 - surface.reflectance);
   }
   return results;
 }

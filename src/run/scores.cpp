@@ -73,6 +73,7 @@ std::vector<SurfaceResult> Scores::surfaces(const Totals& totals, const std::vec
   for (std::size_t m = 0; m < results.size(); ++m) {
     SurfaceResult& result = results[m];
     const std::size_t surface = tiling_->maps[m].surface;
+    result.absorbed = 0.0;
     if (!(result.area_m2 > 0.0)) continue;
     double behind = 0.0;
     if (result.hits == 0) {
@@ -89,12 +90,19 @@ std::vector<SurfaceResult> Scores::surfaces(const Totals& totals, const std::vec
     result.standard_error = std::hypot(result.standard_error, direct.standard_error / result.area_m2);
     result.mean_irradiance = result.power / result.area_m2;
     if (result.power > 0.0) result.behind_share = behind / result.power;
+    // With a reflectance map the power that arrives says nothing about the share that is absorbed.
+    result.absorbed = totals.absorbed_by.empty() ? result.power * (1.0 - room_->surfaces[surface].reflectance)
+                                                 : power_per_unit(totals) * static_cast<double>(totals.absorbed_by[m]);
   }
   return results;
 }
 
+double Scores::power_per_unit(const Totals& totals) const {
+  return power_ * law_.unit / static_cast<double>(totals.histories);
+}
+
 Balance Scores::balance(const Totals& totals) const {
-  const double per_unit = power_ * law_.unit / static_cast<double>(totals.histories);
+  const double per_unit = power_per_unit(totals);
   Balance balance;
   balance.emitted = power_;
   balance.absorbed = per_unit * static_cast<double>(totals.ends.absorbed);

@@ -34,6 +34,7 @@ class Scores {
     double standard_error = 0.0;
   };
   Estimate counted(const Totals& totals) const;
+  double power_per_unit(const Totals& totals) const;
   double power_of_no_hit(std::size_t surface, std::uint64_t histories) const;
   Estimate incident_power(const Moments& moments, std::size_t surface, std::uint64_t histories) const;
 

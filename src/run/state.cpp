@@ -233,7 +233,7 @@ class Merger {
       check_same_walk(*sum.photons, *counted, k);
       const Totals& more = *counted->totals;
       if (totals->tiles.size() != more.tiles.size() || totals->tile_maps.size() != more.tile_maps.size() ||
-          totals->hits.size() != more.hits.size())
+          totals->hits.size() != more.hits.size() || totals->absorbed_by.size() != more.absorbed_by.size())
         refuse(k, "have different numbers of tiles");
       totals->add(more);
     }

@@ -20,12 +20,13 @@ WorkerThreads::WorkerThreads(const Scene& scene, const Settings& settings, const
                              unsigned threads)
     : scene_(&scene),
       hits_(score_law(settings.estimator, scene.has_reflectance_maps()).hits),
+      absorption_(scene.has_reflectance_maps() ? Absorption::counted : Absorption::by_reflectance),
       communicator_(control.communicator),
       watch_(&watch),
       reporter_(control, watch, Progress::Stage::tiles, settings.photons),
       range_{settings.first_history, settings.first_history},
       round_(std::uint64_t{4} * threads * size_of(communicator_)),
-      whole_(std::make_shared<Totals>(scene.first_tile.back(), scene.first_tile.size() - 1, hits_)) {
+      whole_(std::make_shared<Totals>(scene.first_tile.back(), scene.first_tile.size() - 1, hits_, absorption_)) {
   for (unsigned k = 0; k < threads; ++k) {
     workers_.push_back({make_walk(scene, settings), std::nullopt});
   }
@@ -72,7 +73,7 @@ void WorkerThreads::simulate_ends() {
 // Every rank does this itself: a batch takes less time than a broadcast of its result.
 void WorkerThreads::simulate_part(HistoryRange range) {
   Worker& worker = workers_.front();
-  worker.tally.emplace(scene_->first_tile, hits_);
+  worker.tally.emplace(scene_->first_tile, hits_, absorption_);
   const auto n = static_cast<std::uint32_t>(range.last - range.first);
   worker.abandoned |=
       !worker.walk->simulate_batch(range.first, n, *worker.tally, [this] { return watch_->should_stop(); });
@@ -84,7 +85,7 @@ void WorkerThreads::simulate_part(HistoryRange range) {
 void WorkerThreads::make_tally(Worker& worker) const {
   if (worker.tally) return;
   const double began = watch_->seconds();
-  worker.tally.emplace(scene_->first_tile, hits_);
+  worker.tally.emplace(scene_->first_tile, hits_, absorption_);
   worker.tally_seconds = watch_->seconds() - began;
 }
 
@@ -164,7 +165,7 @@ void WorkerThreads::collect() {
     }
   };
   if (communicator_ == nullptr) return add_tallies(*whole_);
-  Totals of_all_ranks(whole_->tiles.size(), whole_->tile_maps.size(), hits_);
+  Totals of_all_ranks(whole_->tiles.size(), whole_->tile_maps.size(), hits_, absorption_);
   add_tallies(of_all_ranks);
   reduce(communicator_, of_all_ranks);
   whole_->add(of_all_ranks);

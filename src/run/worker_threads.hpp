@@ -76,6 +76,7 @@ class WorkerThreads {
 
   const Scene* scene_;
   Hits hits_;
+  Absorption absorption_;
   Communicator* communicator_;
   StopWatch* watch_;
   RunRecord* record_ = nullptr;

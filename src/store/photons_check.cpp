@@ -50,6 +50,8 @@ class PhotonsCheck {
       refuse("/photons has hits beside the scores of 'collision', which are hits");
     if (totals_.behind.size() != totals_.tile_maps.size())
       differ("behind", totals_.behind.size(), "tile_maps", totals_.tile_maps.size());
+    if (!totals_.absorbed_by.empty() && totals_.absorbed_by.size() != totals_.tile_maps.size())
+      differ("absorbed_by", totals_.absorbed_by.size(), "tile_maps", totals_.tile_maps.size());
   }
 
   // The balance: emitted = absorbed + escaped + residual + lost. First modulo 2¹²⁸, which no number in a file can
@@ -64,6 +66,11 @@ class PhotonsCheck {
     const auto within = [](int128 value, uint128 bound) { return value >= 0 && static_cast<uint128>(value) <= bound; };
     if (!within(ends.absorbed, uint128{totals_.impacts} * unit_) || !within(ends.escaped, most))
       refuse("/photons has more absorbed, or escaped, than there were photons");
+    if (!totals_.absorbed_by.empty()) {
+      uint128 sum = 0;
+      for (const uint128 units : totals_.absorbed_by) sum += units;
+      if (sum != static_cast<uint128>(ends.absorbed)) refuse("in /photons absorbed_by does not add up to absorbed");
+    }
     if (ends.lost_histories > totals_.histories || !within(ends.lost, uint128{ends.lost_histories} * unit_) ||
         static_cast<uint128>(ends.lost) < ends.lost_histories)
       refuse("in /photons lost does not fit " + std::to_string(ends.lost_histories) + " lost_histories");

@@ -38,6 +38,9 @@ class GoalBase {
   void absorb(const Wave& /*wave*/, std::size_t /*i*/, double /*reflectance*/) {}  // photon i ends on its surface
   // The same for n photons at the places `at`.
   void absorb_all(const Wave& /*wave*/, const std::uint32_t* /*at*/, std::size_t /*n*/) {}
+  // Photon i has lost this many units of the score (≥ 0) to its surface, whether it ends there or not; see
+  // counts_absorption.
+  void count_absorbed(std::size_t /*i*/, int128 /*units*/) {}
   void reflect(const Wave& /*wave*/, std::uint32_t /*flight*/) {}  // all remaining photons have been reflected
   void cut_off(const Wave& /*wave*/, std::size_t /*i*/) {}         // the walk ends for photon i
 
@@ -51,6 +54,9 @@ class GoalBase {
   // the estimators do.
   static constexpr bool watches_absorption = false;
   static constexpr bool in_lanes = false;
+  // Whether the kernel calls count_absorbed() in rooms with reflectance maps; in others the power that a surface
+  // absorbs follows from its reflectance.
+  static constexpr bool counts_absorption = false;
 
  protected:
   std::uint64_t first_history_;
@@ -75,12 +81,14 @@ concept WalkGoal = std::derived_from<Goal, GoalBase> && requires(Goal goal, Wave
   { goal.score(wave) } -> std::same_as<void>;
   { goal.absorb(wave, i, 0.5) } -> std::same_as<void>;
   { goal.absorb_all(wave, &n, i) } -> std::same_as<void>;
+  { goal.count_absorbed(i, int128{}) } -> std::same_as<void>;
   { goal.reflect(wave, n) } -> std::same_as<void>;
   { goal.cut_off(wave, i) } -> std::same_as<void>;
   { goal.move(wave, i, i) } -> std::same_as<void>;
   { goal.cosines() } -> std::same_as<float*>;
   { Goal::watches_absorption } -> std::convertible_to<bool>;
   { Goal::in_lanes } -> std::convertible_to<bool>;
+  { Goal::counts_absorption } -> std::convertible_to<bool>;
 };
 
 }  // namespace lichtmc

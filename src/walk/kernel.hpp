@@ -150,13 +150,24 @@ class Kernel {
     for (std::size_t i = 0; i < rays.size; ++i) {
       const double reflectance = Reflectance::at(*scene_, rays, i);
       const double chance = static_cast<double>(wave_.chance[i] >> 11) * 0x1p-53;
-      if (!Policy::survive(reflectance, chance, wave_.weight[i], goal.ends())) {
+      if (!survives(i, reflectance, chance, goal)) {
         goal.absorb(wave_, i, reflectance);
         continue;
       }
       keep(i, kept, goal);
     }
     rays.size = kept;
+  }
+
+  bool survives(std::size_t i, double reflectance, double chance, Goal& goal) {
+    if constexpr (Goal::counts_absorption && !Reflectance::of_facet) {
+      const int128 before = goal.ends().absorbed;
+      const bool result = Policy::survive(reflectance, chance, wave_.weight[i], goal.ends());
+      goal.count_absorbed(i, goal.ends().absorbed - before);
+      return result;
+    } else {
+      return Policy::survive(reflectance, chance, wave_.weight[i], goal.ends());
+    }
   }
 
   void keep(std::size_t i, std::size_t& kept, Goal& goal) {

@@ -24,9 +24,9 @@ Hits hits_in_totals(const Tally::TileScores& tiles, Hits hits) {
 
 }  // namespace
 
-Tally::Tally(const std::vector<std::uint32_t>& first_tile, Hits hits)
+Tally::Tally(const std::vector<std::uint32_t>& first_tile, Hits hits, Absorption absorption)
     : batch_(tiles_for(first_tile, hits)),
-      totals_(first_tile.back(), first_tile.size() - 1, hits_in_totals(batch_, hits)) {}
+      totals_(first_tile.back(), first_tile.size() - 1, hits_in_totals(batch_, hits), absorption) {}
 
 void Tally::close_batch(std::uint32_t n) {
   assert(n >= 1 && n <= batch_histories);

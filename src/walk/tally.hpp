@@ -20,7 +20,7 @@ class Tally {
   using TileScores = std::variant<FewTiles, ManyHits, ManyScores>;
 
   // The tiles of tile map k are first_tile[k] … first_tile[k + 1] − 1: one element more than there are tile maps.
-  Tally(const std::vector<std::uint32_t>& first_tile, Hits hits);
+  Tally(const std::vector<std::uint32_t>& first_tile, Hits hits, Absorption absorption = Absorption::by_reflectance);
 
   // Prefetches tiles that will score soon.
   void expect(const std::uint32_t* tiles, std::size_t n) const {
@@ -48,6 +48,8 @@ class Tally {
     }
   }
   void score_behind(std::uint32_t tile_map, std::uint64_t units) { totals_.behind[tile_map] += units; }
+  // units (≥ 0) absorbed by the surface of a tile map, if absorption is counted.
+  void absorb(std::uint32_t tile_map, int128 units) { totals_.absorbed_by[tile_map] += static_cast<uint128>(units); }
 
   // Ends a batch of n histories (1 … batch_histories).
   void close_batch(std::uint32_t n);

@@ -24,6 +24,12 @@ enum class Hits {
   apart,
 };
 
+// How the power that a surface absorbs is found.
+enum class Absorption {
+  by_reflectance,  // incident power times 1 − ρ
+  counted,         // photon by photon: ρ varies over a surface of the room
+};
+
 // The balance of the photons, in units of the score. Emitted = absorbed + escaped + residual + lost, exactly.
 struct Ends {
   int128 absorbed = 0;
@@ -54,12 +60,14 @@ struct Counts {
 // All sums over batches. Addition is exact: the order does not matter.
 struct Totals : Counts {
   Totals() = default;
-  Totals(std::size_t tiles, std::size_t tile_maps, Hits hits);
+  Totals(std::size_t tiles, std::size_t tile_maps, Hits hits, Absorption absorption = Absorption::by_reflectance);
 
   std::vector<Moments> tiles;       // per tile
   std::vector<std::uint64_t> hits;  // per tile; empty if hits are the score
   std::vector<Moments> tile_maps;   // per tile map
   std::vector<uint128> behind;      // per tile map: score on the back
+  // Per tile map: absorbed there, in units of the score; their sum is Ends::absorbed. Empty if not counted.
+  std::vector<uint128> absorbed_by;
 
   void add(const Totals& other) { add_fields(*this, other); }
 };
@@ -75,6 +83,7 @@ void visit_fields(const F& f, Things&... totals) {
   f(Field{"hits"}, totals.hits...);
   f(Field{"tile_maps"}, totals.tile_maps...);
   f(Field{"behind"}, totals.behind...);
+  f(Field{"absorbed_by"}, totals.absorbed_by...);
 }
 
 }  // namespace lichtmc

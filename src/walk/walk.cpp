@@ -119,6 +119,9 @@ class TileGoal : public GoalBase {
     }
     tally_->score_each(ended_tile_.data(), ended_tile_map_.data(), n);
   }
+  static constexpr bool counts_absorption = true;
+  // Of all flights, also of those whose direct light is integrated.
+  void count_absorbed(std::size_t i, int128 units) { tally_->absorb(tile_map_[i], units); }
   // The weight that is cut off is the residual of the balance.
   void cut_off(const Wave& wave, std::size_t i) {
     ends().residual += static_cast<int128>(Policy::units(wave.weight[i]));

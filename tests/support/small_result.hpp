@@ -91,6 +91,7 @@ inline Result make_result() {
     result.tiles.push_back({0.1 * static_cast<double>(i), 1.0 / (1.0 + static_cast<double>(i)), 1e-3, 100 + i});
   result.tiles[2] = {0.0, 0.0, std::numeric_limits<double>::quiet_NaN(), 0};
   result.surfaces.push_back({"a \"b\", c/d", "grey, \"warm\"", 0.6, 0.05, 5, 0.4, 0.0, 1.0, 0.01, 0.02, 0.0, 407});
+  result.surfaces.back().absorbed = 0.008;
   result.surfaces.push_back(
       {"lamp.back", "", 0.1, 0.5, 1, 0.2, 0.2, 0.2, std::numeric_limits<double>::quiet_NaN(), 0.1, 1.0, 105});
   result.ignored = {{"A camera 'x' is not modelled.", Effect::none}};

@@ -35,7 +35,8 @@ bool same_figures(const Result& a, const Result& b) {
   }
   for (std::size_t i = 0; i < a.surfaces.size(); ++i) {
     if (!same_bits(a.surfaces[i].standard_error, b.surfaces[i].standard_error) ||
-        !same_bits(a.surfaces[i].behind_share, b.surfaces[i].behind_share))
+        !same_bits(a.surfaces[i].behind_share, b.surfaces[i].behind_share) ||
+        !same_bits(a.surfaces[i].absorbed, b.surfaces[i].absorbed))
       return false;
   }
   for (std::size_t i = 0; i < a.receiver_results.size(); ++i) {

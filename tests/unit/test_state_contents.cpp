@@ -229,6 +229,13 @@ TEST_CASE("a state whose arrays have different lengths is refused") {
                 {{"hits of 7 rows and tiles of 24", [](StateData& d) { totals_of(d).hits.assign(7, 1); }}});
 }
 
+TEST_CASE("a state whose surfaces absorb another power than its balance is refused") {
+  check_refused(
+      small_state(small_settings(Estimator::collision)),
+      {{"absorbed_by of 5 rows and tile_maps of 6", [](StateData& d) { totals_of(d).absorbed_by.assign(5, 0); }},
+       {"absorbed_by does not add up to absorbed", [](StateData& d) { totals_of(d).absorbed_by.assign(6, 1); }}});
+}
+
 TEST_CASE("a state whose balance does not hold is refused") {
   for (const Estimator estimator : {Estimator::weight, Estimator::collision, Estimator::absorption}) {
     check_refused(
