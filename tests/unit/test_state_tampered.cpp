@@ -238,7 +238,7 @@ std::vector<Place> places_in(hid_t file) {
     }
   }
   for (const char* name : {"ranges", "convergence", "absorbed", "escaped", "residual", "lost", "incident", "tiles",
-                           "hits", "tile_maps", "behind", "absorbed_by"})
+                           "hits", "tile_maps", "behind"})
     places.insert(places.end(), 3, {"/photons", name, true});
   for (const char* name : {"ranges", "convergence", "sums"}) places.insert(places.end(), 3, {"/receivers", name, true});
   return places;
