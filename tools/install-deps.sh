@@ -15,7 +15,6 @@ packages=(
   libhdf5-dev libxxhash-dev                  # states of runs, their checksums
   libopenmpi-dev openmpi-bin                 # runs on several machines
   libhwy-dev                                 # SIMD random numbers
-  libfccp-dev                                # reading of CSV tables
   libcli11-dev                               # command line
   nlohmann-json3-dev                         # summary.json, writing of glTF
   catch2                                     # tests

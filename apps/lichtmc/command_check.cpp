@@ -11,6 +11,7 @@
 
 #include "commands.hpp"
 #include "lichtmc/inspect.hpp"
+#include "lichtmc/visible_text.hpp"
 #include "light_spec.hpp"
 #include "quantities.hpp"
 #include "room_options.hpp"
@@ -67,7 +68,7 @@ void print_materials(const Inspection& facts) {
     const bool several = four_digits(cover.low) != four_digits(cover.high);
     std::string sources;
     for (const std::string_view source : cover.sources) sources += (sources.empty() ? "" : ", ") + std::string(source);
-    std::cout << "  " << (name.empty() ? "(no name)" : name) << ": "
+    std::cout << "  " << (name.empty() ? "(no name)" : visible_text(name)) << ": "
               << (several ? four_digits(cover.low) + " to " + four_digits(cover.high) : four_digits(cover.high)) << " ("
               << sources << "), " << four_digits(cover.area) << " m^2\n";
   }
@@ -79,14 +80,15 @@ void print_emitters(const Room& room) {
   std::cout << "\nEmitters (" << room.emitters.size() << ", together " << four_digits(total_power(room)) << ' ' << unit
             << ")\n";
   for (std::size_t k = 0; k < std::min(shown, room.emitters.size()); ++k)
-    std::cout << "  " << room.emitters[k].name << ": " << four_digits(room.emitters[k].power) << ' ' << unit << '\n';
+    std::cout << "  " << visible_text(room.emitters[k].name) << ": " << four_digits(room.emitters[k].power) << ' '
+              << unit << '\n';
   if (room.emitters.size() > shown)
     std::cout << "  … and " << room.emitters.size() - shown << " more (--json lists all)\n";
 }
 
 void print_facts(const Room& room, const Inspection& facts) {
   const glm::dvec3 size = facts.high - facts.low;
-  std::cout << room.source << '\n';
+  std::cout << visible_text(room.source) << '\n';
   std::cout << row("Size", four_digits(size.x) + " x " + four_digits(size.y) + " x " + four_digits(size.z) +
                                " m (x, height y, z), from " + point(facts.low) + " to " + point(facts.high));
   std::cout << row("Meshes", std::to_string(facts.triangles) + " triangles in " +
@@ -96,14 +98,14 @@ void print_facts(const Room& room, const Inspection& facts) {
                                 (facts.convex ? "convex, " : "not convex, ") +
                                 (facts.closed ? "closed" : "not closed"));
   std::cout << row("Receivers", std::to_string(room.receivers.size()));
-  for (const std::string& change : room.overrides) std::cout << row("Override", change);
+  for (const std::string& change : room.overrides) std::cout << row("Override", visible_text(change));
   print_materials(facts);
   print_emitters(room);
 }
 
 // A finding, and below it what to do.
 void print_finding(const char* word, const Finding& finding) {
-  std::cout << word << ": " << finding.text << "\n    -> " << finding.advice << '\n';
+  std::cout << word << ": " << visible_text(finding.text) << "\n    -> " << visible_text(finding.advice) << '\n';
 }
 
 void print_findings(const Inspection& facts) {

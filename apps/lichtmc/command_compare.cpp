@@ -9,6 +9,7 @@
 
 #include "commands.hpp"
 #include "lichtmc/compare.hpp"
+#include "lichtmc/visible_text.hpp"
 
 namespace lichtmc::app {
 
@@ -58,13 +59,13 @@ void print(const Comparison& comparison, std::size_t count) {
             << text("%.5g", comparison.expected_chi_square) << "; p-value " << p_value(comparison.chi_square_chance)
             << '\n'
             << "  largest |z| " << text("%.3g", std::abs(comparison.largest_z)) << " ("
-            << comparison.figures[comparison.largest].name << "); p-value " << p_value(comparison.largest_chance)
-            << " for the largest of " << comparison.figures.size() << '\n';
+            << visible_text(comparison.figures[comparison.largest].name) << "); p-value "
+            << p_value(comparison.largest_chance) << " for the largest of " << comparison.figures.size() << '\n';
   if (!comparison.agree) {
     for (const FigurePair* pair : worst_of(comparison, count)) {
-      std::cout << "    " << pair->name << ": A " << text("%.5g", pair->a) << " +- " << text("%.2g", pair->error_a)
-                << ", B " << text("%.5g", pair->b) << " +- " << text("%.2g", pair->error_b) << ", z "
-                << text("%+.3g", pair->z()) << '\n';
+      std::cout << "    " << visible_text(pair->name) << ": A " << text("%.5g", pair->a) << " +- "
+                << text("%.2g", pair->error_a) << ", B " << text("%.5g", pair->b) << " +- "
+                << text("%.2g", pair->error_b) << ", z " << text("%+.3g", pair->z()) << '\n';
     }
   }
   std::cout << (comparison.agree ? "  They agree within their standard errors.\n"

@@ -10,6 +10,7 @@
 #include "commands.hpp"
 #include "continue_run.hpp"
 #include "lichtmc/error.hpp"
+#include "lichtmc/visible_text.hpp"
 #include "quantities.hpp"
 #include "run_job.hpp"
 #include "run_options.hpp"
@@ -38,7 +39,7 @@ class IncompleteParts {
   void warn() const {
     if (!others_complete_) return;
     for (const fs::path& file : files_)
-      std::cerr << "Warning: " << file.string()
+      std::cerr << "Warning: " << visible_text(file.string())
                 << " has no backward histories from the receivers, but other parts have: the part was stopped before "
                    "them. The results are valid without them. Complete the part with lichtmc resume, then merge "
                    "again.\n";

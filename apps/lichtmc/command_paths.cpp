@@ -9,6 +9,7 @@
 #include "lichtmc/error.hpp"
 #include "lichtmc/output.hpp"
 #include "lichtmc/paths.hpp"
+#include "lichtmc/visible_text.hpp"
 #include "quantities.hpp"
 #include "room_options.hpp"
 
@@ -37,7 +38,7 @@ void run(const PathsCommand& command) {
   const std::filesystem::path folder = command.output.empty()
                                            ? std::filesystem::path(command.reading.file).stem().concat(".paths")
                                            : std::filesystem::path(command.output);
-  prepare_output(folder);
+  const FolderLock lock = prepare_output(folder);
   const std::vector<PhotonPath> paths = trace_paths(room, settings, count);
   write_paths(room, paths, folder);
   if (command.quiet) return;
@@ -48,7 +49,7 @@ void run(const PathsCommand& command) {
     escaped += path.end == PathEnd::escaped ? 1 : 0;
   }
   std::cerr << paths.size() << (paths.size() == 1 ? " photon, " : " photons, ") << flights << " flights; " << escaped
-            << " escaped.\nThe paths are in " << folder.string()
+            << " escaped.\nThe paths are in " << visible_text(folder.string())
             << ": paths.svg (open it in a browser), paths.csv (one row per flight), paths.glb (lines, for any glTF "
                "viewer).\n";
 }

@@ -57,14 +57,20 @@ fs::path folder_for(const ResumeOptions& options, const fs::path& file) {
 
 void resume_run(const ResumeOptions& options, const Invocation& invocation) {
   const fs::path file = state_file(options.state);
+  const fs::path folder = folder_for(options, file);
+  // Before the state is read: it must be the last one that another run in this folder writes.
+  std::optional<FolderLock> lock;
+  std::error_code unknown;
+  if (is_rank_0(invocation.communicator) && fs::exists(file, unknown) && fs::is_directory(folder, unknown))
+    lock = prepare_output(folder);
   State state = read_state(file);
   const RunOptions run = options_of(state, file, options.overrides);
   const Settings rules = rules_for(options, state);
-  const fs::path folder = folder_for(options, file);
   RunJob job = job_of(state, run, options.overrides, invocation.command_line);
   job.settings = rules;
   job.checkpoint_seconds = parse_checkpoint(options.checkpoint);
   job.folder = folder;
+  job.lock = std::move(lock);
   job.communicator = invocation.communicator;
   carry_out_run(job, [&](const Control& control) { return resume(job.room, std::move(state), rules, control); });
 }

@@ -19,13 +19,14 @@ void run(const RunOptions& options, const Invocation& invocation) {
   job.settings = settings;
   job.report = parse_report(options.report_arguments, options.threads, invocation.command_line);
   job.with_report = wants_report(options.report_arguments);
+  job.files.tile_images = wants_images(options.report_arguments);
   job.checkpoint_seconds = parse_checkpoint(options.checkpoint);
   job.note = note_of(invocation.arguments);
   job.quiet = options.quiet;
   job.folder = options.output.empty() ? std::filesystem::path(options.reading.file).stem().concat(".out")
                                       : std::filesystem::path(options.output);
   job.communicator = invocation.communicator;
-  job.room = read_run_room(options);
+  job.room = read_run_room(options, job.notes);
   carry_out_run(job, [&](const Control& control) { return simulate(job.room, settings, control); });
 }
 

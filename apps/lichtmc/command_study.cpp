@@ -10,10 +10,12 @@
 #include <unistd.h>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "interrupt.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/output.hpp"
 #include "lichtmc/study.hpp"
+#include "lichtmc/visible_text.hpp"
 #include "quantities.hpp"
 #include "room_options.hpp"
 
@@ -51,8 +53,8 @@ std::function<void(const StudyProgress&)> progress_printer(bool terminal) {
                                        : std::string();
     line += progress.what;
     if (terminal) {
-      std::cerr << '\r' << line << ", " << std::lround(progress.seconds) << " s of about "
-                << std::lround(progress.of_seconds) << " s\x1b[K" << std::flush;
+      bar_stream() << "\r" + line + ", " + std::to_string(std::lround(progress.seconds)) + " s of about " +
+                          std::to_string(std::lround(progress.of_seconds)) + " s\x1b[K";
     } else if (line != last) {
       std::cerr << line << '\n' << std::flush;
     }
@@ -67,17 +69,17 @@ void run(const StudyCommand& command) {
   const std::filesystem::path folder = command.output.empty()
                                            ? std::filesystem::path(command.reading.file).stem().concat(".study")
                                            : std::filesystem::path(command.output);
-  prepare_output(folder);
+  const FolderLock lock = prepare_output(folder);
   const InterruptWatch interrupt;
   options.stop = interrupt.token();
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (!command.quiet) options.progress = progress_printer(terminal);
   const Study found = study(room, options);
-  if (!command.quiet && terminal) std::cerr << "\r\x1b[K";
+  if (!command.quiet && terminal) bar_stream() << "\r\x1b[K";
   write_study(found, folder);
   std::cout << advice_text(found);
   if (!command.quiet) {
-    std::cerr << "\nResults are in " << folder.string()
+    std::cerr << "\nResults are in " << visible_text(folder.string())
               << ": advice.txt, study.csv, error_over_time.svg, bias_over_bounces.svg, figures_of_merit.svg.\n";
   }
 }

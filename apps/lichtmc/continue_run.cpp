@@ -96,9 +96,10 @@ RunJob job_of(const State& state, const RunOptions& run, const OverrideOptions& 
   job.settings = state.settings();
   job.report = parse_report(run.report_arguments, overrides.threads, command_line);
   job.with_report = wants_report(run.report_arguments);
+  job.files.tile_images = wants_images(run.report_arguments);
   job.note = state.note();
   job.quiet = overrides.quiet;
-  job.room = read_run_room(run);
+  job.room = read_run_room(run, job.notes);
   return job;
 }
 

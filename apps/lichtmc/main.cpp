@@ -8,8 +8,10 @@
 #include <string>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/version.hpp"
+#include "lichtmc/visible_text.hpp"
 #include "process_group.hpp"
 
 namespace {
@@ -99,26 +101,28 @@ int run_program(int argc, char** argv, lichtmc::Communicator* communicator) {
   return status;
 }
 
+using lichtmc::visible_text;
+
 struct Failure {
   std::string message;
   int status = exit_failed;
 };
 
-// Of the exception that is being handled.
+// Of the exception that is being handled; names in it cannot look like lines of the program.
 Failure current_failure() {
   try {
     throw;
   } catch (const CLI::ParseError& error) {
-    return {std::string(error.what()) + "\nSee lichtmc --help, or lichtmc COMMAND --help.", exit_wrong_input};
+    return {visible_text(error.what()) + "\nSee lichtmc --help, or lichtmc COMMAND --help.", exit_wrong_input};
   } catch (const lichtmc::InputError& error) {
-    return {error.what(), exit_wrong_input};
+    return {visible_text(error.what()), exit_wrong_input};
   } catch (const lichtmc::Error& error) {
-    return {error.what(), exit_failed};
+    return {visible_text(error.what()), exit_failed};
   } catch (const std::bad_alloc&) {
     return {"The memory was not sufficient. Use larger tiles or fewer threads, free some memory, or split the room.",
             exit_failed};
   } catch (const std::filesystem::filesystem_error& error) {
-    return {"Cannot use " + error.path1().string() + " (" + error.code().message() +
+    return {"Cannot use " + visible_text(error.path1().string()) + " (" + error.code().message() +
                 "). Check the path, its permissions and its disk.",
             exit_failed};
   } catch (...) {  // the texts of other exceptions of libraries mean nothing to a user
@@ -130,10 +134,13 @@ Failure current_failure() {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // beyond the limit of file size a write then fails with a message
+  lichtmc::app::Console console;
   try {
     const lichtmc::app::ProcessGroup communicator;
     try {
-      return run_program(argc, argv, communicator.get());
+      const int status = run_program(argc, argv, communicator.get());
+      console.finish();
+      return status;
     } catch (...) {
       const Failure failure = current_failure();
       communicator.end(failure.message.c_str(), failure.status);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lichtmc/visible_text.hpp"
 #include "progress_line.hpp"
 #include "quantities.hpp"
 
@@ -63,7 +64,8 @@ void print_ignored(const std::vector<Ignored>& ignored) {
   const auto first = std::find_if(ignored.begin(), ignored.end(), changes_results);
   const auto count = std::count_if(ignored.begin(), ignored.end(), changes_results);
   std::cerr << "Not modelled: " << ignored.size() << (ignored.size() == 1 ? " item" : " items") << " of the room; "
-            << count << " may change results. Example: " << (first == ignored.end() ? ignored.front() : *first).what
+            << count << " may change results. Example: "
+            << visible_text((first == ignored.end() ? ignored.front() : *first).what)
             << " The list is in summary.json under \"ignored\".\n";
 }
 
@@ -108,17 +110,18 @@ void print_receivers(const Result& result) {
 
 }  // namespace
 
-void print_outcome(const Result& result, const std::filesystem::path& folder, bool with_report) {
+void print_outcome(const Result& result, const std::filesystem::path& folder, bool with_report, bool with_images) {
   if (!result.tiles.empty()) print_tiles(result);
   if (!result.receiver_results.empty()) print_receivers(result);
-  for (const std::string& choice : result.choices) std::cerr << choice << '\n';
-  for (const std::string& warning : result.warnings) std::cerr << "Warning: " << warning << '\n';
+  for (const std::string& choice : result.choices) std::cerr << visible_text(choice) << '\n';
+  for (const std::string& warning : result.warnings) std::cerr << "Warning: " << visible_text(warning) << '\n';
   print_ignored(result.ignored);
-  std::cerr << "Results are in " << folder.string()
-            << (result.tiles.empty() ? ": " : ": surfaces.csv (one row per surface), tiles.csv, tiles/*.exr, ")
+  std::cerr << "Results are in " << visible_text(folder.string())
+            << (result.tiles.empty() ? ": " : ": surfaces.csv (one row per surface), tiles.csv, ")
+            << (result.tiles.empty() || !with_images ? "" : "tiles/*.exr, ")
             << (result.receiver_results.empty() ? "" : "receivers.csv, ") << "summary.json.\n";
   if (!with_report) return;
-  std::cerr << "Open " << (folder / "report.html").string() << " in a browser"
+  std::cerr << "Open " << visible_text((folder / "report.html").string()) << " in a browser"
             << (result.tiles.empty() ? "" : ", room_lit.glb in any glTF viewer") << ".\n";
 }
 

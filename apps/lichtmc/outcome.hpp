@@ -7,7 +7,8 @@
 
 namespace lichtmc::app {
 
-// To stderr: time, standard error, balance of powers, warnings, output files.
-void print_outcome(const Result& result, const std::filesystem::path& folder, bool with_report);
+// To stderr: time, standard error, balance of powers, warnings, output files. `with_images`: tile maps as images were
+// written.
+void print_outcome(const Result& result, const std::filesystem::path& folder, bool with_report, bool with_images);
 
 }  // namespace lichtmc::app

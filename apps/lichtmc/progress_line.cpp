@@ -8,6 +8,8 @@
 
 #include <unistd.h>
 
+#include "console.hpp"
+
 namespace lichtmc::app {
 
 namespace {
@@ -44,7 +46,7 @@ ProgressLine::ProgressLine(Show show, const Settings& settings)
       last_(std::chrono::steady_clock::now()) {}
 
 ProgressLine::~ProgressLine() {
-  if (drawn_ && terminal_) std::cerr << "\r\x1b[K" << std::flush;  // removes the bar; results follow
+  if (drawn_ && terminal_) bar_stream() << "\r\x1b[K";  // removes the bar; results follow
 }
 
 // Time to the first stop rule, s; infinite while no estimate is known.
@@ -105,16 +107,16 @@ void ProgressLine::update(const Progress& progress) {
     return;
   }
   const int done = static_cast<int>(std::lround(fraction_done(progress) * bar_width));
-  std::cerr << "\r[" << std::string(static_cast<std::size_t>(done), '#')
-            << std::string(static_cast<std::size_t>(bar_width - done), '.') << "] " << describe(progress) << "\x1b[K"
-            << std::flush;
+  bar_stream() << "\r[" + std::string(static_cast<std::size_t>(done), '#') +
+                      std::string(static_cast<std::size_t>(bar_width - done), '.') + "] " + describe(progress) +
+                      "\x1b[K";
 }
 
 StepLine::StepLine(ProgressLine::Show show)
     : show_(show), terminal_(isatty(STDERR_FILENO) != 0), began_(std::chrono::steady_clock::now()) {}
 
 StepLine::~StepLine() {
-  if (drawn_ && terminal_) std::cerr << "\r\x1b[K" << std::flush;
+  if (drawn_ && terminal_) bar_stream() << "\r\x1b[K";
 }
 
 void StepLine::update(std::string_view what) {
@@ -123,7 +125,7 @@ void StepLine::update(std::string_view what) {
   if (!terminal_ && std::chrono::steady_clock::now() - began_ < delay) return;
   drawn_ = true;
   if (terminal_) {
-    std::cerr << '\r' << what << " …\x1b[K" << std::flush;
+    bar_stream() << "\r" + std::string(what) + " …\x1b[K";
   } else {
     std::cerr << what << std::endl;
   }

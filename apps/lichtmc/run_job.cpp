@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "interrupt.hpp"
+#include "lichtmc/visible_text.hpp"
 #include "outcome.hpp"
 #include "progress_line.hpp"
 
@@ -17,27 +18,28 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Someone may have removed the folder during the run: then it is created and locked again.
+void hold_folder(RunJob& job) {
+  if (!job.lock || !job.lock->holds()) job.lock = prepare_output(job.folder);
+}
+
 // A checkpoint that fails does not end a run: the next may succeed.
-void write_checkpoint(const State& state, const RunJob& job) {
+void write_checkpoint(const State& state, RunJob& job) {
   try {
-    fs::create_directories(job.folder);
+    hold_folder(job);
     write_state(state, job.folder / "state.h5", job.note);
   } catch (const std::exception& error) {
-    std::cerr << "\nWarning: the checkpoint was not written; the run continues. " << error.what() << '\n';
+    std::cerr << "\nWarning: the checkpoint was not written; the run continues. " << visible_text(error.what()) << '\n';
   }
 }
 
-bool is_rank_0(const RunJob& job) {
-  return job.communicator == nullptr || job.communicator->rank() == 0;
-}
-
-Result simulate_with(const RunJob& job, const std::stop_token& stop, ProgressLine::Show show,
+Result simulate_with(RunJob& job, const std::stop_token& stop, ProgressLine::Show show,
                      const std::function<Result(const Control&)>& simulate) {
-  ProgressLine line(is_rank_0(job) ? show : ProgressLine::Show::no, job.settings);
+  ProgressLine line(is_rank_0(job.communicator) ? show : ProgressLine::Show::no, job.settings);
   Control control;
   control.stop = stop;
   control.communicator = job.communicator;
-  if (is_rank_0(job)) {
+  if (is_rank_0(job.communicator)) {
     control.progress = [&line](const Progress& progress) { line.update(progress); };
     control.checkpoint = [&job](const State& state) { write_checkpoint(state, job); };
   }
@@ -65,29 +67,56 @@ class NewFolders {
   std::vector<fs::path> created_;  // the innermost first
 };
 
+// Ends the lock of a folder before it may be removed.
+class ReleaseAtEnd {
+ public:
+  explicit ReleaseAtEnd(std::optional<FolderLock>& lock) : lock_(&lock) {}
+  ~ReleaseAtEnd() { lock_->reset(); }
+  ReleaseAtEnd(const ReleaseAtEnd&) = delete;
+  ReleaseAtEnd& operator=(const ReleaseAtEnd&) = delete;
+
+ private:
+  std::optional<FolderLock>* lock_;
+};
+
 void write_all(RunJob& job, Result& result, ProgressLine::Show show) {
-  if (!fs::exists(job.folder)) prepare_output(job.folder);
+  hold_folder(job);
   write_state(result.state, job.folder / "state.h5", job.note);
   result.state = {};  // frees as much memory as the tiles need
-  write_results(job.room, result, job.folder);
+  write_results(job.room, result, job.folder, job.files);
   if (job.with_report) {
     StepLine line(show);
     job.report.progress = [&line](std::string_view what) { line.update(what); };
     write_report(job.room, result, job.folder, job.report);
   }
-  if (!job.quiet) print_outcome(result, job.folder, job.with_report);
+  if (!job.quiet) print_outcome(result, job.folder, job.with_report, job.files.tile_images);
+}
+
+// What the user should know before the simulation.
+void print_notes(const RunJob& job) {
+  if (!job.lock->supported())
+    std::cerr << "Warning: the file system of " << visible_text(job.folder.string())
+              << " has no locks: start no other run with this output folder before this run ends.\n";
+  if (job.quiet) return;
+  for (const std::string& note : job.notes) std::cerr << "Note: " << visible_text(note) << '\n';
 }
 
 }  // namespace
 
+bool is_rank_0(const Communicator* communicator) {
+  return communicator == nullptr || communicator->rank() == 0;
+}
+
 void carry_out_run(RunJob& job, const std::function<Result(const Control&)>& simulate) {
   const InterruptWatch interrupt;
   const auto show = job.quiet ? ProgressLine::Show::no : ProgressLine::Show::yes;
-  if (!is_rank_0(job)) {
+  if (!is_rank_0(job.communicator)) {
     simulate_with(job, interrupt.token(), show, simulate);
   } else {
     NewFolders created(job.folder);
-    prepare_output(job.folder);
+    const ReleaseAtEnd release(job.lock);
+    hold_folder(job);
+    print_notes(job);
     Result result = simulate_with(job, interrupt.token(), show, simulate);
     created.keep();
     write_all(job, result, show);

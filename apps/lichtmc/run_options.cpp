@@ -1,12 +1,14 @@
 #include "run_options.hpp"
 
 #include <cstdint>
+#include <cstdio>
+#include <iostream>
 #include <vector>
 
 #include "lichtmc/error.hpp"
+#include "lichtmc/receiver_table.hpp"
 #include "lichtmc/receivers.hpp"
 #include "quantities.hpp"
-#include "receiver_table.hpp"
 
 namespace lichtmc::app {
 
@@ -59,16 +61,34 @@ Direct parse_direct(const std::string& text, WalkDirection tiles) {
                    "' for direct light is not known (allowed: sampled, analytic). Give one of these to --direct.");
 }
 
+ReceiverTable read_stdin_table() {
+  std::string bytes;
+  char block[1 << 16];
+  do {
+    std::cin.read(block, sizeof block);
+    bytes.append(block, static_cast<std::size_t>(std::cin.gcount()));
+  } while (std::cin && bytes.size() <= largest_receiver_table);
+  if (std::cin.bad() || std::ferror(stdin) != 0)
+    throw InputError("Cannot read stdin, the table of --receivers -. Check what is connected to it.");
+  if (bytes.size() > largest_receiver_table)
+    throw InputError("The table on stdin is longer than the limit of " + std::to_string(largest_receiver_table) +
+                     " bytes. Split it.");
+  return parse_receiver_table(bytes, "The table on stdin");
+}
+
 // Adds the receivers of the command line to those of the room.
-void add_receivers(Room& room, const RunOptions& options) {
-  std::vector<Receiver> more;
-  if (options.receivers) more = read_receivers(*options.receivers);
-  room.receivers.insert(room.receivers.end(), more.begin(), more.end());
+void add_receivers(Room& room, const RunOptions& options, std::vector<std::string>& notes) {
+  if (options.receivers) {
+    ReceiverTable table = *options.receivers == "-" ? read_stdin_table() : read_receiver_table(*options.receivers);
+    room.receivers.insert(room.receivers.end(), table.receivers.begin(), table.receivers.end());
+    notes.insert(notes.end(), table.notes.begin(), table.notes.end());
+  }
   if (options.grid_spacing && !options.grid)
     throw InputError("--grid-spacing is given without --grid. Give --grid the height of the grid, for example 0.85.");
   if (!options.grid) return;
-  more = receiver_grid(room, parse_number(*options.grid, "--grid"),
-                       parse_number(options.grid_spacing.value_or("0.5"), "--grid-spacing"));
+  const std::vector<Receiver> more =
+      receiver_grid(room, parse_number(*options.grid, "--grid"),
+                    parse_number(options.grid_spacing.value_or("0.5"), "--grid-spacing"));
   room.receivers.insert(room.receivers.end(), more.begin(), more.end());
 }
 
@@ -160,6 +180,7 @@ ReportOptions parse_report(const ReportArguments& report_arguments, const std::o
     throw InputError("The picture format '" + *report_arguments.pictures +
                      "' is not known (allowed: exr). Give exr to --pictures, or leave it out for SVG and PNG only.");
   report.exr_pictures = report_arguments.pictures.has_value();
+  report.tile_images = wants_images(report_arguments);
   constexpr std::uint64_t most_paths = 10'000;
   if (report_arguments.paths) report.paths = parse_count(*report_arguments.paths, "--paths");
   if (report.paths > most_paths)
@@ -182,9 +203,9 @@ double parse_checkpoint(const std::string& text) {
   return seconds;
 }
 
-Room read_run_room(const RunOptions& options) {
+Room read_run_room(const RunOptions& options, std::vector<std::string>& notes) {
   Room room = read_room(options.reading);
-  add_receivers(room, options);
+  add_receivers(room, options, notes);
   check_room(room);
   return room;
 }
@@ -194,6 +215,7 @@ void ReportArguments::override_with(const ReportArguments& other) {
     if (theirs) mine = theirs;
   };
   if (!other.report.empty()) report = other.report;
+  if (!other.images.empty()) images = other.images;
   take(pictures, other.pictures);
   take(paths, other.paths);
   take(scale_max, other.scale_max);
@@ -234,6 +256,8 @@ void add_checkpoint_option(CLI::App& command, std::string& checkpoint, const std
 
 void add_report_options(CLI::App& command, ReportArguments& options) {
   const std::string group = "Report (report.html, room_lit.glb and pictures/)";
+  command.add_flag("--images,!--no-images", options.images, "Write the tile maps as images, tiles/*.exr [yes]")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   command.add_flag("--report,!--no-report", options.report, "Write the report [yes]")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
       ->group(group);
@@ -327,7 +351,8 @@ void add_receiver_options(CLI::App& command, RunOptions& options) {
   const std::string group = "Receivers, in addition to the tiles";
   command
       .add_option("--receivers", options.receivers,
-                  "Table of receivers, one row x,y,z,nx,ny,nz[,name] each, positions in metres; - for stdin")
+                  "Table of receivers: columns x,y,z,nx,ny,nz and name by their heading, or in this order without one; "
+                  "positions in metres; - for stdin")
       ->type_name("FILE.csv")
       ->group(group);
   command

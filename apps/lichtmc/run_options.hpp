@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -22,6 +23,7 @@ struct StopOptions {
 // The report of a run. Options that are not given are empty, so that resume and merge keep those of the run.
 struct ReportArguments {
   std::string report;  // "true" or "false"
+  std::string images;  // the same, for the tile maps as images
   std::optional<std::string> pictures, paths, scale_max, scale_type, colour_map;
 
   // Options that are given in `other` replace those given here.
@@ -62,9 +64,12 @@ ReportOptions parse_report(const ReportArguments& report_arguments, const std::o
 inline bool wants_report(const ReportArguments& report_arguments) {
   return report_arguments.report != "false";
 }
+inline bool wants_images(const ReportArguments& report_arguments) {
+  return report_arguments.images != "false";
+}
 double parse_checkpoint(const std::string& text);
 
-// The room of the file with the receivers of the command line.
-Room read_run_room(const RunOptions& options);
+// The room of the file with the receivers of the command line. `notes`: what was not read of their table.
+Room read_run_room(const RunOptions& options, std::vector<std::string>& notes);
 
 }  // namespace lichtmc::app

@@ -8,6 +8,7 @@
 #include "lichtmc/emitter_law.hpp"     // IWYU pragma: export
 #include "lichtmc/error.hpp"           // IWYU pragma: export
 #include "lichtmc/fingerprint.hpp"     // IWYU pragma: export
+#include "lichtmc/folder_lock.hpp"     // IWYU pragma: export
 #include "lichtmc/gltf.hpp"            // IWYU pragma: export
 #include "lichtmc/inspect.hpp"         // IWYU pragma: export
 #include "lichtmc/lit_room.hpp"        // IWYU pragma: export
@@ -16,6 +17,7 @@
 #include "lichtmc/paths.hpp"           // IWYU pragma: export
 #include "lichtmc/picture.hpp"         // IWYU pragma: export
 #include "lichtmc/progress.hpp"        // IWYU pragma: export
+#include "lichtmc/receiver_table.hpp"  // IWYU pragma: export
 #include "lichtmc/receivers.hpp"       // IWYU pragma: export
 #include "lichtmc/result.hpp"          // IWYU pragma: export
 #include "lichtmc/room.hpp"            // IWYU pragma: export
@@ -26,4 +28,5 @@
 #include "lichtmc/tiles.hpp"           // IWYU pragma: export
 #include "lichtmc/units.hpp"           // IWYU pragma: export
 #include "lichtmc/version.hpp"         // IWYU pragma: export
+#include "lichtmc/visible_text.hpp"    // IWYU pragma: export
 #include "lichtmc/walk_direction.hpp"  // IWYU pragma: export

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "lichtmc/folder_lock.hpp"
 #include "lichtmc/paths.hpp"
 #include "lichtmc/picture.hpp"
 #include "lichtmc/result.hpp"
@@ -15,10 +16,16 @@
 
 namespace lichtmc {
 
-// Creates the folder and its parents if necessary, checks that it is writable, and removes temporary files of processes
-// that were killed while writing. Throws InputError if that fails. Call it before a long run: a folder that is not
-// writable is then reported before the simulation.
-void prepare_output(const std::filesystem::path& folder);
+// Creates the folder and its parents if necessary, locks it, checks that it is writable, and removes temporary files of
+// processes that were killed while writing. Throws InputError if that fails, or if another writer holds the folder.
+// Call it before a long run, and keep the lock until all is written: what cannot be written, or would be mixed with the
+// results of another run, is then reported before the simulation.
+[[nodiscard]] FolderLock prepare_output(const std::filesystem::path& folder);
+
+// Which files write_results() writes.
+struct ResultFiles {
+  bool tile_images = true;  // tiles/NAME.exr
+};
 
 // Writes summary.json into a folder; with results of tiles also tiles.csv, surfaces.csv and tiles/NAME.exr; with
 // results of receivers also receivers.csv.
@@ -26,11 +33,16 @@ void prepare_output(const std::filesystem::path& folder);
 // All files are first written and flushed to disk under temporary names, then renamed; summary.json is renamed last: a
 // folder with a summary.json is complete. Tile maps and the report of an earlier run are removed. Throws RuntimeError
 // if a file cannot be written; the files of an earlier run are then unchanged.
-void write_results(const Room& room, const Result& result, const std::filesystem::path& folder);
+//
+// It does not lock the folder: two calls for one folder at the same time mix their files. Hold the lock that
+// prepare_output() returns.
+void write_results(const Room& room, const Result& result, const std::filesystem::path& folder,
+                   const ResultFiles& files = {});
 
 struct ReportOptions {
   ScaleOptions scale;         // colour scale of all pictures
   bool exr_pictures = false;  // also write the pictures as OpenEXR
+  bool tile_images = true;    // as in ResultFiles: the page says if there are none
   std::uint64_t paths = 0;    // number of photon paths in report.html and room_lit.glb, 0 … 10 000
   std::string command;        // command that reproduces the run, for report.html; may be empty
   unsigned threads = 0;       // for drawing; 0: one per processor
@@ -62,6 +74,6 @@ void write_study(const Study& study, const std::filesystem::path& folder);
 std::string advice_text(const Study& study);
 
 // The content of summary.json.
-std::string summary_json(const Room& room, const Result& result);
+std::string summary_json(const Room& room, const Result& result, const ResultFiles& files = {});
 
 }  // namespace lichtmc

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "lichtmc/visible_text.hpp"
+
 namespace lichtmc {
 
 std::string to_text(double value) {
@@ -32,7 +34,7 @@ std::string to_text(std::size_t count, std::string_view singular) {
 
 std::string in_quotes(std::string_view name) {
   if (name.empty()) return "(no name)";
-  return "'" + std::string(name) + "'";
+  return "'" + visible_text(name) + "'";
 }
 
 }  // namespace lichtmc

@@ -15,7 +15,7 @@ std::string short_number(double value);
 // A count with its noun, in the singular or plural: "1 triangle", "12 triangles".
 std::string to_text(std::size_t count, std::string_view singular);
 
-// A name in quotes, "'name'"; an empty name gives "(no name)".
+// A name in quotes, "'name'", as visible_text(); an empty name gives "(no name)".
 std::string in_quotes(std::string_view name);
 
 }  // namespace lichtmc

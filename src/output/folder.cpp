@@ -7,10 +7,10 @@
 #include <set>
 #include <vector>
 
+#include <fcntl.h>
 #include <unistd.h>
 #include <csignal>
 
-#include "base/atomic_file.hpp"
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
 
@@ -22,6 +22,11 @@ std::string reason_of(const std::error_code& error) {
   std::string text = error.message();
   if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
   return text;
+}
+
+void refuse_folder(const fs::path& folder, const std::string& reason) {
+  throw InputError("Cannot write into the output folder " + in_quotes(folder.string()) + " (" + reason +
+                   "). Choose another folder with --output.");
 }
 
 void make_folder(const fs::path& folder) {
@@ -79,35 +84,49 @@ StagedFiles::StagedFiles(const fs::path& folder)
     throw RuntimeError("Cannot remove the folder " + in_quotes(stage_.string()) + " (" + reason_of(error) +
                        "), which an earlier run did not remove. Choose another folder with --output.");
   make_folder(stage_);
+  stage_descriptor_ = ::open(stage_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (stage_descriptor_ < 0)
+    throw RuntimeError("Cannot open the folder " + in_quotes(stage_.string()) + " (" +
+                       reason_of({errno, std::generic_category()}) + "). Choose another folder with --output.");
 }
 
 StagedFiles::~StagedFiles() {
+  if (stage_descriptor_ >= 0) ::close(stage_descriptor_);
   std::error_code ignored;
   fs::remove_all(stage_, ignored);
 }
 
-fs::path StagedFiles::operator/(const fs::path& name) const {
-  if (name.has_parent_path()) make_folder(stage_ / name.parent_path());
-  return stage_ / name;
+void StagedFiles::write(const fs::path& name, const std::function<void(const Sink&)>& produce) {
+  const bool new_folder =
+      name.has_parent_path() && (names_.empty() || names_.back().parent_path() != name.parent_path());
+  if (new_folder) make_folder(stage_ / name.parent_path());
+  write_file(stage_ / name, folder_ / name, produce);
+  names_.push_back(name);
+}
+
+void StagedFiles::write(const fs::path& name, std::string_view bytes) {
+  write(name, [bytes](const Sink& sink) { sink(bytes); });
+}
+
+void StagedFiles::flush() {
+  std::vector<fs::path> files;
+  for (std::size_t k = flushed_; k < names_.size(); ++k) files.push_back(stage_ / names_[k]);
+  flush_files(stage_descriptor_, files);
+  flushed_ = names_.size();
 }
 
 void StagedFiles::publish(const fs::path& last) {
-  std::vector<fs::path> names;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(stage_)) {
-    if (entry.is_regular_file()) names.push_back(entry.path().lexically_relative(stage_));
-  }
-  std::sort(names.begin(), names.end(),
-            [&](const fs::path& a, const fs::path& b) { return std::pair(a == last, a) < std::pair(b == last, b); });
+  flush();
+  std::vector<fs::path> names = names_;
+  std::stable_partition(names.begin(), names.end(), [&last](const fs::path& name) { return name != last; });
   std::set<fs::path> folders{folder_};
   // Flushes the new names to disk before the last file is renamed: if it exists, even after a power failure, the others
   // exist too.
   const auto flush_all = [&folders] { std::for_each(folders.begin(), folders.end(), flush_folder); };
   for (const fs::path& name : names) {
     if (name == last) flush_all();
-    if (name.has_parent_path()) {
+    if (name.has_parent_path() && folders.insert(folder_ / name.parent_path()).second)
       make_folder(folder_ / name.parent_path());
-      folders.insert(folder_ / name.parent_path());
-    }
     std::error_code error;
     fs::rename(stage_ / name, folder_ / name, error);
     if (error)

@@ -4,12 +4,16 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
+
+#include "base/atomic_file.hpp"
 
 namespace lichtmc {
 
-// A set of files that is written completely or not at all: first into a temporary folder inside the folder, then
-// renamed. Until then, the existing files stay unchanged, also if the disk is full.
+// A set of files that is written completely or not at all: first into a temporary folder inside the folder, then, when
+// all are on the disk, renamed. Until then, the existing files stay unchanged, also if the disk is full.
 class StagedFiles {
  public:
   // Throws RuntimeError if the folder is not writable.
@@ -19,11 +23,15 @@ class StagedFiles {
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  // The path to write the later file folder/name (or folder/inner/name) to.
-  std::filesystem::path operator/(const std::filesystem::path& name) const;
+  // Writes the later file folder/name (or folder/inner/name). Throws RuntimeError.
+  void write(const std::filesystem::path& name, const std::function<void(const Sink&)>& produce);
+  void write(const std::filesystem::path& name, std::string_view bytes);
 
-  // Renames all files to their final names; the file named `last`, if there is one, after all others. Throws
-  // RuntimeError if a file cannot be renamed.
+  // Flushes the files written so far to the disk. Throws RuntimeError if that fails.
+  void flush();
+
+  // Flushes all files and renames them to their final names; the file named `last`, if there is one, after all others.
+  // Throws RuntimeError if a file cannot be flushed or renamed.
   void publish(const std::filesystem::path& last);
 
   // Removes the temporary files of killed processes from a folder.
@@ -32,7 +40,13 @@ class StagedFiles {
  private:
   std::filesystem::path folder_;
   std::filesystem::path stage_;
+  int stage_descriptor_ = -1;
+  std::vector<std::filesystem::path> names_;
+  std::size_t flushed_ = 0;  // number of the names whose files are on the disk
 };
+
+// Throws InputError: the folder cannot be written into, for this reason.
+[[noreturn]] void refuse_folder(const std::filesystem::path& folder, const std::string& reason);
 
 // The message of the operating system in lower case, for use in a sentence: "permission denied".
 std::string reason_of(const std::error_code& error);

@@ -1,17 +1,14 @@
 #include "output/read_results.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <system_error>
+#include <vector>
 
-// Read without threads. gcc warns about the truncation of long file names by the library, which is intended there.
-#define CSV_IO_NO_THREAD
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wstringop-truncation"
-#endif
-#include <libfccp/csv.h>
 #include <nlohmann/json.hpp>
 
+#include "base/csv.hpp"
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
 
@@ -34,47 +31,73 @@ Number parse(const fs::path& file, const std::string& text) {
   return value;
 }
 
-template <unsigned columns>
-using Table = io::CSVReader<columns, io::trim_chars<' '>, io::double_quote_escape<',', '"'>>;
+// A table of lichtmc, with some of its columns by their names.
+class ResultTable {
+ public:
+  ResultTable(const fs::path& file, const std::vector<std::string_view>& columns)
+      : file_(file), in_(file, std::ios::binary), reader_(in_, ',') {
+    if (!read_row()) refuse(file_, "it is empty");
+    width_ = row_.fields.size();
+    for (const std::string_view column : columns) {
+      const auto found = std::find_if(row_.fields.begin(), row_.fields.end(),
+                                      [column](const CsvField& field) { return field.text == column; });
+      if (found == row_.fields.end()) refuse(file_, "it has no column " + in_quotes(column));
+      places_.push_back(static_cast<std::size_t>(found - row_.fields.begin()));
+    }
+  }
+
+  // The next row; false at the end.
+  bool next() {
+    if (!read_row()) return false;
+    if (row_.fields.size() != width_)
+      refuse(file_, "row " + std::to_string(row_.line) + " has " + to_text(row_.fields.size(), "field") +
+                        ", the heading has " + std::to_string(width_));
+    return true;
+  }
+
+  // The field of the k-th of the columns.
+  const std::string& text(std::size_t k) const { return row_.fields[places_[k]].text; }
+  template <class Number>
+  Number number(std::size_t k) const {
+    return parse<Number>(file_, text(k));
+  }
+
+ private:
+  bool read_row() {
+    try {
+      return reader_.next(row_);
+    } catch (const CsvFault& fault) {
+      refuse(file_, "row " + std::to_string(fault.line) + ' ' + fault.what);
+    }
+  }
+
+  fs::path file_;
+  std::ifstream in_;
+  CsvReader reader_;
+  CsvRow row_;
+  std::size_t width_ = 0;
+  std::vector<std::size_t> places_;
+};
 
 std::vector<ComparableTile> read_tiles(const fs::path& file) {
+  ResultTable table(file, {"surface", "column", "row", "x", "y", "z", "irradiance", "standard_error"});
   std::vector<ComparableTile> tiles;
-  try {
-    Table<8> table(file.string());
-    table.read_header(io::ignore_extra_column, "surface", "column", "row", "x", "y", "z", "irradiance",
-                      "standard_error");
-    std::string column, row, x, y, z, irradiance, error;
-    ComparableTile tile;
-    while (table.read_row(tile.surface, column, row, x, y, z, irradiance, error)) {
-      tile.column = parse<std::uint32_t>(file, column);
-      tile.row = parse<std::uint32_t>(file, row);
-      tile.point = {parse<double>(file, x), parse<double>(file, y), parse<double>(file, z)};
-      tile.irradiance = parse<double>(file, irradiance);
-      tile.standard_error = parse<double>(file, error);
-      tiles.push_back(tile);
-    }
-  } catch (const io::error::base& fault) {
-    refuse(file, fault.what());
+  while (table.next()) {
+    tiles.push_back({table.text(0), table.number<std::uint32_t>(1), table.number<std::uint32_t>(2),
+                     glm::dvec3(table.number<double>(3), table.number<double>(4), table.number<double>(5)),
+                     table.number<double>(6), table.number<double>(7)});
   }
   return tiles;
 }
 
 std::vector<ComparableReceiver> read_receivers(const fs::path& file) {
+  ResultTable table(file, {"name", "x", "y", "z", "nx", "ny", "nz", "irradiance", "standard_error"});
   std::vector<ComparableReceiver> receivers;
-  try {
-    Table<9> table(file.string());
-    table.read_header(io::ignore_extra_column, "name", "x", "y", "z", "nx", "ny", "nz", "irradiance", "standard_error");
-    std::string x, y, z, nx, ny, nz, irradiance, error;
-    ComparableReceiver receiver;
-    while (table.read_row(receiver.name, x, y, z, nx, ny, nz, irradiance, error)) {
-      receiver.position = {parse<double>(file, x), parse<double>(file, y), parse<double>(file, z)};
-      receiver.normal = {parse<double>(file, nx), parse<double>(file, ny), parse<double>(file, nz)};
-      receiver.irradiance = parse<double>(file, irradiance);
-      receiver.standard_error = parse<double>(file, error);
-      receivers.push_back(receiver);
-    }
-  } catch (const io::error::base& fault) {
-    refuse(file, fault.what());
+  while (table.next()) {
+    receivers.push_back({table.text(0),
+                         glm::dvec3(table.number<double>(1), table.number<double>(2), table.number<double>(3)),
+                         glm::dvec3(table.number<double>(4), table.number<double>(5), table.number<double>(6)),
+                         table.number<double>(7), table.number<double>(8)});
   }
   return receivers;
 }

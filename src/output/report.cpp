@@ -133,7 +133,8 @@ std::string report_html(const ReportContent& content) {
                    (result.quantity == Quantity::photometric ? "Illuminance in " : "Irradiance in ") + result.room) +
       key_figures(room, result) + warnings_section(content) + pictures_section(content) + view_section(content) +
       surfaces_section(content) + receivers_section(result) + balance_section(result) + convergence_section(result) +
-      settings_section(room, result) + left_out_section(result) + reproduction_section(result, content.command);
+      settings_section(room, result, content.tile_images) + left_out_section(result) +
+      reproduction_section(result, content.command);
   return "<!DOCTYPE html>\n<html lang=\"en\">\n" + element("head", head) +
          element("body", element("main", body) + scripts(content)) + "</html>\n";
 }

@@ -17,6 +17,7 @@ struct ReportContent {
   const Result* result = nullptr;
   ColourScale scale;
   std::string command;
+  bool tile_images = true;  // tiles/*.exr were written
   Inspection inspection;
   std::string room_picture;
   std::string above_picture;

@@ -32,7 +32,7 @@ std::string settings_table(const Settings& settings) {
 
 }  // namespace
 
-std::string settings_section(const Room& room, const Result& result) {
+std::string settings_section(const Room& room, const Result& result, bool tile_images) {
   const Settings& s = result.settings;
   std::string rows;
   const auto row = [&rows](std::string_view name, const std::string& value) {
@@ -48,6 +48,7 @@ std::string settings_section(const Room& room, const Result& result) {
     row("photons", std::to_string(result.walk.histories));
     row("impacts", std::to_string(result.walk.impacts));
     row("ended by", std::string(to_string(result.walk.stopped_by)));
+    if (!tile_images) row("tile maps as images", "not written, as asked for (--no-images)");
   }
   if (!result.receiver_results.empty()) {
     row("backward walks from receivers", std::to_string(result.receiver_walk.histories));

@@ -9,7 +9,7 @@
 namespace lichtmc {
 
 // Tables of the settings and the emitters; automatic choices, and input overrides.
-std::string settings_section(const Room& room, const Result& result);
+std::string settings_section(const Room& room, const Result& result, bool tile_images);
 
 // The content of the room file that is not modelled.
 std::string left_out_section(const Result& result);

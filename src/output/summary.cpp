@@ -15,7 +15,7 @@ namespace lichtmc {
 
 namespace {
 
-Json surfaces_of(const Result& result) {
+Json surfaces_of(const Result& result, const ResultFiles& written) {
   Json surfaces = Json::array();
   const std::vector<std::string> files = tile_image_names(result.tiling);
   for (std::size_t m = 0; m < result.surfaces.size(); ++m) {
@@ -37,7 +37,7 @@ Json surfaces_of(const Result& result) {
                {"absorbed", number(s.absorbed)},
                {"behind_share", number(s.behind_share)},
                {"hits", s.hits},
-               {"file", "tiles/" + files[m]}};
+               {"file", written.tile_images ? Json("tiles/" + files[m]) : Json(nullptr)}};
     if (map.chart == ChartSource::engine) entry["chart"] = "made by lichtmc: " + map.chart_reason;
     surfaces.push_back(entry);
   }
@@ -152,11 +152,11 @@ void add_balance(const Result& result, Json& summary) {
 }
 
 // `receivers` stays empty here: see write_receivers().
-void add_results(const Result& result, Json& summary) {
+void add_results(const Result& result, const ResultFiles& files, Json& summary) {
   summary["rms_relative_error"] = number(result.walk.rms_relative_error);
   summary["figure_of_merit"] = number(result.walk.figure_of_merit);
   summary["stopped_by"] = std::string(to_string(result.walk.stopped_by));
-  summary["surfaces"] = surfaces_of(result);
+  summary["surfaces"] = surfaces_of(result, files);
   summary["receivers"] = Json::array();
   summary["ignored"] = texts_of(result.ignored);
 }
@@ -192,7 +192,7 @@ Json settings_of(const Settings& settings) {
 }
 
 // Details added to the format later, after the keys above.
-void add_details(const Room& room, const Result& result, Json& summary) {
+void add_details(const Room& room, const Result& result, const ResultFiles& files, Json& summary) {
   summary["processes"] = result.processes;
   summary["checkpoint_seconds"] = number(result.checkpoint_seconds);
   summary["tiles_by"] = std::string(to_string(result.settings.tile_walk));
@@ -211,16 +211,17 @@ void add_details(const Room& room, const Result& result, Json& summary) {
   summary["lost_histories"] = result.lost_histories;
   summary["units"] = units_of(result);
   summary["settings"] = settings_of(result.settings);
+  if (!files.tile_images) summary["tile_images"] = false;
 }
 
 }  // namespace
 
-void write_summary(const Room& room, const Result& result, const Sink& sink) {
+void write_summary(const Room& room, const Result& result, const ResultFiles& files, const Sink& sink) {
   Json summary;
   add_run(result, summary);
   add_balance(result, summary);
-  add_results(result, summary);
-  add_details(room, result, summary);
+  add_results(result, files, summary);
+  add_details(room, result, files, summary);
   // The receivers replace the empty array.
   const std::string text = json_text(summary);
   const std::string_view place = "\n  \"receivers\": [";
@@ -230,9 +231,9 @@ void write_summary(const Room& room, const Result& result, const Sink& sink) {
   sink(std::string_view(text).substr(cut));
 }
 
-std::string summary_json(const Room& room, const Result& result) {
+std::string summary_json(const Room& room, const Result& result, const ResultFiles& files) {
   std::string text;
-  write_summary(room, result, [&text](std::string_view piece) { text += piece; });
+  write_summary(room, result, files, [&text](std::string_view piece) { text += piece; });
   return text;
 }
 

@@ -1,6 +1,10 @@
 #include "output/svg.hpp"
 
+#include <algorithm>
 #include <cstdio>
+
+#include "base/utf8.hpp"
+#include "lichtmc/visible_text.hpp"
 
 namespace lichtmc {
 
@@ -18,8 +22,11 @@ constexpr std::string_view style =
 
 std::string escaped(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    switch (c) {
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    const std::string_view piece = text.substr(0, std::max<std::size_t>(character.bytes, 1));
+    text.remove_prefix(piece.size());
+    switch (piece.front()) {
       case '<':
         out += "&lt;";
         break;
@@ -32,9 +39,13 @@ std::string escaped(std::string_view text) {
       case '"':
         out += "&quot;";
         break;
+      case '\t':
+      case '\n':
+      case '\r':
+        out += piece;
+        break;
       default:
-        // The only control characters that XML 1.0 allows are tab and line ends.
-        out += static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r' ? '?' : c;
+        out += visible_text(piece);
     }
   }
   return out;

@@ -9,7 +9,8 @@
 
 namespace lichtmc {
 
-// Escapes the characters with a meaning in XML and HTML; replaces characters that XML does not allow.
+// Escapes the characters with a meaning in XML and HTML; characters that XML does not allow, or that change the order
+// of the text, become visible as by visible_text(). Tabs and line ends stay.
 std::string escaped(std::string_view text);
 
 // A length in units of the picture, with one decimal.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/csv.hpp"
 #include "base/message.hpp"
 
 namespace lichtmc {
@@ -20,17 +21,6 @@ void append_row(std::string& table, const Fields&... fields) {
   (append(fields), ...);
   table += '\n';
 }
-
-}  // namespace
-
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return field + '"';
-}
-
-namespace {
 
 // Writes the rows collected so far.
 void flush(std::string& table, const Sink& sink) {

@@ -1,9 +1,9 @@
 // Results as tables of comma-separated values (RFC 4180): a header row with the names of the columns, then one row per
-// tile, surface or receiver. Long tables are written row by row.
+// tile, surface or receiver. Long tables are written row by row. Names are written as they are: CsvReader
+// (base/csv.hpp) reads back the same text.
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "base/atomic_file.hpp"
 #include "lichtmc/paths.hpp"
@@ -21,9 +21,6 @@ void write_tiles_csv(const Result& result, const Sink& sink);
 // One row per tile map: a surface, or the back of a two-sided surface. standard_error is that of the mean irradiance;
 // direct and indirect are means too.
 std::string surfaces_csv(const Result& result);
-
-// A text as a field. If it contains a comma, a quote or a line break, it is quoted and its quotes are doubled.
-std::string csv_field(std::string_view text);
 
 // photon,flight,x,y,z,surface,weight,event
 // One row for the start of each path and for the end of each flight: flight 0 is the start; x, y, z in m; surface: its

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <limits>
-#include <set>
+#include <unordered_map>
 #include <utility>
 
 #include <ImathVec.h>
@@ -14,6 +13,7 @@
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
 
+#include "base/utf8.hpp"
 #include "lichtmc/version.hpp"
 #include "output/exr.hpp"
 
@@ -63,34 +63,18 @@ Imf::Header header_of(const Result& result, std::size_t m) {
   return header;
 }
 
-// Number of bytes of the UTF-8 character at the start of a text: 1 for ASCII, else 2 to 4; 0 if it is invalid (RFC
-// 3629). Overlong forms and surrogates are accepted: they are harmless in a file name.
-std::size_t character_length(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text.front());
-  const std::size_t length = lead < 0x80   ? 1
-                             : lead < 0xC2 ? 0
-                             : lead < 0xE0 ? 2
-                             : lead < 0xF0 ? 3
-                             : lead < 0xF5 ? 4
-                                           : 0;
-  if (length > text.size()) return 0;
-  const bool whole =
-      std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(length, 1)),
-                  [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; });
-  return whole ? length : 0;
-}
-
 std::string safe_stem(std::string_view name) {
-  constexpr std::size_t max_bytes = 120;  // file systems allow 255; the temporary name adds a suffix
+  constexpr std::size_t max_bytes = 120;  // file systems allow 255
   std::string stem;
   while (!name.empty()) {
-    const auto c = static_cast<unsigned char>(name.front());
-    const std::size_t length = character_length(name);
-    const bool plain = length > 1 || (length == 1 && (std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'));
-    const std::string_view piece = plain ? name.substr(0, length) : std::string_view("_");
+    const Character c = first_character(name);
+    const bool ascii = c.code < 0x80 &&
+                       (std::isalnum(static_cast<int>(c.code)) != 0 || c.code == '_' || c.code == '-' || c.code == '.');
+    const bool plain = c.bytes > 1 ? !acts_on_terminal(c.code) : c.bytes == 1 && ascii;
+    const std::string_view piece = plain ? name.substr(0, c.bytes) : std::string_view("_");
     if (stem.size() + piece.size() > max_bytes) break;
     stem += piece;
-    name.remove_prefix(std::max<std::size_t>(length, 1));
+    name.remove_prefix(std::max<std::size_t>(c.bytes, 1));
   }
   if (stem.empty() || stem.front() == '.') stem.insert(0, "_");
   return stem;
@@ -111,7 +95,7 @@ std::string tile_image(const Result& result, std::size_t m) {
 
 std::vector<std::string> file_stems(const std::vector<std::string>& names) {
   std::vector<std::string> stems;
-  std::set<std::string> taken;
+  std::unordered_map<std::string, int> next;  // by a name that is taken: the number to try when it comes again
   const auto folded = [](std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -120,7 +104,13 @@ std::vector<std::string> file_stems(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const std::string stem = safe_stem(name);
     std::string unique = stem;
-    for (int n = 2; !taken.insert(folded(unique)).second; ++n) unique = stem + "_" + std::to_string(n);
+    // Numbers below the one remembered are taken, so that many names with the same beginning take linear time.
+    if (const auto found = next.find(folded(stem)); found != next.end()) {
+      int& n = found->second;
+      do unique = stem + "_" + std::to_string(n++);
+      while (next.contains(folded(unique)));
+    }
+    next.emplace(folded(unique), 2);
     stems.push_back(std::move(unique));
   }
   return stems;

@@ -35,6 +35,7 @@ class ReportWriter {
     content_.room = &room;
     content_.result = &result;
     content_.command = options.command;
+    content_.tile_images = options.tile_images;
   }
 
   void write() {
@@ -45,7 +46,7 @@ class ReportWriter {
     announce("Checking the room");
     content_.inspection = inspect(*room_, result_->tiling, result_->settings.tile_edge_m);
     announce("Writing report.html");
-    write_file_atomically(folder_ / "report.html", report_html(content_));
+    folder_.write("report.html", report_html(content_));
     folder_.publish("report.html");
   }
 
@@ -62,12 +63,11 @@ class ReportWriter {
     std::string svg;
   };
 
-  void write_picture(const std::string& stem, const Drawn& drawn) const {
+  void write_picture(const std::string& stem, const Drawn& drawn) {
     const fs::path pictures = "pictures";
-    write_file_atomically(folder_ / (pictures / (stem + ".png")), drawn.png);
-    write_file_atomically(folder_ / (pictures / (stem + ".svg")), drawn.svg);
-    if (options_->exr_pictures)
-      write_file_atomically(folder_ / (pictures / (stem + ".exr")), exr_of(*drawn.picture, *result_));
+    folder_.write(pictures / (stem + ".png"), drawn.png);
+    folder_.write(pictures / (stem + ".svg"), drawn.svg);
+    if (options_->exr_pictures) folder_.write(pictures / (stem + ".exr"), exr_of(*drawn.picture, *result_));
   }
 
   Drawn room_picture(const std::string& name, const Picture& picture, View view) const {
@@ -110,10 +110,10 @@ class ReportWriter {
     for (const Drawn& drawn : all) stems.push_back(drawn.name);
     stems = file_stems(stems);
     if (!content_.paths_picture.empty())
-      write_file_atomically(folder_ / (fs::path("pictures") / (stems[0] + ".svg")), content_.paths_picture);
+      folder_.write(fs::path("pictures") / (stems[0] + ".svg"), content_.paths_picture);
     for (std::size_t k = 0; k < all.size(); ++k) write_picture(stems[k + 1], all[k]);
     content_.lit_room = lit_room_glb(*room_, *result_, painter.lit_sides(), content_.scale, paths);
-    write_file_atomically(folder_ / "room_lit.glb", content_.lit_room);
+    folder_.write("room_lit.glb", content_.lit_room);
   }
 
   // The paths of the first photons of the run, if requested.

@@ -21,11 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void refuse_folder(const fs::path& folder, const std::string& reason) {
-  throw InputError("Cannot write into the output folder " + lichtmc::in_quotes(folder.string()) + " (" + reason +
-                   "). Choose another folder with --output.");
-}
-
 // Creates, writes and removes a file; returns the error if that fails. A check of permissions is not sufficient: the
 // disk may be full or mounted read-only.
 std::error_code try_to_write(const fs::path& folder) {
@@ -43,10 +38,11 @@ std::error_code try_to_write(const fs::path& folder) {
 
 }  // namespace
 
-void prepare_output(const fs::path& folder) {
+FolderLock prepare_output(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) refuse_folder(folder, reason_of(error));
+  FolderLock lock(folder);
   if (const std::error_code fault = try_to_write(folder)) refuse_folder(folder, reason_of(fault));
   StagedFiles::remove_leftovers(folder);
   for (const char* name : {"tiles", "pictures"}) {
@@ -55,22 +51,26 @@ void prepare_output(const fs::path& folder) {
     if (!fs::is_directory(inner, error)) refuse_folder(folder, in_quotes(name) + " in it is not a folder");
     if (const std::error_code fault = try_to_write(inner)) refuse_folder(inner, reason_of(fault));
   }
+  return lock;
 }
 
-void write_results(const Room& room, const Result& result, const fs::path& folder) {
-  make_folder(folder / "tiles");
+void write_results(const Room& room, const Result& result, const fs::path& folder, const ResultFiles& files) {
+  make_folder(folder);
   StagedFiles staged(folder);
-  std::vector<std::string> maps;
+  std::set<std::string> images;
+  if (!result.tiles.empty() && files.tile_images) {
+    const std::vector<std::string> names = tile_image_names(result.tiling);
+    images.insert(names.begin(), names.end());
+    for (std::size_t m = 0; m < names.size(); ++m) staged.write(fs::path("tiles") / names[m], tile_image(result, m));
+  }
   if (!result.tiles.empty()) {
-    maps = tile_image_names(result.tiling);
-    for (std::size_t m = 0; m < maps.size(); ++m)
-      write_file_atomically(staged / (fs::path("tiles") / maps[m]), tile_image(result, m));
-    write_file_atomically(staged / "tiles.csv", [&](const Sink& sink) { write_tiles_csv(result, sink); });
-    write_file_atomically(staged / "surfaces.csv", surfaces_csv(result));
+    staged.write("tiles.csv", [&](const Sink& sink) { write_tiles_csv(result, sink); });
+    staged.write("surfaces.csv", surfaces_csv(result));
   }
   if (!result.receiver_results.empty())
-    write_file_atomically(staged / "receivers.csv", [&](const Sink& sink) { write_receivers_csv(result, sink); });
-  write_file_atomically(staged / "summary.json", [&](const Sink& sink) { write_summary(room, result, sink); });
+    staged.write("receivers.csv", [&](const Sink& sink) { write_receivers_csv(result, sink); });
+  staged.write("summary.json", [&](const Sink& sink) { write_summary(room, result, files, sink); });
+  staged.flush();
 
   // All new files are on the disk: the old files can be replaced. The old summary is removed first, because a folder
   // with a summary.json is complete.
@@ -78,10 +78,13 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
   flush_folder(folder);
   remove_report(folder);
   // Removes results of an earlier run that this run does not replace. Other files stay.
-  const std::set<std::string> new_maps(maps.begin(), maps.end());
   remove_old_files(folder / "tiles", [&](const fs::path& file) {
-    return file.extension() == ".exr" && new_maps.count(file.filename().string()) == 0;
+    return file.extension() == ".exr" && images.count(file.filename().string()) == 0;
   });
+  if (images.empty()) {
+    std::error_code not_empty;
+    fs::remove(folder / "tiles", not_empty);
+  }
   if (result.tiles.empty()) {
     remove_old(folder / "tiles.csv");
     remove_old(folder / "surfaces.csv");

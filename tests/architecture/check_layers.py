@@ -25,13 +25,13 @@ BELOW = {
 }
 # Public headers by the layer that provides them: a layer may use its own headers and those of the layers below it.
 PUBLIC = {
-    "error": "base", "walk_direction": "base", "emitter_law": "chance", "units": "base", "version": "base",
-    "room": "room", "cuboid": "room", "overrides": "room", "tiles": "room",
+    "error": "base", "walk_direction": "base", "emitter_law": "chance", "units": "base", "version": "base", "visible_text": "base",
+    "room": "room", "cuboid": "room", "overrides": "room", "tiles": "room", "receiver_table": "room",
     "settings": "room", "fingerprint": "room",  # plain data that every layer may read
     "communicator": "run", "control": "run", "progress": "run", "state": "run", "mpi": "mpi",
     "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
     "paths": "walk", "picture": "view",
-    "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output",
+    "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output", "folder_lock": "output",
 }
 ADAPTERS_SEE_RESULTS = {"output": ["result", "inspect", "study", "picture", "paths", "lit_room"], "gltf": ["result", "picture", "paths"]}
 # Libraries that only these files or folders may include.
@@ -44,7 +44,6 @@ LIBRARIES = {
     r"meshoptimizer": ["src/gltf/"],
     r"stb/": ["src/base/", "src/gltf/"],
     r"hwy/": ["src/chance/", "src/walk/"],
-    r"libfccp": ["src/output/"],
     r"hdf5\.h": ["src/store/"],
     r"xxhash": ["src/base/"],
     r"mpi\.h": ["src/mpi/"],

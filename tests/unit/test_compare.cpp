@@ -22,7 +22,7 @@ class Folder {
   Folder(const std::string& name, const Room& room, const Settings& settings)
       : path_(fs::temp_directory_path() / ("lichtmc_compare_" + std::to_string(getpid()) + "_" + name)) {
     fs::remove_all(path_);
-    prepare_output(path_);
+    static_cast<void>(prepare_output(path_));
     write_results(room, simulate(room, settings), path_);
   }
   ~Folder() { fs::remove_all(path_); }

@@ -13,10 +13,12 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.hpp"
+#include "base/csv.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/output.hpp"
 #include "lichtmc/version.hpp"
 #include "output/tables.hpp"
+#include "output/tile_image.hpp"
 #include "support/catch.hpp"
 #include "support/small_result.hpp"
 
@@ -121,6 +123,7 @@ TEST_CASE("a CSV field is quoted only if necessary") {
   CHECK(csv_field("a\"b") == "\"a\"\"b\"");
   CHECK(csv_field("a\nb") == "\"a\nb\"");
   CHECK(csv_field("a\rb") == "\"a\rb\"");
+  CHECK(csv_field(" a") == "\" a\"");
 }
 
 TEST_CASE("summary.json has its keys in order with exact numbers and null for unknown values") {
@@ -236,13 +239,40 @@ TEST_CASE("the output folder contains exactly the files of this run") {
   const std::set<std::string> expected{"summary.json", "surfaces.csv", "tiles.csv", "tiles/a__b___c_d.exr",
                                        "tiles/lamp.back.exr"};
   const fs::path out = folder.path() / "deep" / "out";
-  prepare_output(out);
-  CHECK(files_below(out).empty());
-  write_results(make_room(), make_result(), out);
+  {
+    const FolderLock lock = prepare_output(out);
+    CHECK(files_below(out) == std::set<std::string>{".lichtmc.lock"});
+    write_results(make_room(), make_result(), out);
+  }
   CHECK(files_below(out) == expected);
   CHECK(content(out / "tiles.csv") == tiles_csv_of(make_result()));
   CHECK(content(out / "surfaces.csv") == surfaces_csv(make_result()));
   CHECK(content(out / "summary.json") == summary_json(make_room(), make_result()));
+}
+
+TEST_CASE("without images of the tile maps those of an earlier run are removed, and the summary says so") {
+  const Folder folder;
+  write_results(make_room(), make_result(), folder.path());
+  write_results(make_room(), make_result(), folder.path(), {.tile_images = false});
+  CHECK(files_below(folder.path()) == std::set<std::string>{"summary.json", "surfaces.csv", "tiles.csv"});
+  CHECK_FALSE(fs::exists(folder.path() / "tiles"));
+  const Json summary = Json::parse(content(folder.path() / "summary.json"));
+  CHECK(summary["tile_images"] == false);
+  for (const Json& surface : summary["surfaces"]) CHECK(surface["file"].is_null());
+}
+
+TEST_CASE("more files than are flushed one by one are written completely") {
+  const Folder folder;
+  const Result one = make_result();
+  Result result = one;
+  // 40 maps with the tiles of one: only their images count here.
+  for (int k = 0; k < 38; ++k) {
+    result.tiling.maps.push_back(one.tiling.maps[0]);
+    result.surfaces.push_back(one.surfaces[0]);
+  }
+  write_results(make_room(), result, folder.path());
+  CHECK(files_below(folder.path()).size() == 40 + 3);
+  CHECK(content(folder.path() / "tiles" / "a__b___c_d_39.exr") == tile_image(result, 39));
 }
 
 TEST_CASE("tile maps of an earlier run are removed and other files stay") {
@@ -250,7 +280,7 @@ TEST_CASE("tile maps of an earlier run are removed and other files stay") {
   fs::create_directories(folder.path() / "tiles" / "folder.exr");
   for (const char* name : {"tiles/old.exr", "tiles/notes.txt", "tiles/folder.exr/inside.exr", "other.exr"})
     std::ofstream(folder.path() / name) << "x";
-  prepare_output(folder.path());
+  static_cast<void>(prepare_output(folder.path()));
   CHECK(fs::exists(folder.path() / "tiles" / "old.exr"));
   write_results(make_room(), make_result(), folder.path());
   CHECK(files_below(folder.path()) == std::set<std::string>{"other.exr", "summary.json", "surfaces.csv", "tiles.csv",
@@ -272,7 +302,7 @@ TEST_CASE("temporary files of killed runs are removed, and nothing else") {
   for (const char* name : {"state.h5.tmp", "notes.tmp", "backup.tmp2147483646/kept"})
     std::ofstream(folder.path() / (std::string(name) + no_process)) << "x";
   std::ofstream(folder.path() / ("state.h5.tmp" + std::to_string(::getppid()))) << "of a run that goes on";
-  prepare_output(folder.path());
+  static_cast<void>(prepare_output(folder.path()));
   write_results(make_room(), make_result(), folder.path());
   CHECK(files_below(folder.path()) ==
         std::set<std::string>{"backup.tmp2147483646/kept2147483646", "notes.tmp2147483646",
@@ -298,16 +328,16 @@ TEST_CASE("an output folder that cannot be written is refused with its name and 
   const fs::path file = folder.path() / "file";
   std::ofstream(file) << "x";
   for (const fs::path& wrong : {file, file / "below"}) {
-    CHECK_THROWS_AS(prepare_output(wrong), InputError);
-    CHECK_THROWS_WITH(prepare_output(wrong), ContainsSubstring(wrong.string()) &&
-                                                 ContainsSubstring("(not a directory)") &&
-                                                 ContainsSubstring("--output"));
+    CHECK_THROWS_AS(static_cast<void>(prepare_output(wrong)), InputError);
+    CHECK_THROWS_WITH(static_cast<void>(prepare_output(wrong)), ContainsSubstring(wrong.string()) &&
+                                                                    ContainsSubstring("(not a directory)") &&
+                                                                    ContainsSubstring("--output"));
   }
   CHECK(content(file) == "x");
   fs::create_directories(folder.path() / "out");
   std::ofstream(folder.path() / "out" / "tiles") << "x";
-  CHECK_THROWS_AS(prepare_output(folder.path() / "out"), InputError);
-  CHECK_THROWS_WITH(prepare_output(folder.path() / "out"), ContainsSubstring("tiles"));
+  CHECK_THROWS_AS(static_cast<void>(prepare_output(folder.path() / "out")), InputError);
+  CHECK_THROWS_WITH(static_cast<void>(prepare_output(folder.path() / "out")), ContainsSubstring("tiles"));
 }
 
 TEST_CASE("an output folder without permission to write is refused with that reason") {
@@ -317,7 +347,7 @@ TEST_CASE("an output folder without permission to write is refused with that rea
   }
   const Folder folder;
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
-  CHECK_THROWS_WITH(prepare_output(folder.path()), ContainsSubstring("(permission denied)"));
+  CHECK_THROWS_WITH(static_cast<void>(prepare_output(folder.path())), ContainsSubstring("(permission denied)"));
   fs::permissions(folder.path(), fs::perms::owner_all);
 }
 

@@ -144,6 +144,7 @@ TEST_CASE("lit room: it contains every triangle of the room in its position, and
         std::string::npos);
 }
 
-TEST_CASE("svg: text is escaped, and control characters that XML does not allow are replaced") {
-  CHECK(escaped("a<b>&\"c\x01\t") == "a&lt;b&gt;&amp;&quot;c?\t");
+TEST_CASE("svg: text is escaped, and control characters that XML does not allow are visible") {
+  CHECK(escaped("a<b>&\"c\x01\t\xC3\xBC") == "a&lt;b&gt;&amp;&quot;c\\u0001\t\xC3\xBC");
+  CHECK(escaped("\xE2\x80\xAE\xFF") == "\\u202e\\xff");
 }

@@ -122,3 +122,15 @@ TEST_CASE("long file names of tile maps are cut between characters and stay diff
     CHECK_NOTHROW(nlohmann::json(name).dump());  // throws if the text is not UTF-8
   }
 }
+
+TEST_CASE("ten thousand names with the same beginning get different file names in linear time") {
+  std::vector<std::string> names;
+  for (int k = 0; k < 10'000; ++k) names.push_back(std::string(130, 'a') + std::to_string(k));
+  names.push_back(std::string(120, 'A') + "_7");
+  const auto stems = file_stems(names);
+  CHECK(std::set<std::string>(stems.begin(), stems.end()).size() == names.size());
+  CHECK(stems[0] == std::string(120, 'a'));
+  CHECK(stems[9999] == std::string(120, 'a') + "_10000");
+  // Quadratic time, some minutes, would be the end of the time allowed for this test program.
+  CHECK(file_stems({"a", "A", "a_2", "a"}) == std::vector<std::string>{"a", "A_2", "a_2_2", "a_3"});
+}
