@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Tests the reader of rooms with malformed files, under the address and undefined-behaviour sanitizers. Requires clang.
-#   tools/fuzz.sh [SECONDS]     default 60; ends with 1 if the reader fails on a file, with 77 if clang is missing
+# Tests the readers of rooms and of tables of receivers with malformed files, under the address and undefined-behaviour sanitizers. Requires clang.
+#   tools/fuzz.sh [SECONDS]     default 60, a quarter of it for tables; ends with 1 if a reader fails on a file, with 77
+#                               if clang is missing
 # Seeds are the room files of LICHTMC_ROOMS (../shared/rooms) and scenes/. New inputs that reach new code are kept in build/fuzz/corpus,
-# files on which the reader fails in build/fuzz.
+# files on which a reader fails in build/fuzz.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}
@@ -12,8 +13,8 @@ printf '#include <cstddef>\n#include <cstdint>\nextern "C" int LLVMFuzzerTestOne
   clang++ -fsanitize=fuzzer,address,undefined -x c++ - -o /dev/null 2>/dev/null ||
   { echo "fuzz.sh: this clang has no libFuzzer. Install it: apt-get install libclang-rt-dev" >&2; exit 77; }
 cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --target fuzz_gltf
-mkdir -p build/fuzz/corpus build/fuzz/seeds
+cmake --build --preset fuzz --target fuzz_gltf fuzz_receivers
+mkdir -p build/fuzz/corpus build/fuzz/seeds build/fuzz/corpus_receivers
 rooms=${LICHTMC_ROOMS:-../shared/rooms}
 folders=(scenes)
 if [ -d "$rooms" ]; then folders+=("$rooms"); else echo "fuzz.sh: the folder $rooms does not exist; only scenes/ are seeds" >&2; fi
@@ -24,5 +25,7 @@ while IFS= read -r -d '' file; do
   cp -f "$file" "build/fuzz/seeds/$n-$(basename "$file")"
 done < <(find "${folders[@]}" \( -name '*.gltf' -o -name '*.glb' \) -size -40k -print0)
 cd build/fuzz
-./bin/fuzz_gltf -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=65536 -dict=../../tests/fuzz/gltf.dict -print_final_stats=1 \
+./bin/fuzz_receivers -max_total_time="$((seconds / 4))" -timeout=20 -rss_limit_mb=2048 -max_len=4096 -dict=../../tests/fuzz/csv.dict \
+  -print_final_stats=1 corpus_receivers ../../tests/fuzz/receivers
+./bin/fuzz_gltf -max_total_time="$((seconds - seconds / 4))" -timeout=20 -rss_limit_mb=2048 -max_len=65536 -dict=../../tests/fuzz/gltf.dict -print_final_stats=1 \
   corpus seeds
