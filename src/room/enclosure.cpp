@@ -10,6 +10,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/frame.hpp"
+#include "room/sorted_points.hpp"
+
 namespace lichtmc {
 
 namespace {
@@ -28,6 +31,9 @@ class Groups {
  private:
   std::vector<std::size_t> parent_;
 };
+
+// Of rays that test whether a point is inside: with no simple relation to a room's edges.
+const glm::dvec3 first_direction(0.57735, 0.21132, 0.78868);
 
 // Crossings of the ray from `start` along `direction` with a triangle: 0 or 1; nothing if it comes so close to an edge
 // that rounding would determine the result.
@@ -81,25 +87,71 @@ Enclosure::Enclosure(const WeldedMesh& mesh) {
   }
 }
 
-std::size_t Enclosure::shells_about(const glm::dvec3& point_m) const {
-  const auto inside = [&point_m](const Shell& shell) {
-    // Directions with no simple relation to a room's edges; the next one if a ray comes too close to an edge of the
-    // mesh.
-    glm::dvec3 direction(0.57735, 0.21132, 0.78868);
-    for (int attempt = 0; attempt < 16; ++attempt) {
-      int sum = 0;
-      bool sure = true;
-      for (const WeldedMesh::Corners& triangle : shell) {
-        const std::optional<int> count = crossings(triangle, point_m, direction);
-        sure = sure && count.has_value();
-        sum += count.value_or(0);
-      }
-      if (sure) return sum % 2 != 0;
-      direction = glm::dvec3(direction.y + 0.1, direction.z - 0.3, -direction.x);
+bool Enclosure::is_inside(const Shell& shell, const glm::dvec3& point_m) {
+  // The next direction if a ray comes too close to an edge of the mesh.
+  glm::dvec3 direction = first_direction;
+  for (int attempt = 0; attempt < 16; ++attempt) {
+    int sum = 0;
+    bool sure = true;
+    for (const WeldedMesh::Corners& triangle : shell) {
+      const std::optional<int> count = crossings(triangle, point_m, direction);
+      sure = sure && count.has_value();
+      sum += count.value_or(0);
     }
-    return false;
+    if (sure) return sum % 2 != 0;
+    direction = glm::dvec3(direction.y + 0.1, direction.z - 0.3, -direction.x);
+  }
+  return false;
+}
+
+std::vector<std::size_t> Enclosure::shells_around(const glm::dvec3& point_m) const {
+  std::vector<std::size_t> around;
+  for (std::size_t k = 0; k < shells_.size(); ++k) {
+    if (is_inside(shells_[k], point_m)) around.push_back(k);
+  }
+  return around;
+}
+
+// Seen along the direction of the rays, a triangle can only be crossed by rays from points in its bounding rectangle.
+std::vector<bool> Enclosure::encloses_each(const std::vector<glm::dvec3>& points_m) const {
+  const Frame frame = frame_about(glm::normalize(first_direction));
+  const auto seen = [&frame](const glm::dvec3& p) {
+    return glm::dvec3(glm::dot(p, frame.tangent), glm::dot(p, frame.bitangent), 0.0);
   };
-  return static_cast<std::size_t>(std::count_if(shells_.begin(), shells_.end(), inside));
+  std::vector<glm::dvec3> flat;
+  for (const glm::dvec3& point : points_m) flat.push_back(seen(point));
+  const SortedPoints sorted(flat);
+  std::vector<bool> enclosed(points_m.size(), false);
+  for (const Shell& shell : shells_) {
+    std::vector<std::optional<int>> sums(points_m.size(), 0);
+    for (const WeldedMesh::Corners& triangle : shell) {
+      Bounds box;
+      for (const glm::dvec3& corner : triangle) box.add(seen(corner));
+      // crossings() is uncertain within 10⁻⁹ of a triangle's size, and some roundings of the coordinates.
+      const double rounding = 1e-12 * std::max(glm::length(box.low), glm::length(box.high));
+      const double margin = 1e-8 * glm::length(box.high - box.low) + rounding;
+      box.low -= margin;
+      box.high += margin;
+      sorted.for_each_in(box, [&](std::size_t k) {
+        const std::optional<int> count = crossings(triangle, points_m[k], first_direction);
+        sums[k] = sums[k] && count ? std::optional(*sums[k] + *count) : std::nullopt;
+      });
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      if (!enclosed[k]) enclosed[k] = sums[k] ? *sums[k] % 2 != 0 : is_inside(shell, points_m[k]);
+    }
+  }
+  return enclosed;
+}
+
+bool Enclosure::has_shell_over(const Bounds& box, double slack) const {
+  return std::any_of(shells_.begin(), shells_.end(), [&](const Shell& shell) {
+    Bounds own;
+    for (const WeldedMesh::Corners& triangle : shell) {
+      for (const glm::dvec3& corner : triangle) own.add(corner);
+    }
+    return own.holds(box.low, slack) && own.holds(box.high, slack);
+  });
 }
 
 }  // namespace lichtmc

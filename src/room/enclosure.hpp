@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "lichtmc/room.hpp"
+#include "room/bounds.hpp"
 #include "room/welded_mesh.hpp"
 
 namespace lichtmc {
@@ -25,11 +26,22 @@ class Enclosure {
   // times.
   bool encloses(const glm::dvec3& point_m) const { return shells_about(point_m) > 0; }
 
+  // encloses() for each of several points, much faster if they are many.
+  std::vector<bool> encloses_each(const std::vector<glm::dvec3>& points_m) const;
+
+  // Whether a closed shell extends over all of a box, up to `slack` (m) at each side.
+  bool has_shell_over(const Bounds& box, double slack) const;
+
   // The number of closed shells that contain a point.
-  std::size_t shells_about(const glm::dvec3& point_m) const;
+  std::size_t shells_about(const glm::dvec3& point_m) const { return shells_around(point_m).size(); }
+
+  // The numbers of the closed shells that contain a point, in ascending order.
+  std::vector<std::size_t> shells_around(const glm::dvec3& point_m) const;
 
  private:
   using Shell = std::vector<WeldedMesh::Corners>;
+
+  static bool is_inside(const Shell& shell, const glm::dvec3& point_m);
 
   std::vector<Shell> shells_;
 };

@@ -12,6 +12,7 @@
 #include "run/surface_results.hpp"
 #include "run/tile_light.hpp"
 #include "walk/backward.hpp"
+#include "walk/receiver_points.hpp"
 #include "walk/tile_faces.hpp"
 
 namespace lichtmc {
@@ -128,7 +129,8 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   const Room& room = context.room;
   const Tracer& tracer = *context.scene.tracer;
   const DirectLight light(room, tracer);
-  const ReceiverOrigins origins(room.receivers, tracer);
+  const std::vector<ReferencePoint> points = receiver_points(room, tracer);
+  const ReceiverOrigins origins(points, tracer);
   const BackwardScale scale(room);
   const Stream stream(context.settings.seed, WalkDirection::backward);
   BackwardTask task;
@@ -139,9 +141,8 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   task.direct = [&](std::size_t k, TraceCount& count) -> DirectIrradiance {
     const Receiver& receiver = room.receivers[k];
     if (receiver.half_angle_deg == 0.0) return {};  // its field of view is empty
-    const ReferencePoint reference = reference_point_of(receiver);
-    if (const auto emitter = light.emitter_at(reference)) refuse_on_emitter(room, k, *emitter);
-    return light.irradiance_at(reference, stream, k, count);
+    if (const auto emitter = light.emitter_at(reference_point_of(receiver))) refuse_on_emitter(room, k, *emitter);
+    return light.irradiance_at(points[k], stream, k, count);
   };
   task.make_walk = [&](const Settings& own) { return make_backward_walk(context.scene, light, origins, scale, own); };
   task.error = error_of_receivers;

@@ -11,6 +11,7 @@
 #include "room/emitter_place.hpp"
 #include "room/emitter_shape.hpp"
 #include "room/reflectance.hpp"
+#include "run/outside.hpp"
 
 namespace lichtmc {
 
@@ -26,40 +27,70 @@ bool emits_backwards(const Emitter& emitter) {
   return std::visit([](const auto& law) { return law.extent().half_angle; }, law_of(emitter)) > hemisphere;
 }
 
+std::string place_text(const glm::dvec3& p) {
+  return "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ") m";
+}
+
 }  // namespace
 
-std::vector<OutsideEmitter> emitters_outside(const Room& room) {
-  std::vector<OutsideEmitter> outside;
+std::vector<Misplaced> emitters_outside(const Room& room) {
+  std::vector<Misplaced> outside;
   const Bounds bounds = bounds_of(room);
   // Files contain floats: an emitter at the ceiling may be above it by rounding.
   const glm::dvec3 farthest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
   const double slack = 4.0 * 0x1p-24 * std::max({farthest.x, farthest.y, farthest.z});
-  for (const Emitter& emitter : room.emitters) {
-    if (emitting_surface(emitter)) continue;
+  const std::vector<bool> beyond_walls = emitters_beyond_walls(room);
+  for (std::size_t k = 0; k < room.emitters.size(); ++k) {
+    const Emitter& emitter = room.emitters[k];
     const glm::dvec3 p = place_of(room, emitter);
-    const std::string which = "Emitter " + in_quotes(emitter.name) + " at (" + short_number(p.x) + ", " +
-                              short_number(p.y) + ", " + short_number(p.z) + ") m lies ";
-    if (bounds.holds(p, slack)) {
-      if (emits_backwards(emitter) && !bounds.holds(p, -slack)) {
-        outside.push_back(
-            {which + "on the boundary of the room: the light that it emits outwards escapes without an impact.",
-             "Move it some centimetres inwards."});
-      }
-      continue;
+    const std::string which = "Emitter " + in_quotes(emitter.name) + " at " + place_text(p) + " ";
+    const bool is_area = emitting_surface(emitter).has_value();
+    if (!is_area && !bounds.holds(p, slack)) {
+      std::string range;
+      for (int c = 0; c < 3; ++c)
+        range += (c > 0 ? ", " : "") + short_number(bounds.low[c]) + " to " + short_number(bounds.high[c]);
+      outside.push_back({which + "lies outside the room, which extends from x, y, z = " + range + " m.",
+                         "Check its position; Y is up."});
+    } else if (beyond_walls[k]) {
+      outside.push_back(
+          {which + (is_area ? "emits" : "lies") + " outside the walls of the closed room: its light does not get in.",
+           is_area ? "Reverse its faces: a surface emits from its front." : "Check its position; Y is up."});
+    } else if (!is_area && emits_backwards(emitter) && !bounds.holds(p, -slack)) {
+      outside.push_back(
+          {which + "lies on the boundary of the room: the light that it emits outwards escapes without an impact.",
+           "Move it some centimetres inwards."});
     }
-    std::string range;
-    for (int k = 0; k < 3; ++k)
-      range += (k > 0 ? ", " : "") + short_number(bounds.low[k]) + " to " + short_number(bounds.high[k]);
-    outside.push_back(
-        {which + "outside the room, which extends from x, y, z = " + range + " m.", "Check its position; Y is up."});
   }
-  return outside;
+  constexpr std::size_t most = 3;
+  if (outside.size() <= most) return outside;
+  return {{to_text(outside.size(), "emitter") + " of " + std::to_string(room.emitters.size()) +
+               " lie outside the room or on its boundary. The first: " + outside.front().what,
+           "Check their positions; Y is up."}};
+}
+
+std::vector<Misplaced> receivers_outside(const Room& room) {
+  std::vector<glm::dvec3> points;
+  for (const Receiver& receiver : room.receivers) points.push_back(receiver.position);
+  const std::vector<bool> outside = points_outside(room, points);
+  const auto n = static_cast<std::size_t>(std::count(outside.begin(), outside.end(), true));
+  if (n == 0) return {};
+  const Receiver& first =
+      room.receivers[static_cast<std::size_t>(std::find(outside.begin(), outside.end(), true) - outside.begin())];
+  const std::string where = in_quotes(first.name) + " at " + place_text(first.position);
+  const std::string rest = " outside the walls of the closed room: light from inside does not reach ";
+  const std::string what = n == 1 ? "Receiver " + where + " lies" + rest + "it."
+                                  : to_text(n, "receiver") + " of " + std::to_string(points.size()) + " lie" + rest +
+                                        "them. The first: " + where + ".";
+  return {{what, "Check the positions: they are in metres on the axes of glTF, Y is up."}};
 }
 
 std::vector<std::string> warnings_of(const Room& room, const Result& result) {
   std::vector<std::string> warnings;
   const Balance& balance = result.balance;
-  for (const OutsideEmitter& outside : emitters_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
+  for (const Misplaced& outside : emitters_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
+  if (!result.receiver_results.empty()) {
+    for (const Misplaced& outside : receivers_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
+  }
   if (result.settings.measured != Measured::receivers && result.walk.impacts == 0) {
     warnings.push_back(
         "No photon hit a surface. Check the positions and directions of the emitters; a surface emits light from its "

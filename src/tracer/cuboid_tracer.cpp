@@ -205,9 +205,26 @@ class CuboidTracer final : public Tracer {
     return false;
   }
 
-  // A cuboid is convex and empty.
-  bool is_blocked(const glm::vec3& /*start*/, const glm::vec3& /*segment*/, TraceCount& /*count*/) const override {
-    return false;
+  // A segment that begins inside is free. One that begins outside is blocked if it enters the cuboid before its end, by
+  // more than the rounding of its points.
+  bool is_blocked(const glm::vec3& start, const glm::vec3& segment, TraceCount& count) const override {
+    ++count.rays;
+    ++count.shadow_rays;
+    double enters = 0.0;  // along the segment, from 0 to 1
+    double leaves = 1.0;
+    for (int k = 0; k < 3; ++k) {
+      const double from = start[k];
+      const double along = segment[k];
+      if (along == 0.0) {
+        if (from <= 0.0 || from >= 1.0) return false;
+        continue;
+      }
+      enters = std::max(enters, ((along > 0.0 ? 0.0 : 1.0) - from) / along);
+      leaves = std::min(leaves, ((along > 0.0 ? 1.0 : 0.0) - from) / along);
+    }
+    const double size = glm::length(glm::dvec3(start)) + glm::length(glm::dvec3(segment)) + 1.0;
+    const double rounding = 4.0 * 0x1p-24 * size / glm::length(glm::dvec3(segment));
+    return enters > 0.0 && leaves - enters > rounding;
   }
   void find_blocked(ShadowRays& rays, TraceCount& /*count*/) const override {
     std::fill_n(rays.blocked.begin(), rays.size, std::uint8_t{0});
@@ -216,6 +233,14 @@ class CuboidTracer final : public Tracer {
 
   // Flights start on walls exactly.
   float step() const override { return 0.0F; }
+
+  // In front of a wall they start some floats off it.
+  double clearance_m(const glm::dvec3& normal) const override {
+    double extent = 0.0;
+    for (int k = 0; k < 3; ++k)
+      extent = std::max(extent, std::abs(glm::dot(world_vector({k == 0, k == 1, k == 2}), normal)));
+    return 2.0 * wall_rounding * extent;
+  }
 
   TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const override {
     return triangles_[surface][triangle];

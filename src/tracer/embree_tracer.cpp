@@ -23,6 +23,7 @@
 #include "base/lanes.hpp"
 #include "lichtmc/error.hpp"
 #include "room/convexity.hpp"
+#include "tracer/convex_room.hpp"
 #include "tracer/departure.hpp"
 #include "tracer/embree.hpp"
 #include "tracer/room_triangles.hpp"
@@ -55,11 +56,11 @@ class EmbreeTracer final : public Tracer {
     // Medium quality: the same tree for any number of threads.
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
     set_place(placement_.centre, glm::dmat3(1.0 / placement_.scale));
-    casts_shadows_ = !is_convex(WeldedMesh(room));
     load(make_triangles(room, tiling, placement_));
     throw_embree_error(device_.get(), "reading the room");
     rtcCommitScene(scene_.get());
     throw_embree_error(device_.get(), "building the tree of the room's triangles");
+    casts_shadows_ = !is_convex(WeldedMesh(room)) || !ConvexRoom(room, *this).holds_all_emitters();
   }
 
   void trace(Rays& rays, Misses misses, TraceCount& count) const override {
@@ -111,6 +112,10 @@ class EmbreeTracer final : public Tracer {
 
   // Coordinates lie between −1 and 1, and no side is longer than 2√3: the step of the largest possible facet.
   float step() const override { return static_cast<float>(step_roundings * 5.0); }
+
+  double clearance_m(const glm::dvec3& /*normal*/) const override {
+    return glm::length(world_vector({double{step()}, 0.0, 0.0}));
+  }
 
   TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const override {
     return {static_cast<std::uint32_t>(first_facet_[surface] + triangle), {0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}};

@@ -91,11 +91,16 @@ class Tracer {
   // The same for one segment.
   virtual bool is_blocked(const glm::vec3& start, const glm::vec3& segment, TraceCount& count) const = 0;
 
-  // Whether a surface can lie between two points in the room. If not, no shadow rays are traced.
+  // Whether a surface can lie between an emitter and a point of the room. If not, the room is one closed convex shell
+  // around all its emitters, and shadow rays are traced only from points outside.
   virtual bool casts_shadows() const = 0;
 
   // The smallest distance from any surface that is distinguishable from 0, in the tracer's coordinates.
   virtual float step() const = 0;
+
+  // The least distance, in m, from a plane with this normal (world, length 1) at which rays may start that must not
+  // start on the plane or behind it.
+  virtual double clearance_m(const glm::dvec3& normal) const = 0;
 
   // A point and a vector in the tracer's coordinates → the world, in m; and back.
   glm::dvec3 world_point(const glm::dvec3& point) const { return origin_ + to_world_ * point; }

@@ -61,7 +61,8 @@ class BackwardGoal : public GoalBase {
       factor_[i] = reference.squared_sine();
       const ConeDirection flight =
           sample_cosine_cone(frame_about(reference.normal), factor_[i], unit_open(words[0]), unit_open(words[1]));
-      wave.rays.set_direction(i, glm::vec3(scene_->tracer->directions() * flight.direction));
+      wave.rays.set_direction(i,
+                              glm::vec3(reference.way_out.value_or(scene_->tracer->directions() * flight.direction)));
       found_[i] = 0.0;
       direct_[i] = 0.0;
     }
@@ -144,7 +145,7 @@ class BackwardGoal : public GoalBase {
     const Tracer& tracer = *scene_->tracer;
     const glm::dvec3 start(rays.start(i));
     const glm::dvec3 normal = world_normal(tracer, tracer.facets()[rays.facet[i]]);
-    const ReferencePoint reference{tracer.world_point(start), rays.behind[i] != 0 ? -normal : normal, 0.0};
+    const ReferencePoint reference{tracer.world_point(start), rays.behind[i] != 0 ? -normal : normal, 0.0, {}, {}};
     const std::uint64_t id = ids_[wave.photon[i]];
     // Separate random words for each emitter at each surface.
     const auto number = static_cast<std::uint32_t>(flight * light_->light_samples_per_point() + k);
@@ -248,7 +249,7 @@ std::uint64_t BackwardScale::score(double irradiance) const {
 
 ReferencePoint ReceiverOrigins::start(std::uint64_t receiver, std::uint64_t /*sample*/, std::uint64_t /*id*/,
                                       const Stream& /*stream*/, Rays& rays, std::size_t i) const {
-  const ReferencePoint reference = reference_point_of((*receivers_)[receiver]);
+  const ReferencePoint& reference = (*receivers_)[receiver];
   rays.facet[i] = no_facet;
   rays.set_start(i, glm::vec3(start_of(reference, *tracer_)));
   return reference;

@@ -89,7 +89,8 @@ class BackwardWalk {
 // its reference point.
 class ReceiverOrigins {
  public:
-  ReceiverOrigins(const std::vector<Receiver>& receivers, const Tracer& tracer)
+  // receivers: see receiver_points.hpp; they and the tracer must outlive this.
+  ReceiverOrigins(const std::vector<ReferencePoint>& receivers, const Tracer& tracer)
       : receivers_(&receivers), tracer_(&tracer) {}
 
   static constexpr std::uint32_t group = 1;
@@ -98,7 +99,7 @@ class ReceiverOrigins {
                        std::size_t i) const;
 
  private:
-  const std::vector<Receiver>* receivers_;
+  const std::vector<ReferencePoint>* receivers_;
   const Tracer* tracer_;
 };
 

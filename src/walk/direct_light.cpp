@@ -9,6 +9,7 @@
 #include "chance/choice.hpp"
 #include "room/bounds.hpp"
 #include "room/emitter_shape.hpp"
+#include "walk/near_area_light.hpp"
 
 namespace lichtmc {
 
@@ -68,9 +69,17 @@ DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, con
     if (sample.irradiance > 0.0 && !is_blocked(*tracer_, reference, sample.target, count))
       sum.value += sample.irradiance;
   }
+  if (reference.way_out) return sum;  // the walls lie between area lights, which are walls, and points outside
   for (std::size_t k = 0; k < areas_.size(); ++k) {
     if (!tracer_->casts_shadows() && areas_[k].lambertian() && reference.least_cosine <= 0.0) {
       sum.value += areas_[k].polygon_irradiance(reference);
+      continue;
+    }
+    if (is_near(areas_[k], reference)) {
+      const DirectIrradiance part =
+          sample_near_light(areas_[k], *tracer_, reference, stream, number * areas_.size() + k, count);
+      sum.value += part.value;
+      variance += part.standard_error * part.standard_error;
       continue;
     }
     const auto same_point = [&reference](std::uint32_t) { return reference; };

@@ -119,23 +119,56 @@ bool AreaLight::reaches_above_horizon(const ReferencePoint& reference) const {
   return glm::dot(highest - reference.point, n) > 0.0;
 }
 
+double AreaLight::distance_m(const glm::dvec3& point) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::size_t triangle : triangles_) {
+    const glm::dvec3 normal = glm::normalize(cross_of(*surface_, triangle));
+    const double height = glm::dot(point - corner_of(*surface_, triangle, 0), normal);
+    if (height <= 0.0) continue;
+    bool over = true;
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 corner = corner_of(*surface_, triangle, k);
+      const glm::dvec3 side = corner_of(*surface_, triangle, (k + 1) % 3) - corner;
+      const glm::dvec3 from = point - corner;
+      if (glm::dot(from, glm::cross(normal, side)) >= 0.0) continue;  // on the inner side of this side
+      over = false;
+      const double along = std::clamp(glm::dot(from, side) / glm::dot(side, side), 0.0, 1.0);
+      nearest = std::min(nearest, glm::length(from - along * side));
+    }
+    if (over) nearest = std::min(nearest, height);
+  }
+  return nearest;
+}
+
 // Cramer's rule for point + λ direction = a + s b + t c (T. Möller, B. Trumbore, Fast, Minimum Storage Ray/Triangle
-// Intersection, 1997).
+// Intersection, 1997): λ > 0, if the front of the triangle is hit.
+std::optional<double> AreaLight::front_hit(std::size_t triangle, const glm::dvec3& point,
+                                           const glm::dvec3& direction) const {
+  const glm::dvec3 a = corner_of(*surface_, triangle, 0);
+  const glm::dvec3 b = corner_of(*surface_, triangle, 1) - a;
+  const glm::dvec3 c = corner_of(*surface_, triangle, 2) - a;
+  const glm::dvec3 across = glm::cross(direction, c);
+  const double determinant = glm::dot(b, across);  // above 0 if the front is hit
+  if (!(determinant > 0.0)) return std::nullopt;
+  const glm::dvec3 from = point - a;
+  const double s = glm::dot(from, across) / determinant;
+  const glm::dvec3 up = glm::cross(from, b);
+  const double t = glm::dot(direction, up) / determinant;
+  const double length = glm::dot(c, up) / determinant;
+  if (s >= 0.0 && t >= 0.0 && s + t <= 1.0 && length > 0.0) return length;
+  return std::nullopt;
+}
+
+int AreaLight::fronts_hit(const glm::dvec3& point, const glm::dvec3& direction) const {
+  return static_cast<int>(std::count_if(triangles_.begin(), triangles_.end(), [&](std::size_t triangle) {
+    return front_hit(triangle, point, direction).has_value();
+  }));
+}
+
 std::optional<glm::dvec3> AreaLight::nearest_hit(const glm::dvec3& point, const glm::dvec3& direction) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (const std::size_t triangle : triangles_) {
-    const glm::dvec3 a = corner_of(*surface_, triangle, 0);
-    const glm::dvec3 b = corner_of(*surface_, triangle, 1) - a;
-    const glm::dvec3 c = corner_of(*surface_, triangle, 2) - a;
-    const glm::dvec3 across = glm::cross(direction, c);
-    const double determinant = glm::dot(b, across);  // above 0 if the front is hit
-    if (!(determinant > 0.0)) continue;
-    const glm::dvec3 from = point - a;
-    const double s = glm::dot(from, across) / determinant;
-    const glm::dvec3 up = glm::cross(from, b);
-    const double t = glm::dot(direction, up) / determinant;
-    const double length = glm::dot(c, up) / determinant;
-    if (s >= 0.0 && t >= 0.0 && s + t <= 1.0 && length > 0.0) nearest = std::min(nearest, length);
+    if (const auto length = front_hit(triangle, point, direction)) nearest = std::min(nearest, *length);
   }
   if (!std::isfinite(nearest)) return std::nullopt;
   return point + nearest * direction;
@@ -144,6 +177,10 @@ std::optional<glm::dvec3> AreaLight::nearest_hit(const glm::dvec3& point, const 
 // L = Φ (m+1)/(2π A) cos^(m−1) θ.
 double AreaLight::radiance(double cosine) const {
   return flux_ / area_m2_ * law_.density_at(cosine) / cosine;
+}
+
+double AreaLight::mean_radiance() const {
+  return flux_ / area_m2_ / pi;
 }
 
 LightSample AreaLight::sample_light(const ReferencePoint& reference, double u, double v, double w) const {

@@ -63,6 +63,13 @@ class AreaLight {
   // emitter, without shadows.
   LightSample sample_light(const ReferencePoint& reference, double u, double v, double w) const;
 
+  // The least distance, in m, of a point from the part of the emitter whose front it sees; infinite if it sees none.
+  double distance_m(const glm::dvec3& point) const;
+
+  // The number of triangles whose front a ray from a point hits, one behind the other; polygon_irradiance() is π times
+  // the radiance times its mean over directions by Lambert's law.
+  int fronts_hit(const glm::dvec3& point, const glm::dvec3& direction) const;
+
   // The first point where a ray from a point hits the front of the emitter, if nothing else is hit before.
   std::optional<glm::dvec3> nearest_hit(const glm::dvec3& point, const glm::dvec3& direction) const;
 
@@ -77,8 +84,12 @@ class AreaLight {
   double radiance(double cosine) const;  // W/(m² sr) or cd/m² at an angle of this cosine to the normal
   std::size_t surface() const { return surface_number_; }
   double area_m2() const { return area_m2_; }
+  // Radiance of a Lambertian emitter of the same exitance, W/(m² sr) or cd/m².
+  double mean_radiance() const;
 
  private:
+  std::optional<double> front_hit(std::size_t triangle, const glm::dvec3& point, const glm::dvec3& direction) const;
+
   const Surface* surface_;
   std::size_t surface_number_;
   double flux_;

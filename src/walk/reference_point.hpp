@@ -1,6 +1,8 @@
 // Reference points: points with the normal of the plane for which irradiance is computed.
 #pragma once
 
+#include <optional>
+
 #include <glm/vec3.hpp>
 
 #include "lichtmc/room.hpp"
@@ -14,6 +16,11 @@ struct ReferencePoint {
   // Cosine of the half angle of the field of view, 0 for the whole hemisphere: light at a larger angle to the normal is
   // not included.
   double least_cosine = 0.0;
+  // Start of rays, in the tracer's coordinates; if not set, one step along the normal.
+  std::optional<glm::dvec3> start;
+  // Set outside a room in which nothing casts a shadow, whose emitters are all inside or on the walls: a direction (in
+  // the tracer's coordinates) in which no surface lies. Reflected light and area lights do not reach such a point.
+  std::optional<glm::dvec3> way_out;
 
   // The fraction of the irradiance by a hemisphere of uniform radiance that comes from the field of view.
   double squared_sine() const { return (1.0 - least_cosine) * (1.0 + least_cosine); }
@@ -23,8 +30,7 @@ struct ReferencePoint {
 // irradiance 0.
 ReferencePoint reference_point_of(const Receiver& receiver);
 
-// The start of rays from a reference point, in the tracer's coordinates: one step along its normal, off the surface
-// that it may lie on.
+// The start of rays from a reference point, in the tracer's coordinates, off the surface that it may lie on.
 glm::dvec3 start_of(const ReferencePoint& reference, const Tracer& tracer);
 
 }  // namespace lichtmc

@@ -30,7 +30,7 @@ inline std::optional<glm::vec3> shadow_segment(const Tracer& tracer, const glm::
 // Whether a surface is between a reference point and a point of an emitter.
 inline bool is_blocked(const Tracer& tracer, const ReferencePoint& reference, const glm::dvec3& target,
                        TraceCount& count) {
-  if (!tracer.casts_shadows()) return false;
+  if (!tracer.casts_shadows() && !reference.way_out) return false;
   const glm::dvec3 start = start_of(reference, tracer);
   const std::optional<glm::vec3> segment = shadow_segment(tracer, start, target);
   return segment && tracer.is_blocked(glm::vec3(start), *segment, count);

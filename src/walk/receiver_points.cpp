@@ -1,0 +1,196 @@
+#include "walk/receiver_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+#include "room/bounds.hpp"
+#include "room/close_triangles.hpp"
+#include "room/emitter_shape.hpp"
+#include "room/enclosure.hpp"
+#include "tracer/convex_room.hpp"
+#include "tracer/touch.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// The closed shells that contain a point.
+using Shells = std::vector<std::size_t>;
+
+// A surface that a receiver lies on, or close to.
+struct TouchedPlane {
+  glm::dvec3 normal{0.0};    // length 1, to the side of the receiver; to the front if that is not decided
+  double height_m = 0.0;     // of the receiver above the plane, on that side
+  double clearance_m = 0.0;  // least height for rays that start there
+  bool decided = true;
+};
+
+class ReceiverPlacer {
+ public:
+  ReceiverPlacer(const Room& room, const Tracer& tracer) : room_(room), tracer_(tracer) {
+    const Bounds bounds = bounds_of(room);
+    const glm::dvec3 size = bounds.high - bounds.low;
+    extent_m_ = std::max({size.x, size.y, size.z});
+    if (!tracer.casts_shadows()) convex_.emplace(room, tracer);
+  }
+
+  // A distance at which no surface influences where rays start.
+  double reach_m() const {
+    double clearance = 0.0;
+    for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
+      clearance += tracer_.clearance_m(axis);
+    return std::max(2.0 * clearance, NearPlane::most_rounding * extent_m_);
+  }
+
+  ReferencePoint place(const Receiver& receiver, const std::vector<CloseTriangle>& close) {
+    ReferencePoint reference = reference_point_of(receiver);
+    std::vector<TouchedPlane> planes = touched(reference, close);
+    choose_sides(reference.point, planes);
+    const glm::dvec3 moved = reference.point + way_off(planes);
+    if (convex_) reference.way_out = convex_->way_out(glm::vec3(tracer_.tracer_point(moved)));
+    // Along the normal of the only surface the usual step does the same.
+    constexpr double parallel = 1.0 - 1e-9;
+    const bool usual =
+        planes.empty() || (planes.size() == 1 && glm::dot(planes[0].normal, reference.normal) > parallel);
+    if (!usual) {
+      reference.point = moved;
+      reference.start = tracer_.tracer_point(moved);
+    }
+    return reference;
+  }
+
+ private:
+  // The planes close to a reference point, each once; of parallel ones the closest.
+  std::vector<TouchedPlane> touched(const ReferencePoint& reference, std::vector<CloseTriangle> close) const {
+    constexpr double same_plane = 1.0 - 1e-6;  // cosine
+    constexpr double along = 1e-6;             // cosine below which a receiver looks along a plane
+    std::stable_sort(close.begin(), close.end(), [](const CloseTriangle& a, const CloseTriangle& b) {
+      return std::abs(a.distance_m) < std::abs(b.distance_m);
+    });
+    std::vector<TouchedPlane> planes;
+    for (const CloseTriangle& triangle : close) {
+      const double rounding = NearPlane{reference.point, triangle.corner, triangle.normal, extent_m_}.rounding();
+      const double distance = triangle.distance_m;
+      const double clearance = tracer_.clearance_m(triangle.normal);
+      if (std::abs(distance) > std::max(2.0 * clearance, rounding)) continue;
+      const bool known = std::any_of(planes.begin(), planes.end(), [&](const TouchedPlane& plane) {
+        return std::abs(glm::dot(plane.normal, triangle.normal)) > same_plane;
+      });
+      if (known) continue;
+      const double cosine = glm::dot(reference.normal, triangle.normal);
+      const double side = std::abs(distance) > rounding ? distance : std::abs(cosine) > along ? cosine : 0.0;
+      const double sign = side < 0.0 ? -1.0 : 1.0;
+      planes.push_back({sign * triangle.normal, sign * distance, clearance, side != 0.0});
+    }
+    return planes;
+  }
+
+  // Decides for the planes that the receiver looks along: the first combination of sides that belongs to the room,
+  // fronts before backs.
+  void choose_sides(const glm::dvec3& point, std::vector<TouchedPlane>& planes) {
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+      if (!planes[k].decided) open.push_back(k);
+    }
+    constexpr std::size_t most = 6;  // 64 combinations; where more planes meet in a point, the fronts count
+    if (open.empty() || open.size() > most) return;
+    for (std::size_t sides = 0; sides < std::size_t{1} << open.size(); ++sides) {
+      std::vector<TouchedPlane> turned = planes;
+      for (std::size_t k = 0; k < open.size(); ++k) {
+        if ((sides >> k & 1U) == 0) continue;
+        turned[open[k]].normal *= -1.0;
+        turned[open[k]].height_m *= -1.0;
+      }
+      if (!is_in_room(point + way_off(turned))) continue;
+      planes = turned;
+      return;
+    }
+  }
+
+  // The way from the receiver to a point that is clear of all planes, each on its side: repeated projections onto the
+  // half spaces, which converge to a point of all of them if there is one.
+  static glm::dvec3 way_off(const std::vector<TouchedPlane>& planes) {
+    constexpr int most_rounds = 64;  // reaches 99 % of the clearance in wedges down to some 15°
+    constexpr double enough = 0.99;
+    glm::dvec3 way(0.0);
+    for (int round = 0; round < most_rounds; ++round) {
+      bool clear = true;
+      for (const TouchedPlane& plane : planes) {
+        const double height = plane.height_m + glm::dot(way, plane.normal);
+        if (height >= enough * plane.clearance_m) continue;
+        way += (plane.clearance_m - height) * plane.normal;
+        clear = false;
+      }
+      if (clear) break;
+    }
+    return way;
+  }
+
+  bool is_in_room(const glm::dvec3& point) {
+    if (convex_) return !convex_->way_out(glm::vec3(tracer_.tracer_point(point)));
+    if (!enclosure_) find_lit_shells();
+    const Shells shells = enclosure_->shells_around(point);
+    return std::find(lit_.begin(), lit_.end(), shells) != lit_.end();
+  }
+
+  // The sets of closed shells around the starts of light.
+  void find_lit_shells() {
+    enclosure_.emplace(room_);
+    const auto add = [this](const glm::dvec3& point) { lit_.push_back(enclosure_->shells_around(point)); };
+    for (const Emitter& emitter : room_.emitters) {
+      if (emitter.power == 0.0) continue;
+      visit_shape(
+          emitter,
+          [&](const auto& point) {
+            const glm::dvec3 axis = frame_of(point).normal;
+            add(point.position + 2.0 * tracer_.clearance_m(axis) * axis);
+          },
+          [&](const auto& area_light) {
+            for (const glm::dvec3& point : in_front_of(room_.surfaces[area_light.surface])) add(point);
+          });
+    }
+  }
+
+  // Points just in front of some triangles of a surface, distributed over it.
+  std::vector<glm::dvec3> in_front_of(const Surface& surface) const {
+    constexpr std::size_t most = 16;
+    std::vector<glm::dvec3> points;
+    const std::size_t stride = std::max<std::size_t>(1, surface.triangles.size() / most);
+    for (std::size_t n = 0; n < surface.triangles.size(); n += stride) {
+      const glm::uvec3 t = surface.triangles[n];
+      const glm::dvec3 a = surface.positions[t.x];
+      const glm::dvec3 b = surface.positions[t.y] - a;
+      const glm::dvec3 c = surface.positions[t.z] - a;
+      const double length = glm::length(glm::cross(b, c));
+      if (!(length > 0.0)) continue;
+      const glm::dvec3 normal = glm::cross(b, c) / length;
+      points.push_back(a + (b + c) / 3.0 + 2.0 * tracer_.clearance_m(normal) * normal);
+    }
+    return points;
+  }
+
+  const Room& room_;
+  const Tracer& tracer_;
+  double extent_m_ = 0.0;
+  std::optional<ConvexRoom> convex_;  // only if nothing casts a shadow
+  std::optional<Enclosure> enclosure_;
+  std::vector<Shells> lit_;
+};
+
+}  // namespace
+
+std::vector<ReferencePoint> receiver_points(const Room& room, const Tracer& tracer) {
+  ReceiverPlacer placer(room, tracer);
+  std::vector<glm::dvec3> positions;
+  for (const Receiver& receiver : room.receivers) positions.push_back(receiver.position);
+  const auto close = close_triangles(room, positions, placer.reach_m());
+  std::vector<ReferencePoint> points;
+  for (std::size_t k = 0; k < room.receivers.size(); ++k) points.push_back(placer.place(room.receivers[k], close[k]));
+  return points;
+}
+
+}  // namespace lichtmc
