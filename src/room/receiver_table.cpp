@@ -9,6 +9,7 @@
 #include "base/message.hpp"
 #include "base/read_file.hpp"
 #include "base/text_encoding.hpp"
+#include "base/utf8.hpp"
 #include "lichtmc/error.hpp"
 #include "room/receiver_columns.hpp"
 
@@ -66,8 +67,18 @@ class TableReader {
   bool started_ = false;       // a heading or a row of numbers has been read
   std::size_t point_row_ = 0;  // first rows with a decimal point and with a decimal comma; 0: none
   std::size_t comma_row_ = 0;
+  std::size_t foreign_row_ = 0;  // first row with a name that is not UTF-8
   ReceiverTable table_;
 };
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t bytes = first_character(text).bytes;
+    if (bytes == 0) return false;
+    text.remove_prefix(bytes);
+  }
+  return true;
+}
 
 bool is_empty(const CsvRow& row) {
   for (const CsvField& field : row.fields) {
@@ -128,8 +139,8 @@ void TableReader::check_count(const CsvRow& row) const {
       columns_.heading ? "the heading has " + std::to_string(columns_.least) : "a table without a heading has 6 or 7";
   text += "; the fields are separated by " + separator_word(separator_) + " (allowed: " + std::string(forms) + "). ";
   text += separator_ == ',' && found > columns_.most
-              ? "If these are decimal commas, write decimal points, or separate the columns with semicolons; a name "
-                "with a comma needs quotes."
+              ? "If numbers have decimal commas or separators of thousands, write them as 1500.5, or separate the "
+                "columns with semicolons; a name with a comma needs quotes."
               : "Give every receiver its position in metres and its normal, separated in the same way in all rows.";
   throw InputError(text);
 }
@@ -214,6 +225,7 @@ void TableReader::read_row(const CsvRow& row) {
                      "example 0,1,0 for upwards.");
   }
   receiver.name = name_in(row);
+  if (foreign_row_ == 0 && !is_utf8(receiver.name)) foreign_row_ = row.line;
   if (receiver.name.empty()) receiver.name = "receiver_" + std::to_string(table_.receivers.size());
   table_.receivers.push_back(std::move(receiver));
 }
@@ -237,6 +249,10 @@ ReceiverTable TableReader::read() {
   }
   if (table_.receivers.empty())
     throw InputError(name_ + " contains no receiver (allowed: at least one row " + std::string(forms) + ").");
+  if (foreign_row_ != 0)
+    table_.notes.push_back(where(foreign_row_) +
+                           ": the name is not UTF-8. Tables of results keep its bytes; elsewhere some characters are "
+                           "replaced. To avoid that, save the table as CSV in UTF-8.");
   if (!columns_.ignored.empty()) {
     std::string list;
     for (const std::string& column : columns_.ignored) list += (list.empty() ? "" : ", ") + column;

@@ -71,6 +71,10 @@ TEST_CASE("receiver tables: other columns are named in a note") {
   CHECK(parse_receiver_table("x,y,z,nx,ny,nz,a\n1,1,1,0,1,0,53\n", "f.csv").notes[0] ==
         "f.csv: the column 'a' is not read.");
   CHECK(parse_receiver_table("x,y,z,nx,ny,nz\n1,1,1,0,1,0\n", "f.csv").notes.empty());
+  const ReceiverTable foreign = parse_receiver_table("1;1;1;0;1;0;T\xC3\xBCr\n1;1;1;0;1;0;T\xFCr\n", "f.csv");
+  CHECK(foreign.receivers[1].name == "T\xFCr");
+  REQUIRE(foreign.notes.size() == 1);
+  CHECK_THAT(foreign.notes[0], ContainsSubstring("row 2") && ContainsSubstring("UTF-8"));
 }
 
 TEST_CASE("receiver tables: without a heading the columns are x,y,z,nx,ny,nz and name") {
@@ -110,7 +114,8 @@ TEST_CASE("receiver tables: files of spreadsheet programs") {
 }
 
 TEST_CASE("receiver tables: a row that does not fit the columns is an error with both counts") {
-  refused("x,y,z,nx,ny,nz\n1,5,0,85,2,0,0,1,0\n", {"row 2", "9 fields", "the heading has 6", "decimal comma"});
+  refused("x,y,z,nx,ny,nz\n1,5,0,85,2,0,0,1,0\n",
+          {"row 2", "9 fields", "the heading has 6", "decimal comma", "thousands"});
   refused("1,50,0,85,2,00,0,00,1,00,0,00\n", {"row 1", "12 fields", "decimal comma"});
   refused("x,y,z,nx,ny,nz,name\n1,2,3,0,1,0\n", {"row 2", "6 fields", "the heading has 7"});
   refused("1,2,3,0,1,0,left, front\n", {"row 1", "8 fields", "quotes"});
@@ -197,5 +202,5 @@ TEST_CASE("receiver tables: receivers.csv of a run is one, whatever the names ar
     CHECK(table.receivers[k].position == result.receivers[k].position);
     CHECK(table.receivers[k].normal == result.receivers[k].normal);
   }
-  CHECK_THAT(table.notes.at(0), ContainsSubstring("'receiver', 'irradiance'"));
+  CHECK_THAT(table.notes.at(1), ContainsSubstring("'receiver', 'irradiance'"));
 }
