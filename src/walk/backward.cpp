@@ -145,7 +145,7 @@ class BackwardGoal : public GoalBase {
     const Tracer& tracer = *scene_->tracer;
     const glm::dvec3 start(rays.start(i));
     const glm::dvec3 normal = world_normal(tracer, tracer.facets()[rays.facet[i]]);
-    const ReferencePoint reference{tracer.world_point(start), rays.behind[i] != 0 ? -normal : normal, 0.0, {}, {}};
+    const ReferencePoint reference{tracer.world_point(start), rays.behind[i] != 0 ? -normal : normal, 0.0};
     const std::uint64_t id = ids_[wave.photon[i]];
     // Separate random words for each emitter at each surface.
     const auto number = static_cast<std::uint32_t>(flight * light_->light_samples_per_point() + k);

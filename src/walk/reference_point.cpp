@@ -12,7 +12,7 @@ ReferencePoint reference_point_of(const Receiver& receiver) {
   // Scaled by its largest component first: the square of a very long or short normal would overflow or underflow.
   const glm::dvec3 n = receiver.normal;
   const glm::dvec3 scaled = n / std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
-  ReferencePoint reference{receiver.position, glm::normalize(scaled), 0.0, {}, {}};
+  ReferencePoint reference{receiver.position, glm::normalize(scaled), 0.0};
   if (receiver.half_angle_deg < 90.0)
     reference.least_cosine = std::cos(receiver.half_angle_deg * std::numbers::pi / 180.0);
   return reference;

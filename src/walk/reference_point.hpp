@@ -17,10 +17,10 @@ struct ReferencePoint {
   // not included.
   double least_cosine = 0.0;
   // Start of rays, in the tracer's coordinates; if not set, one step along the normal.
-  std::optional<glm::dvec3> start;
+  std::optional<glm::dvec3> start = std::nullopt;
   // Set outside a room in which nothing casts a shadow, whose emitters are all inside or on the walls: a direction (in
   // the tracer's coordinates) in which no surface lies. Reflected light and area lights do not reach such a point.
-  std::optional<glm::dvec3> way_out;
+  std::optional<glm::dvec3> way_out = std::nullopt;
 
   // The fraction of the irradiance by a hemisphere of uniform radiance that comes from the field of view.
   double squared_sine() const { return (1.0 - least_cosine) * (1.0 + least_cosine); }

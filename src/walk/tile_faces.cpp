@@ -41,7 +41,7 @@ TileFaces::TileFaces(const Room& room, const Tiling& tiling, const Tracer& trace
 
 ReferencePoint TileFaces::reference(std::size_t face, const SurfacePlace& place) const {
   const glm::dvec3& normal = normals_[surface_number(face)][place.triangle];
-  return {point_at(surface(face), place.triangle, place.weights), faces_[face].behind ? -normal : normal, 0.0, {}, {}};
+  return {point_at(surface(face), place.triangle, place.weights), faces_[face].behind ? -normal : normal, 0.0};
 }
 
 ReferencePoint TileFaces::start(std::uint64_t face, std::uint64_t sample, std::uint64_t id, const Stream& stream,
