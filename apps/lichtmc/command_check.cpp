@@ -31,12 +31,6 @@ constexpr int exit_done = 0;
 constexpr int exit_warned = 1;
 constexpr int exit_unusable = 2;
 
-std::string four_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 std::string row(const char* name, const std::string& text) {
   char line[32];
   std::snprintf(line, sizeof line, "  %-12s", name);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "console.hpp"
 #include "interrupt.hpp"
 #include "lichtmc/error.hpp"
+#include "lichtmc/inspect.hpp"
 #include "lichtmc/output.hpp"
 #include "lichtmc/study.hpp"
 #include "lichtmc/visible_text.hpp"
@@ -72,6 +74,8 @@ void run(const StudyCommand& command) {
   const FolderLock lock = prepare_output(folder);
   const InterruptWatch interrupt;
   options.stop = interrupt.token();
+  for (const std::string& line : warning_lines(room, inspect(room, std::numeric_limits<double>::max())))
+    std::cerr << "Warning: " << visible_text(line) << '\n';
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (!command.quiet) options.progress = progress_printer(terminal);
   const Study found = study(room, options);
@@ -105,7 +109,7 @@ void add_study_command(CLI::App& program, const Invocation& /*invocation*/) {
       ->capture_default_str();
   command->add_option("--threads", options->threads, "Number of threads [one per processor]")->type_name("N");
   add_room_options(*command, options->reading);
-  command->add_flag("--quiet", options->quiet, "Print only the advice and errors, no progress");
+  command->add_flag("--quiet", options->quiet, "Print only the advice, the warnings of check and errors, no progress");
   command->footer(
       "The study runs every estimator, forward and backward, with direct light sampled and integrated, with "
       "increasing\n"

@@ -27,7 +27,7 @@ void add_override_options(CLI::App& command, OverrideOptions& options, const std
       ->type_name("FILE.csv");
   add_threads_option(command, options.threads, machine_group);
   add_report_options(command, options.report_arguments);
-  command.add_flag("--quiet", options.quiet, "Print only errors, no progress and no summary");
+  command.add_flag("--quiet", options.quiet, "Print only warnings of check and errors, no progress and no summary");
 }
 
 namespace {

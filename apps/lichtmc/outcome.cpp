@@ -22,12 +22,6 @@ std::string percent(double fraction) {
   return text;
 }
 
-std::string four_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 const char* describe(StopReason reason) {
   switch (reason) {
     case StopReason::photons:

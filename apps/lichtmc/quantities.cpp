@@ -1,8 +1,11 @@
 #include "quantities.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "lichtmc/error.hpp"
@@ -129,6 +132,20 @@ Quantity parse_unit(std::string_view text, std::string_view option) {
   if (text == "W") return Quantity::radiometric;
   if (text == "lm") return Quantity::photometric;
   refuse(option, text, "W or lm");
+}
+
+std::string four_digits(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  const double size = std::abs(std::strtod(text, nullptr));
+  const bool readable = size >= 1e-7 && size < 1e13;
+  if (std::string_view(text).find('e') == std::string_view::npos || !readable) return text;
+  // printf's %g changes to powers of ten below 10⁻⁴ and above 10⁴.
+  const int decimals = std::max(0, 3 - static_cast<int>(std::floor(std::log10(size))));
+  std::snprintf(text, sizeof text, "%.*f", decimals, std::strtod(text, nullptr));
+  std::string number = text;
+  if (decimals > 0) number.erase(number.find_last_not_of('0') + 1);
+  return number;
 }
 
 }  // namespace lichtmc::app

@@ -41,4 +41,7 @@ double parse_power(std::string_view text, std::string_view option, Quantity& qua
 // "W" or "lm".
 Quantity parse_unit(std::string_view text, std::string_view option);
 
+// A number to four digits, as people write it: "0.1234", "13270", "1.234e13".
+std::string four_digits(double value);
+
 }  // namespace lichtmc::app

@@ -1,13 +1,17 @@
 #include "run_job.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <span>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "interrupt.hpp"
+#include "lichtmc/inspect.hpp"
 #include "lichtmc/visible_text.hpp"
 #include "outcome.hpp"
 #include "progress_line.hpp"
@@ -79,8 +83,31 @@ class ReleaseAtEnd {
   std::optional<FolderLock>* lock_;
 };
 
-void write_all(RunJob& job, Result& result, ProgressLine::Show show) {
+// Before the run: what `lichtmc check` warns of. A room with a fault is refused with a message of its own, unless the
+// number of flights is limited: then light may be enclosed without absorption.
+std::vector<std::string> print_warnings_of_check(const RunJob& job) {
+  constexpr double one_tile_per_surface = std::numeric_limits<double>::max();
+  const Inspection inspection = inspect(job.room, one_tile_per_surface);
+  if (inspection.count(Severity::fault) > 0 && !job.settings.max_bounces) return {};
+  std::vector<std::string> lines = warning_lines(job.room, inspection);
+  for (const std::string& line : lines) std::cerr << "Warning: " << visible_text(line) << '\n';
+  return lines;
+}
+
+// Warnings of the run itself, without those that were printed before it.
+std::vector<std::string> without(std::vector<std::string> warnings, const std::vector<std::string>& printed) {
+  std::erase_if(warnings, [&printed](const std::string& warning) {
+    return std::any_of(printed.begin(), printed.end(),
+                       [&warning](const std::string& line) { return line.starts_with(warning); });
+  });
+  return warnings;
+}
+
+void write_all(RunJob& job, Result& result, const std::vector<std::string>& printed, ProgressLine::Show show) {
   hold_folder(job);
+  const std::vector<std::string> of_the_run = without(result.warnings, printed);
+  result.warnings = of_the_run;
+  result.warnings.insert(result.warnings.end(), printed.begin(), printed.end());
   write_state(result.state, job.folder / "state.h5", job.note);
   result.state = {};  // frees as much memory as the tiles need
   write_results(job.room, result, job.folder, job.files);
@@ -89,6 +116,7 @@ void write_all(RunJob& job, Result& result, ProgressLine::Show show) {
     job.report.progress = [&line](std::string_view what) { line.update(what); };
     write_report(job.room, result, job.folder, job.report);
   }
+  result.warnings = of_the_run;
   if (!job.quiet) print_outcome(result, job.folder, job.with_report, job.files.tile_images);
 }
 
@@ -117,9 +145,10 @@ void carry_out_run(RunJob& job, const std::function<Result(const Control&)>& sim
     const ReleaseAtEnd release(job.lock);
     hold_folder(job);
     print_notes(job);
+    const std::vector<std::string> warnings = print_warnings_of_check(job);
     Result result = simulate_with(job, interrupt.token(), show, simulate);
     created.keep();
-    write_all(job, result, show);
+    write_all(job, result, warnings, show);
   }
   // All ranks wait until rank 0 has written: mpirun ends all processes if a signal ends one of them.
   std::byte written{};

@@ -380,7 +380,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_receiver_options(command, options);
   add_report_options(command, options.report_arguments);
   add_room_options(command, options.reading);
-  command.add_flag("--quiet", options.quiet, "Print only errors, no progress and no summary");
+  command.add_flag("--quiet", options.quiet, "Print only warnings of check and errors, no progress and no summary");
 }
 
 }  // namespace lichtmc::app

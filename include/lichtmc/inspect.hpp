@@ -100,6 +100,12 @@ Inspection inspect(const Room& room, double tile_edge_m = 0.1);
 // The same with the result of make_tiling(room, tile_edge_m): avoids a second copy of the tiles in memory.
 Inspection inspect(const Room& room, const Tiling& tiling, double tile_edge_m);
 
+// The faults and warnings of an inspection in at most `most` (≥ 2) sentences, the gravest first: of each topic the
+// first, with the number of others like it; if there are more topics, the last sentence says how to see the rest.
+// Without those about tiles: an inspection with one tile per surface is enough. `lichtmc run` prints them before it
+// starts; simulate() does not inspect its room.
+std::vector<std::string> warning_lines(const Room& room, const Inspection& inspection, std::size_t most = 5);
+
 // All results of an inspection, with the emitters and receivers of the room, as JSON.
 std::string inspection_json(const Room& room, const Inspection& inspection);
 

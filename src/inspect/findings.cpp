@@ -10,11 +10,12 @@ namespace {
 
 using Topic = void (*)(const Room&, Inspection&);
 
-// Findings of one severity appear in this order.
+// Those with the greatest influence on the figures first: findings of one severity appear in this order, and a run
+// repeats the first of them.
 constexpr std::array topics{
-    Topic{find_size},  find_up_axis,   find_emitters,     find_receivers,
-    find_not_modelled, find_openings,  find_open_edges,   find_seen_from_behind,
-    find_duplicates,   find_zero_area, find_reflectances, find_texture_coordinates,
+    Topic{find_size},  find_up_axis,    find_emitters,  find_seen_from_behind,
+    find_not_modelled, find_duplicates, find_openings,  find_reflectances,
+    find_open_edges,   find_receivers,  find_zero_area, find_texture_coordinates,
     find_tiles,        find_shape,
 };
 

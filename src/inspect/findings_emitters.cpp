@@ -17,10 +17,9 @@ void find_emitters(const Room& room, Inspection& facts) {
     fault->advice =
         "Add a point or spot light or an emissive material to the room, or give --light, for example at a point inside "
         "the room: --light point:" +
-        short_number(facts.inside.x) + "," + short_number(facts.inside.y) + "," + short_number(facts.inside.z) +
-        ":1000lm.";
+        coordinates(facts.inside, ",") + ":1000lm.";
   }
-  for (const Misplaced& outside : emitters_outside(room))
+  for (const Advised& outside : emitters_outside(room))
     add(facts, Severity::warning, "emitters", outside.what, outside.advice);
   Names dark;
   for (const Emitter& emitter : room.emitters) {
@@ -50,7 +49,7 @@ void find_receivers(const Room& room, Inspection& facts) {
   add(facts, Severity::note, "receivers",
       to_text(room.receivers.size(), "receiver") + ", the first is " + in_quotes(room.receivers.front().name) + ".",
       "A run computes the irradiance of the tiles and at the receivers.");
-  for (const Misplaced& outside : receivers_outside(room))
+  for (const Advised& outside : receivers_outside(room))
     add(facts, Severity::warning, "receivers", outside.what, outside.advice);
 }
 

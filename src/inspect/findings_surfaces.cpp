@@ -1,12 +1,11 @@
 #include "inspect/topics.hpp"
 
-#include <algorithm>
-#include <map>
 #include <optional>
 
 #include "base/message.hpp"
 #include "inspect/finding_text.hpp"
 #include "room/emitter_shape.hpp"
+#include "run/warnings.hpp"
 
 namespace lichtmc {
 
@@ -56,25 +55,9 @@ void find_zero_area(const Room& /*room*/, Inspection& facts) {
       "Nothing to do: they receive no light.");
 }
 
-void find_reflectances(const Room& /*room*/, Inspection& facts) {
-  constexpr double doubtful = 0.95;  // reflectance of fresh snow; white paint has 0.85
-  std::map<std::string, double> high;
-  for (const SurfaceFacts& surface : facts.surfaces) {
-    if (!(surface.highest_reflectance > doubtful)) continue;
-    double& most = high[surface.material];
-    most = std::max(most, surface.highest_reflectance);
-  }
-  if (high.empty()) return;
-  Names names;
-  for (const auto& [material, reflectance] : high)
-    names.add(in_quotes(material) + " (" + short_number(reflectance) + ")");
-  add(facts, Severity::warning, "reflectance",
-      to_text(high.size(), "material") + (high.size() == 1 ? " reflects" : " reflect") +
-          " more than 95 % of the light, everywhere or in some places; hardly any real surface does: " + names.text() +
-          ".",
-      "Set the custom property 'reflectance', or give --reflectance MATERIAL=R or --max-reflectance 0.9. The "
-      "irradiance is proportional to 1/(1 − ρ) if all surfaces have the reflectance ρ: from 0.9 to 0.99 it increases "
-      "tenfold.");
+void find_reflectances(const Room& room, Inspection& facts) {
+  if (const std::optional<Advised> high = high_reflectances(room))
+    add(facts, Severity::warning, "reflectance", high->what, high->advice);
 }
 
 }  // namespace lichtmc

@@ -18,6 +18,13 @@ constexpr double max_length = 200.0;
 // Height of a storey in m: the unit that comes closest to it is the most probable.
 constexpr double usual_height = 2.7;
 
+// Rooms higher than this exist (naves, atria, arenas). It is doubtful if in another unit the height would be that of a
+// storey: between the lowest attics and small halls. Such a room is a hall of 75 m to 236 m in height if it is in
+// metres, and a storey if it is in inches.
+constexpr double high_room = 30.0;
+constexpr double lowest_storey = 1.9;
+constexpr double highest_storey = 6.0;
+
 constexpr std::array<LengthUnit, 4> other_units{
     {{"centimetres", 0.01}, {"millimetres", 0.001}, {"inches", 0.0254}, {"feet", 0.3048}}};
 
@@ -25,13 +32,16 @@ constexpr std::array<LengthUnit, 4> other_units{
 
 std::optional<LengthUnit> guess_unit(const glm::dvec3& size) {
   const double length = std::max({size.x, size.y, size.z});
-  if (length >= min_length && length <= max_length) return std::nullopt;
+  const bool plausible_length = length >= min_length && length <= max_length;
+  if (plausible_length && size.y <= high_room) return std::nullopt;
   std::optional<LengthUnit> best;
   double min_deviation = std::numeric_limits<double>::infinity();
   for (const LengthUnit& unit : other_units) {
     const double metres = length * unit.metres;
     if (metres < min_length || metres > max_length) continue;
-    const double deviation = std::abs(std::log(std::max(size.y, 1e-3 * length) * unit.metres / usual_height));
+    const double height = std::max(size.y, 1e-3 * length) * unit.metres;
+    if (plausible_length && (height < lowest_storey || height > highest_storey)) continue;
+    const double deviation = std::abs(std::log(height / usual_height));
     if (deviation >= min_deviation) continue;
     min_deviation = deviation;
     best = unit;

@@ -15,8 +15,8 @@ struct LengthUnit {
   double metres = 1.0;
 };
 
-// The unit for which a room of this size (height along Y) has the most plausible height; none if metres are plausible.
-// `size`: edges of the bounding box, in the file's unit.
+// The unit for which a room of this size (height along Y) has the most plausible height; none if metres are plausible,
+// or if no unit is. `size`: edges of the bounding box, in the file's unit.
 std::optional<LengthUnit> guess_unit(const glm::dvec3& size);
 
 // Whether a room is probably Z-up: its extent along Z does not exceed that along Y, and the area perpendicular to Z

@@ -7,6 +7,7 @@
 #include "inspect/findings.hpp"
 #include "inspect/guesses.hpp"
 #include "inspect/probe.hpp"
+#include "inspect/topics.hpp"
 #include "lichtmc/error.hpp"
 #include "room/bounds.hpp"
 #include "room/convexity.hpp"
@@ -153,7 +154,7 @@ Inspection inspect_with(const Room& room, const Tiling* tiling, double tile_edge
   inspect_mesh(WeldedMesh(room), facts);
   facts.cuboid = recognise_cuboid(room).has_value();
   facts.probably_z_up = looks_z_up(room, facts.high - facts.low);
-  if (const auto unit = guess_unit(facts.high - facts.low)) facts.suggested_scale = unit->metres;
+  if (const auto unit = guess_unit(upright(facts))) facts.suggested_scale = unit->metres;
   inspect_surfaces(room, facts);
   Tiling made;
   if (tiling == nullptr) {

@@ -8,6 +8,8 @@
 namespace lichtmc {
 
 // findings_size.cpp
+// The room's size with its height along y, also if the room probably lies on its side.
+glm::dvec3 upright(const Inspection& facts);
 void find_size(const Room& room, Inspection& facts);
 void find_up_axis(const Room& room, Inspection& facts);
 

@@ -1,6 +1,8 @@
 #include "output/report.hpp"
 
+#include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "base/base64.hpp"
 #include "base/message.hpp"
@@ -61,9 +63,8 @@ std::string key_figures(const Room& room, const Result& result) {
 std::string warnings_section(const ReportContent& content) {
   const Result& result = *content.result;
   std::vector<std::string> sentences = result.warnings;
-  for (const Finding& finding : content.inspection.findings) {
-    if (finding.severity == Severity::note) continue;
-    sentences.push_back(finding.text + (finding.advice.empty() ? "" : " " + finding.advice));
+  for (std::string& line : warning_lines(*content.room, content.inspection)) {
+    if (std::find(sentences.begin(), sentences.end(), line) == sentences.end()) sentences.push_back(std::move(line));
   }
   std::size_t ignored = 0;
   for (const Ignored& thing : result.ignored) ignored += thing.effect == Effect::figures ? 1 : 0;

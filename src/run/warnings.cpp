@@ -1,7 +1,9 @@
 #include "run/warnings.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <variant>
 
 #include <glm/common.hpp>
@@ -31,10 +33,17 @@ std::string place_text(const glm::dvec3& p) {
   return "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ") m";
 }
 
+// Whether a surface, or a point of one, has the reflectance 1.
+bool reflects_all(const Room& room) {
+  const HighestReflectance highest(room);
+  return std::any_of(room.surfaces.begin(), room.surfaces.end(),
+                     [&highest](const Surface& surface) { return highest.of(surface) == 1.0; });
+}
+
 }  // namespace
 
-std::vector<Misplaced> emitters_outside(const Room& room) {
-  std::vector<Misplaced> outside;
+std::vector<Advised> emitters_outside(const Room& room) {
+  std::vector<Advised> outside;
   const Bounds bounds = bounds_of(room);
   // Files contain floats: an emitter at the ceiling may be above it by rounding.
   const glm::dvec3 farthest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
@@ -68,7 +77,7 @@ std::vector<Misplaced> emitters_outside(const Room& room) {
            "Check their positions; Y is up."}};
 }
 
-std::vector<Misplaced> receivers_outside(const Room& room) {
+std::vector<Advised> receivers_outside(const Room& room) {
   std::vector<glm::dvec3> points;
   for (const Receiver& receiver : room.receivers) points.push_back(receiver.position);
   const std::vector<bool> outside = points_outside(room, points);
@@ -84,12 +93,36 @@ std::vector<Misplaced> receivers_outside(const Room& room) {
   return {{what, "Check the positions: they are in metres on the axes of glTF, Y is up."}};
 }
 
+std::optional<Advised> high_reflectances(const Room& room) {
+  constexpr double doubtful = 0.95;  // reflectance of fresh snow; white paint has 0.85
+  const HighestReflectance highest(room);
+  std::map<std::string, double> high;
+  for (const Surface& surface : room.surfaces) {
+    const double reflectance = highest.of(surface);
+    if (!(reflectance > doubtful)) continue;
+    double& most = high[surface.material];
+    most = std::max(most, reflectance);
+  }
+  if (high.empty()) return std::nullopt;
+  Names names;
+  for (const auto& [material, reflectance] : high)
+    names.add(in_quotes(material) + " (" + short_number(reflectance) + ")");
+  return Advised{
+      to_text(high.size(), "material") + (high.size() == 1 ? " reflects" : " reflect") +
+          " more than 95 % of the light, everywhere or in some places; hardly any real surface does (white, 1, is "
+          "glTF's default): " +
+          names.text() + ".",
+      "Set the custom property 'reflectance', or give --reflectance MATERIAL=R or --max-reflectance 0.9. The "
+      "irradiance is proportional to 1/(1 − ρ) if all surfaces have the reflectance ρ: from 0.9 to 0.99 it increases "
+      "tenfold."};
+}
+
 std::vector<std::string> warnings_of(const Room& room, const Result& result) {
   std::vector<std::string> warnings;
   const Balance& balance = result.balance;
-  for (const Misplaced& outside : emitters_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
+  for (const Advised& outside : emitters_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
   if (!result.receiver_results.empty()) {
-    for (const Misplaced& outside : receivers_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
+    for (const Advised& outside : receivers_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
   }
   if (result.settings.measured != Measured::receivers && result.walk.impacts == 0) {
     warnings.push_back(
@@ -108,14 +141,8 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result) {
     warnings.push_back(to_text(result.lost_histories, "photon") + " of " + std::to_string(result.walk.histories) +
                        " left a closed room by a numerical error: their power is reported as lost.");
   }
-  std::size_t perfect = 0;
-  const HighestReflectance highest(room);
-  for (const Surface& surface : room.surfaces) perfect += std::size_t{highest.of(surface) == 1.0};
-  if (perfect > 0) {
-    warnings.push_back("Reflectance 1 on " + to_text(perfect, "surface") + " of " +
-                       std::to_string(room.surfaces.size()) +
-                       " (on all of it or in parts; the default of glTF is white). Real paint is below "
-                       "0.9: set the materials' custom property 'reflectance', or use --max-reflectance 0.9.");
+  if (reflects_all(room)) {
+    if (const auto high = high_reflectances(room)) warnings.push_back(high->what + " " + high->advice);
   }
   return warnings;
 }

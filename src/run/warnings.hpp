@@ -1,6 +1,7 @@
 // Warnings about a result.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,19 +10,22 @@
 
 namespace lichtmc {
 
-// Emitters or receivers in a wrong place: a sentence, and what to do.
-struct Misplaced {
+// Something wrong, and what to do: a sentence or two each.
+struct Advised {
   std::string what;
   std::string advice;
 };
 // Point emitters outside the room's bounds, and emitters outside the walls of a closed room. Up to three are named one
 // by one, more together.
-std::vector<Misplaced> emitters_outside(const Room& room);
+std::vector<Advised> emitters_outside(const Room& room);
 // Receivers outside the walls of a closed room, together; empty if there are none.
-std::vector<Misplaced> receivers_outside(const Room& room);
+std::vector<Advised> receivers_outside(const Room& room);
+
+// Materials that reflect more than 95 %, if there are any.
+std::optional<Advised> high_reflectances(const Room& room);
 
 // Emitters outside the room; receivers outside, if they are measured; no impacts at all; residual power of truncated
-// walks; lost photons; surfaces of reflectance 1. One or two sentences each, with what to do.
+// walks; lost photons; materials of reflectance 1. One or two sentences each, with what to do.
 std::vector<std::string> warnings_of(const Room& room, const Result& result);
 
 }  // namespace lichtmc

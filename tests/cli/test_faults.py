@@ -141,7 +141,7 @@ class Faults(FaultTest):
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (2_000_000_000, 2_000_000_000))
         out = self.folder / "out"
-        for options, says in ((["--tile", "0.0002"], "1.5e+08 cells (allowed: 9433962, what memory holds)"),
+        for options, says in ((["--tile", "0.0002"], "150000000 cells (allowed: 9433962, what memory holds)"),
                               (["--tile", "0.002", "--threads", "64"], "1500000 tiles")):
             done = lichtmc("run", CUBE, "-o", out, "--photons", "1e9", *options, preexec_fn=limit)
             self.assertEqual(done.returncode, 2, done.stderr)

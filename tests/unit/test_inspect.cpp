@@ -39,6 +39,12 @@ TEST_CASE("the unit of length is guessed from a room's size") {
   // 30 m × 2.5 m × 20 m in inches.
   CHECK(guess_unit({1181.0, 98.4, 787.0})->metres == 0.0254);
   CHECK(!guess_unit({0.5, 0.2, 0.5}));  // no common unit is longer than a metre
+  // Rooms of 5 m and 4 m in inches are short enough for metres, but too high.
+  CHECK(guess_unit({196.9, 102.4, 157.5})->metres == 0.0254);
+  CHECK(guess_unit({157.5, 102.4, 157.5})->metres == 0.0254);
+  CHECK(guess_unit({130.0, 190.0, 150.0})->metres == 0.01);  // a bathroom in centimetres
+  CHECK(!guess_unit({150.0, 45.0, 60.0}));                   // a cathedral
+  CHECK(!guess_unit({16.4, 8.5, 13.1}));                     // a room in feet or a hall in metres: not decidable
 }
 
 TEST_CASE("an office has no findings") {
@@ -132,4 +138,51 @@ TEST_CASE("properties that are not modelled are a warning if results depend on t
   const Inspection facts = inspect(room);
   CHECK_THAT(find(facts, "not-modelled", Severity::warning)->text, ContainsSubstring("'glass'"));
   CHECK_THAT(find(facts, "not-modelled", Severity::note)->text, ContainsSubstring("camera"));
+}
+
+TEST_CASE("a room of a million metres is a warning, though no unit is likely") {
+  Room room = make_cuboid({1e6, 5e5, 1e6}, uniform_reflectance(0.6));
+  room.emitters.push_back({"lamp", 2000.0, IsotropicEmitter{{5e5, 2e5, 5e5}}});
+  const Inspection facts = inspect(room, 1e5);
+  REQUIRE(find(facts, "size", Severity::warning) != nullptr);
+  CHECK_THAT(find(facts, "size", Severity::warning)->text, ContainsSubstring("1000000 × 500000 × 1000000 m"));
+}
+
+TEST_CASE("a crack is a note, an opening a warning") {
+  // A slit along one edge of the ceiling: the share of its area among all surfaces, 86.8 m², is about the share of the
+  // flights that leave. 0.1 % of 1 − ρ = 0.4 is 4·10⁻⁴ of them.
+  const auto with_slit = [](double width) {
+    Room room = office();
+    for (glm::dvec3& p : room.surfaces[surface_number(room, "ceiling")].positions) {
+      if (p.x > 2.0) p.x -= width;
+    }
+    return inspect(room);
+  };
+  const Inspection crack = with_slit(1e-3);  // 5·10⁻⁵
+  CHECK(crack.flights_that_left > 0);
+  CHECK(crack.count(Severity::warning) == 0);
+  CHECK(find(crack, "openings", Severity::note) != nullptr);
+  const Inspection opening = with_slit(0.05);  // 2·10⁻³
+  CHECK(find(opening, "openings", Severity::warning) != nullptr);
+  CHECK(find(opening, "open-edges", Severity::warning) != nullptr);
+}
+
+TEST_CASE("a run repeats the gravest warnings in a few lines") {
+  Room room = office();
+  CHECK(warning_lines(room, inspect(room)).empty());
+  room.ignored = {{"Material 'glass' is glass.", Effect::figures}, {"Material 'window' is glass.", Effect::figures}};
+  for (Surface& wall : room.surfaces) wall.reflectance = 0.97;
+  const std::vector<std::string> lines = warning_lines(room, inspect(room));
+  REQUIRE(lines.size() == 2);
+  CHECK_THAT(lines[0], ContainsSubstring("'glass'") && ContainsSubstring("(1 more like this: lichtmc check office.)"));
+  CHECK_THAT(lines[1], ContainsSubstring("more than 95 %"));
+  // More topics than lines: the last says where the others are.
+  room = without_surface(room, "wall_x1");
+  room.emitters.push_back({"dark", 0.0, IsotropicEmitter{{2.5, 2.4, 2.0}}});
+  room.surfaces.push_back(room.surfaces[0]);
+  const Inspection facts = inspect(room);
+  const std::vector<std::string> few = warning_lines(room, facts, 3);
+  REQUIRE(few.size() == 3);
+  CHECK_THAT(few[0], ContainsSubstring("power 0"));
+  CHECK_THAT(few[2], ContainsSubstring("more warnings: lichtmc check office"));
 }
