@@ -180,6 +180,7 @@ TEST_CASE("a run repeats the gravest warnings in a few lines") {
   room = without_surface(room, "wall_x1");
   room.emitters.push_back({"dark", 0.0, IsotropicEmitter{{2.5, 2.4, 2.0}}});
   room.surfaces.push_back(room.surfaces[0]);
+  room.surfaces.back().name = "floor again";
   const Inspection facts = inspect(room);
   const std::vector<std::string> few = warning_lines(room, facts, 3);
   REQUIRE(few.size() == 3);
