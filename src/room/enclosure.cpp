@@ -113,7 +113,7 @@ std::vector<std::size_t> Enclosure::shells_around(const glm::dvec3& point_m) con
 }
 
 // Seen along the direction of the rays, a triangle can only be crossed by rays from points in its bounding rectangle.
-std::vector<bool> Enclosure::encloses_each(const std::vector<glm::dvec3>& points_m) const {
+std::vector<std::vector<std::size_t>> Enclosure::shells_around_each(const std::vector<glm::dvec3>& points_m) const {
   const Frame frame = frame_about(glm::normalize(first_direction));
   const auto seen = [&frame](const glm::dvec3& p) {
     return glm::dvec3(glm::dot(p, frame.tangent), glm::dot(p, frame.bitangent), 0.0);
@@ -121,8 +121,9 @@ std::vector<bool> Enclosure::encloses_each(const std::vector<glm::dvec3>& points
   std::vector<glm::dvec3> flat;
   for (const glm::dvec3& point : points_m) flat.push_back(seen(point));
   const SortedPoints sorted(flat);
-  std::vector<bool> enclosed(points_m.size(), false);
-  for (const Shell& shell : shells_) {
+  std::vector<std::vector<std::size_t>> around(points_m.size());
+  for (std::size_t number = 0; number < shells_.size(); ++number) {
+    const Shell& shell = shells_[number];
     std::vector<std::optional<int>> sums(points_m.size(), 0);
     for (const WeldedMesh::Corners& triangle : shell) {
       Bounds box;
@@ -138,10 +139,10 @@ std::vector<bool> Enclosure::encloses_each(const std::vector<glm::dvec3>& points
       });
     }
     for (std::size_t k = 0; k < sums.size(); ++k) {
-      if (!enclosed[k]) enclosed[k] = sums[k] ? *sums[k] % 2 != 0 : is_inside(shell, points_m[k]);
+      if (sums[k] ? *sums[k] % 2 != 0 : is_inside(shell, points_m[k])) around[k].push_back(number);
     }
   }
-  return enclosed;
+  return around;
 }
 
 bool Enclosure::has_shell_over(const Bounds& box, double slack) const {

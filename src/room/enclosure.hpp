@@ -26,8 +26,8 @@ class Enclosure {
   // times.
   bool encloses(const glm::dvec3& point_m) const { return shells_about(point_m) > 0; }
 
-  // encloses() for each of several points, much faster if they are many.
-  std::vector<bool> encloses_each(const std::vector<glm::dvec3>& points_m) const;
+  // shells_around() for each of several points, much faster if they are many.
+  std::vector<std::vector<std::size_t>> shells_around_each(const std::vector<glm::dvec3>& points_m) const;
 
   // Whether a closed shell extends over all of a box, up to `slack` (m) at each side.
   bool has_shell_over(const Bounds& box, double slack) const;

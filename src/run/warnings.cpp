@@ -78,19 +78,22 @@ std::vector<Advised> emitters_outside(const Room& room) {
 }
 
 std::vector<Advised> receivers_outside(const Room& room) {
-  std::vector<glm::dvec3> points;
-  for (const Receiver& receiver : room.receivers) points.push_back(receiver.position);
-  const std::vector<bool> outside = points_outside(room, points);
-  const auto n = static_cast<std::size_t>(std::count(outside.begin(), outside.end(), true));
-  if (n == 0) return {};
-  const Receiver& first =
-      room.receivers[static_cast<std::size_t>(std::find(outside.begin(), outside.end(), true) - outside.begin())];
-  const std::string where = in_quotes(first.name) + " at " + place_text(first.position);
-  const std::string rest = " outside the walls of the closed room: light from inside does not reach ";
-  const std::string what = n == 1 ? "Receiver " + where + " lies" + rest + "it."
-                                  : to_text(n, "receiver") + " of " + std::to_string(points.size()) + " lie" + rest +
-                                        "them. The first: " + where + ".";
-  return {{what, "Check the positions: they are in metres on the axes of glTF, Y is up."}};
+  std::vector<Advised> misplaced;
+  const std::vector<Separation> separation = separation_of_receivers(room);
+  const auto name = [&](Separation kind, const std::string& where) {
+    const auto first = std::find(separation.begin(), separation.end(), kind);
+    if (first == separation.end()) return;
+    const auto n = static_cast<std::size_t>(std::count(separation.begin(), separation.end(), kind));
+    const Receiver& receiver = room.receivers[static_cast<std::size_t>(first - separation.begin())];
+    const std::string which = in_quotes(receiver.name) + " at " + place_text(receiver.position);
+    misplaced.push_back({n == 1 ? "Receiver " + which + " lies " + where + ": no light reaches it."
+                                : to_text(n, "receiver") + " of " + std::to_string(separation.size()) + " lie " +
+                                      where + ": no light reaches them. The first: " + which + ".",
+                         "Check the positions: they are in metres on the axes of glTF, Y is up."});
+  };
+  name(Separation::outside, "outside the closed walls around the emitters");
+  name(Separation::inside, "inside closed walls or bodies without an emitter");
+  return misplaced;
 }
 
 std::optional<Advised> high_reflectances(const Room& room) {

@@ -18,7 +18,8 @@ struct Advised {
 // Point emitters outside the room's bounds, and emitters outside the walls of a closed room. Up to three are named one
 // by one, more together.
 std::vector<Advised> emitters_outside(const Room& room);
-// Receivers outside the walls of a closed room, together; empty if there are none.
+// Receivers that closed walls separate from all emitters: those outside together, those inside walls or bodies
+// together.
 std::vector<Advised> receivers_outside(const Room& room);
 
 // Materials that reflect more than 95 %, if there are any.

@@ -13,6 +13,7 @@
 #include "room/enclosure.hpp"
 #include "tracer/convex_room.hpp"
 #include "tracer/touch.hpp"
+#include "walk/visibility.hpp"
 
 namespace lichtmc {
 
@@ -27,6 +28,12 @@ struct TouchedPlane {
   double height_m = 0.0;     // of the receiver above the plane, on that side
   double clearance_m = 0.0;  // least height for rays that start there
   bool decided = true;
+};
+
+// A point where light starts; the normal of an area light, to whose side it goes.
+struct LightOrigin {
+  glm::dvec3 point{0.0};
+  std::optional<glm::dvec3> normal;
 };
 
 class ReceiverPlacer {
@@ -89,8 +96,8 @@ class ReceiverPlacer {
     return planes;
   }
 
-  // Decides for the planes that the receiver looks along: the first combination of sides that belongs to the room,
-  // fronts before backs.
+  // Decides for the planes that the receiver looks along: the first combination of sides, fronts before backs, that
+  // belongs to the room and sees an emitter; if none does, the first that belongs to the room.
   void choose_sides(const glm::dvec3& point, std::vector<TouchedPlane>& planes) {
     std::vector<std::size_t> open;
     for (std::size_t k = 0; k < planes.size(); ++k) {
@@ -98,16 +105,21 @@ class ReceiverPlacer {
     }
     constexpr std::size_t most = 6;  // 64 combinations; where more planes meet in a point, the fronts count
     if (open.empty() || open.size() > most) return;
+    const std::vector<TouchedPlane> fronts = planes;
+    bool found = false;
     for (std::size_t sides = 0; sides < std::size_t{1} << open.size(); ++sides) {
-      std::vector<TouchedPlane> turned = planes;
+      std::vector<TouchedPlane> turned = fronts;
       for (std::size_t k = 0; k < open.size(); ++k) {
         if ((sides >> k & 1U) == 0) continue;
         turned[open[k]].normal *= -1.0;
         turned[open[k]].height_m *= -1.0;
       }
-      if (!is_in_room(point + way_off(turned))) continue;
-      planes = turned;
-      return;
+      const glm::dvec3 there = point + way_off(turned);
+      if (!is_in_room(there)) continue;
+      const bool is_lit = convex_ || sees_emitter(there);
+      if (!found || is_lit) planes = turned;
+      if (is_lit) return;
+      found = true;
     }
   }
 
@@ -137,28 +149,43 @@ class ReceiverPlacer {
     return std::find(lit_.begin(), lit_.end(), shells) != lit_.end();
   }
 
-  // The sets of closed shells around the starts of light.
+  // Whether no surface lies between a point and one of some points where light starts.
+  bool sees_emitter(const glm::dvec3& point) const {
+    const glm::dvec3 start = tracer_.tracer_point(point);
+    TraceCount not_counted;
+    return std::any_of(origins_.begin(), origins_.end(), [&](const LightOrigin& origin) {
+      if (origin.normal && glm::dot(point - origin.point, *origin.normal) <= 0.0) return false;
+      const auto segment = shadow_segment(tracer_, start, origin.point);
+      return !segment || !tracer_.is_blocked(glm::vec3(start), *segment, not_counted);
+    });
+  }
+
+  // Where light starts, and the sets of closed shells around it.
   void find_lit_shells() {
     enclosure_.emplace(room_);
-    const auto add = [this](const glm::dvec3& point) { lit_.push_back(enclosure_->shells_around(point)); };
+    const auto add = [this](const glm::dvec3& point, const std::optional<glm::dvec3>& normal) {
+      origins_.push_back({point, normal});
+      lit_.push_back(enclosure_->shells_around(point));
+    };
     for (const Emitter& emitter : room_.emitters) {
       if (emitter.power == 0.0) continue;
       visit_shape(
           emitter,
           [&](const auto& point) {
             const glm::dvec3 axis = frame_of(point).normal;
-            add(point.position + 2.0 * tracer_.clearance_m(axis) * axis);
+            add(point.position + 2.0 * tracer_.clearance_m(axis) * axis, std::nullopt);
           },
           [&](const auto& area_light) {
-            for (const glm::dvec3& point : in_front_of(room_.surfaces[area_light.surface])) add(point);
+            for (const LightOrigin& origin : in_front_of(room_.surfaces[area_light.surface]))
+              add(origin.point, origin.normal);
           });
     }
   }
 
   // Points just in front of some triangles of a surface, distributed over it.
-  std::vector<glm::dvec3> in_front_of(const Surface& surface) const {
+  std::vector<LightOrigin> in_front_of(const Surface& surface) const {
     constexpr std::size_t most = 16;
-    std::vector<glm::dvec3> points;
+    std::vector<LightOrigin> points;
     const std::size_t stride = std::max<std::size_t>(1, surface.triangles.size() / most);
     for (std::size_t n = 0; n < surface.triangles.size(); n += stride) {
       const glm::uvec3 t = surface.triangles[n];
@@ -168,7 +195,7 @@ class ReceiverPlacer {
       const double length = glm::length(glm::cross(b, c));
       if (!(length > 0.0)) continue;
       const glm::dvec3 normal = glm::cross(b, c) / length;
-      points.push_back(a + (b + c) / 3.0 + 2.0 * tracer_.clearance_m(normal) * normal);
+      points.push_back({a + (b + c) / 3.0 + 2.0 * tracer_.clearance_m(normal) * normal, normal});
     }
     return points;
   }
@@ -178,7 +205,8 @@ class ReceiverPlacer {
   double extent_m_ = 0.0;
   std::optional<ConvexRoom> convex_;  // only if nothing casts a shadow
   std::optional<Enclosure> enclosure_;
-  std::vector<Shells> lit_;
+  std::vector<LightOrigin> origins_;
+  std::vector<Shells> lit_;  // of each
 };
 
 }  // namespace

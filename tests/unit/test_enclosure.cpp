@@ -242,3 +242,20 @@ TEST_CASE("a fine sphere encloses its inside") {
   }
   CHECK(enclosure.encloses({0.0, 0.0, 0.0}));
 }
+
+TEST_CASE("many points are tested as one by one") {
+  for (const Room& room : {l_room(), sphere(20), together(cube(), cube(0.5, {0.2, 0.3, 0.1}))}) {
+    const Enclosure enclosure(room);
+    std::mt19937 words(7);
+    std::uniform_real_distribution<double> coordinate(-1.5, 2.5);
+    std::vector<glm::dvec3> points{{0.5, 0.5, 0.5}, {1.0, 1.0, 1.0}, {0.25, 0.5, 0.5}};
+    for (int k = 0; k < 2000; ++k) points.emplace_back(coordinate(words), coordinate(words), coordinate(words));
+    const auto around = enclosure.shells_around_each(points);
+    std::size_t inside = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      REQUIRE(around[k] == enclosure.shells_around(points[k]));
+      inside += around[k].empty() ? 0U : 1U;
+    }
+    CHECK(inside > 20);
+  }
+}

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -98,7 +100,8 @@ TEST_CASE("outside: no light of a closed room reaches receivers outside") {
       CHECK(result.receiver_results.back().direct > 10.0);
       CHECK(result.receiver_results.back().indirect > 1.0);
       REQUIRE(result.warnings.size() == 1);
-      CHECK_THAT(result.warnings[0], ContainsSubstring("6 receivers of 7 lie outside the walls of the closed room"));
+      CHECK_THAT(result.warnings[0],
+                 ContainsSubstring("6 receivers of 7 lie outside the closed walls around the emitters: no light"));
     }
   }
 }
@@ -218,14 +221,18 @@ TEST_CASE("on a surface: a receiver that looks out of the closed room has no lig
   }
 }
 
-TEST_CASE("on a surface: a receiver that looks along a wall is in the room, also if the faces are reversed") {
-  for (const bool reversed : {false, true}) {
+TEST_CASE(
+    "on a surface: a receiver that looks along a wall is in the room, also if faces are reversed or a wall is "
+    "missing") {
+  const std::vector<std::pair<bool, bool>> kinds{{false, false}, {true, false}, {false, true}, {true, true}};
+  for (const auto& [reversed, open] : kinds) {
     Room room = with_crate(closed_room(isotropic({2.3, 1.9, 2.1}, flux)));
     for (Surface& surface : room.surfaces) {
       for (glm::uvec3& t : surface.triangles) {
         if (reversed) std::swap(t.y, t.z);
       }
     }
+    if (open) room = without_surface(std::move(room), "wall_x0");
     // On a wall of the room, and on a side of the crate.
     room.receivers = {at({3.0, 1.5, 0.0}, {0, 1, 0}), at({4.4, 0.3, 3.6}, {0, 1, 0}), at({3.0, 1.5, 1e-4}, {0, 1, 0}),
                       at({4.4 - 1e-4, 0.3, 3.6}, {0, 1, 0})};
@@ -241,4 +248,116 @@ TEST_CASE("on a surface: a receiver that looks along a wall is in the room, also
     INFO(verdict.text);
     CHECK(verdict.agrees);
   }
+}
+
+TEST_CASE("outside: run and check name receivers and emitters in the notch of an L-shaped room, not those on walls") {
+  // Floor and ceiling of the L are two rectangles each, which meet the walls at their corners.
+  Room room;
+  Surface shell;
+  shell.name = "shell";
+  const std::vector<glm::dvec3> outline{{0, 0, 0}, {4, 0, 0}, {4, 0, 2}, {2, 0, 2}, {2, 0, 4}, {0, 0, 4}};
+  const glm::dvec3 up(0.0, 2.5, 0.0);
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const glm::dvec3& next = outline[(k + 1) % outline.size()];
+    add_quad(shell, outline[k], next - outline[k], up);
+  }
+  for (const glm::dvec3& level : {glm::dvec3(0.0), up}) {
+    add_triangle(shell, level + outline[0], level + outline[1], level + outline[3]);
+    add_triangle(shell, level + outline[1], level + outline[2], level + outline[3]);
+    add_triangle(shell, level + outline[0], level + outline[3], level + outline[4]);
+    add_triangle(shell, level + outline[0], level + outline[4], level + outline[5]);
+  }
+  room.source = "L";
+  room.surfaces.push_back(shell);
+  room.emitters.push_back(isotropic({1.0, 2.0, 1.0}, flux));
+  room.receivers = {at({1.0, 0.8, 1.0}, {0, 1, 0}), at({2.0, 0.8, 3.0}, {-1, 0, 0}), at({4.0, 2.5, 0.0}, {-1, 0, 0})};
+  CHECK(simulate(room, receivers_only(Engine::automatic, 300, 1)).warnings.empty());
+  for (const Finding& finding : inspect(room).findings) CHECK_THAT(finding.text, !ContainsSubstring("outside"));
+
+  room.receivers.push_back(at({3.0, 0.8, 3.0}, {0, 1, 0}));
+  const Result result = simulate(room, receivers_only(Engine::automatic, 400, 1));
+  CHECK(result.receiver_results[3].irradiance == 0.0);
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings[0], ContainsSubstring("Receiver 'at' at (3, 0.8, 3) m lies outside the closed walls"));
+  const auto count = [](const Room& in, const std::string& words) {
+    std::size_t n = 0;
+    for (const Finding& finding : inspect(in).findings) n += finding.text.find(words) != std::string::npos ? 1U : 0U;
+    return n;
+  };
+  CHECK(count(room, "outside the closed walls around the emitters") == 1);
+  // A second emitter beside it lights it, and is named itself.
+  room.emitters.push_back(isotropic({3.0, 2.0, 3.0}, flux));
+  CHECK(count(room, "outside the closed walls around the emitters") == 0);
+  CHECK(count(room, "lies outside the walls of the closed room") == 1);
+  // Many are named together.
+  for (int k = 0; k < 5; ++k) room.emitters.push_back(isotropic({3.0, 1.0, 3.0}, flux));
+  const std::string warning = simulate(room, receivers_only(Engine::automatic, 400, 1)).warnings.at(0);
+  CHECK_THAT(warning, ContainsSubstring("6 emitters of 7 lie outside the room or on its boundary. The first: Emitter"));
+}
+
+TEST_CASE("outside: a building of solid walls with a window is no closed room, and nothing in it is outside") {
+  // Floor, ceiling and walls 0.3 m thick, in one shell: an outer and an inner box, joined around a window.
+  Room room;
+  Surface solid;
+  solid.name = "solid";
+  const auto box = [&solid](const glm::dvec3& low, const glm::dvec3& high, bool inwards) {
+    Surface sides = make_box(high - low);
+    for (std::size_t n = 0; n < sides.triangles.size(); ++n) {
+      const glm::uvec3 t = sides.triangles[n];
+      const glm::dvec3 a = low + sides.positions[t.x];
+      const glm::dvec3 b = low + sides.positions[t.y];
+      const glm::dvec3 c = low + sides.positions[t.z];
+      if (a.x == high.x && b.x == high.x && c.x == high.x) continue;  // where the window is
+      inwards ? add_triangle(solid, a, c, b) : add_triangle(solid, a, b, c);
+    }
+  };
+  box({0, 0, 0}, {5.6, 3.1, 4.6}, false);
+  box({0.3, 0.3, 0.3}, {5.3, 2.8, 4.3}, true);
+  const std::vector<glm::dvec2> outer{{0, 0}, {3.1, 0}, {3.1, 4.6}, {0, 4.6}};
+  const std::vector<glm::dvec2> inner{{0.3, 0.3}, {2.8, 0.3}, {2.8, 4.3}, {0.3, 4.3}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t next = (k + 1) % 4;
+    const auto point = [](double x, const glm::dvec2& yz) { return glm::dvec3(x, yz.x, yz.y); };
+    add_triangle(solid, point(5.6, outer[k]), point(5.6, outer[next]), point(5.3, inner[next]));
+    add_triangle(solid, point(5.6, outer[k]), point(5.3, inner[next]), point(5.3, inner[k]));
+  }
+  room.surfaces.push_back(solid);
+  room.emitters.push_back(isotropic({2.5, 2.0, 2.0}, flux));
+  room.receivers = {at({2.5, 1.0, 2.0}, {0, 1, 0}), at({7.0, 1.5, 2.0}, {-1, 0, 0})};
+  CHECK(simulate(room, receivers_only(Engine::automatic, 300, 1)).warnings.empty());
+  room.receivers.push_back(at({0.15, 1.0, 2.0}, {1, 0, 0}));  // within a wall
+  const std::vector<std::string> warnings = simulate(room, receivers_only(Engine::automatic, 300, 1)).warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], ContainsSubstring("(0.15, 1, 2) m lies inside closed walls or bodies without an emitter"));
+}
+
+TEST_CASE("outside: walls that meet in T-junctions, and luminous walls that shine outwards") {
+  // A cuboid of which one wall is divided and the others are not.
+  Room room = without_surface(closed_room(isotropic({2.5, 2.0, 2.0}, flux)), "wall_z0");
+  Surface wall;
+  wall.name = "wall";
+  add_quad(wall, {0, 0, 0}, {2, 0, 0}, {0, 2.5, 0});
+  add_quad(wall, {2, 0, 0}, {3, 0, 0}, {0, 2.5, 0});
+  room.surfaces.push_back(wall);
+  room.receivers = {at({1.0, 1.0, -0.1}, {0, 0, 1}), at({1.0, 1.0, 0.1}, {0, 0, 1})};
+  const Result result = simulate(room, receivers_only(Engine::automatic, 200, 1));
+  CHECK(result.receiver_results[0].irradiance == 0.0);
+  CHECK(result.receiver_results[1].irradiance > 1.0);
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings[0], ContainsSubstring("at (1, 1, -0.1) m lies outside"));
+
+  // A ceiling with its front outside lights a receiver above, by the polygon formula or not.
+  Room shining = closed_room(surface_emitter(1, flux));
+  for (glm::uvec3& t : shining.surfaces[1].triangles) std::swap(t.y, t.z);
+  shining.receivers = {at({2.5, 3.5, 2.0}, {0, -1, 0}), at({2.5, 1.0, 2.0}, {0, 1, 0})};
+  const Result lit = simulate(shining, receivers_only(Engine::automatic, 200, 1));
+  const double exitance = flux / (size.x * size.z);
+  const ReceiverResult& above = lit.receiver_results[0];
+  const Verdict verdict = compare(
+      {{above.direct, above.standard_error, exitance * element_to_parallel_rectangle(1.0, 2.5, 2.5, 2.0, 2.0)}});
+  INFO(verdict.text);
+  CHECK(verdict.agrees);
+  CHECK(verdict.smallest_bias < 0.02);
+  CHECK(lit.receiver_results[1].irradiance == 0.0);
+  CHECK_THAT(lit.warnings.at(0), ContainsSubstring("emits outside the walls of the closed room"));
 }
