@@ -1,5 +1,6 @@
 // lichtmc check: the content of a room file, what will be modelled, and what is probably wrong.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <map>
@@ -37,8 +38,19 @@ std::string row(const char* name, const std::string& text) {
   return line + text + "\n";
 }
 
+// Large coordinates to the millimetre: four digits would hide the room in them.
+std::string coordinate(double value) {
+  if (!(std::abs(value) >= 1000.0 && std::abs(value) < 1e9)) return four_digits(value);
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.3f", value);
+  std::string text = digits;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
 std::string point(const glm::dvec3& p) {
-  return "(" + four_digits(p.x) + ", " + four_digits(p.y) + ", " + four_digits(p.z) + ")";
+  return "(" + coordinate(p.x) + ", " + coordinate(p.y) + ", " + coordinate(p.z) + ")";
 }
 
 // Materials with their reflectances, the sources of these, and areas.

@@ -36,26 +36,32 @@ enum class ReflectanceSource {
   default_white,   // glTF's default: no material, or a material without a base colour
 };
 
-// The continuation of a reflectance map outside of u, v = 0 … 1.
+// The continuation of a texture map outside of u, v = 0 … 1.
 enum class Wrap { repeat, clamp, mirror };
 
-// A reflectance that varies over a surface: values over texture coordinates u, v = 0 … 1, bilinear between their
-// centres.
-struct ReflectanceMap {
+// A quantity that varies over a surface: values over texture coordinates u, v = 0 … 1, bilinear between their centres.
+struct TextureMap {
   std::string name;           // for messages: name of the image
   std::uint32_t columns = 0;  // ≥ 1, along u
   std::uint32_t rows = 0;     // ≥ 1, along v; row 0 lies at v = 0
-  std::vector<float> values;  // ρ, 0 … 1, row by row
+  std::vector<float> values;  // row by row
   Wrap wrap_u = Wrap::repeat;
   Wrap wrap_v = Wrap::repeat;
+  // Of reflectance maps for surfaces with vertex colours: red, green and blue of the same pixels, linear, 0 … 1.
+  // Elsewhere none.
+  std::vector<glm::vec3> colours{};
 };
 
-// A surface: a mesh of triangles with one reflectance or a reflectance map. It reflects by Lambert's law on the side
-// that is hit, for either winding of its triangles; the winding only determines which side is the front.
+using ReflectanceMap = TextureMap;  // its values are ρ, 0 … 1
+using EmissionMap = TextureMap;     // its values are luminances in any unit, finite and ≥ 0
+
+// A surface: a mesh of triangles with one reflectance, or one that varies by a reflectance map or by vertex colours or
+// by the product of both. It reflects by Lambert's law on the side that is hit, for either winding of its triangles;
+// the winding only determines which side is the front.
 struct Surface {
   std::string name;      // unique in the room; names the tile map's file
   std::string material;  // for messages and tables; may be empty
-  // ρ, fraction of the incident power that is reflected, 0 … 1; with a reflectance map: its mean, for tables.
+  // ρ, fraction of the incident power that is reflected, 0 … 1. If ρ varies: its mean, for tables.
   double reflectance = 0.5;
   ReflectanceSource reflectance_source = ReflectanceSource::given;  // for messages and tables
   Sides sides = Sides::one;
@@ -64,7 +70,12 @@ struct Surface {
   std::vector<glm::uvec3> triangles;           // three indices into positions; seen from the front counter-clockwise
   std::optional<std::size_t> reflectance_map;  // index into Room::reflectance_maps
   std::vector<glm::dvec2> reflectance_uvs;     // coordinates on that map: one per position
-  std::size_t without_area = 0;                // number of triangles of the source left out because they have no area
+  // Vertex colours, one per position or none: red, green and blue, linear, 0 … 1, interpolated linearly over each
+  // triangle. ρ is the Rec. 709 luminance of their product with the map's colours (with its values, if it has no
+  // colours); without a map, of the vertex colours alone.
+  std::vector<glm::dvec3> vertex_colours;
+  double highest_reflectance = 1.0;  // 0 … 1; where vertex colours would give a higher ρ, ρ has this value
+  std::size_t without_area = 0;      // number of triangles of the source left out because they have no area
 };
 
 // A point emitter with the same intensity in every direction: I = Φ/4π.
@@ -95,11 +106,14 @@ struct SpotEmitter {
   SpotLaw law() const { return {inner, outer}; }
 };
 
-// Area light: every point of a surface's front emits by the generalized Lambert law about the normal, uniform per area.
-// With m = 1 the exitance is M = Φ/A and the radiance M/π.
+// Area light: every point of a surface's front emits by the generalized Lambert law about the normal. The exitance is
+// uniform per area or, with an emission map, proportional to the map's value at the point. With m = 1 and a uniform
+// exitance it is M = Φ/A, and the radiance M/π.
 struct SurfaceEmitter {
-  std::size_t surface = 0;  // index into Room::surfaces
-  double exponent = 1.0;    // m ≥ 0
+  std::size_t surface = 0;                    // index into Room::surfaces
+  double exponent = 1.0;                      // m ≥ 0
+  std::optional<std::size_t> emission_map{};  // index into Room::emission_maps
+  std::vector<glm::dvec2> emission_uvs{};     // coordinates on that map: one per position of the surface
 
   LambertLaw law() const { return {exponent}; }
 };
@@ -140,6 +154,7 @@ struct Room {
   std::vector<Emitter> emitters;
   std::vector<Receiver> receivers;
   std::vector<ReflectanceMap> reflectance_maps;
+  std::vector<EmissionMap> emission_maps;
   std::vector<Ignored> ignored;        // parts of the source that are not modelled
   std::vector<std::string> overrides;  // input overrides: changes on request after reading, one sentence each
 };
@@ -149,8 +164,8 @@ struct Room {
 // powers above 0. Throws InputError naming the room's source, the surface or emitter, the value and what is allowed.
 void check_room(const Room& room);
 
-// The mean of a surface's reflectance over its area; with a reflectance map by dividing its triangles to about the size
-// of the map's pixels.
+// The mean of a surface's reflectance over its area; if it varies, by dividing its triangles, with a reflectance map to
+// about the size of the map's pixels.
 double mean_reflectance(const Room& room, const Surface& surface);
 
 // Area of a surface in m², one side.

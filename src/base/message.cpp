@@ -73,6 +73,12 @@ std::string decimal(double value, int decimals) {
   return shortest == "-0" ? "0" : shortest;
 }
 
+std::string position_text(double coordinate_m) {
+  const double size = std::abs(coordinate_m);
+  constexpr double least = 1e-12;  // nothing is meant by less
+  return decimal(coordinate_m, size >= 0.1 || !(size > least) ? 3 : 2 - static_cast<int>(std::floor(std::log10(size))));
+}
+
 std::string to_text(std::size_t count, std::string_view singular) {
   std::string text = std::to_string(count) + " " + std::string(singular);
   if (count != 1) text += "s";

@@ -17,6 +17,9 @@ std::string short_number(double value);  // to three digits
 // A number with at most this many decimals: 2.50004 with three: "2.5".
 std::string decimal(double value, int decimals);
 
+// A coordinate in m, to the millimetre or, if that is finer, to three digits: "-5334759.625", "12.5", "0.000123".
+std::string position_text(double coordinate_m);
+
 // A count with its noun, in the singular or plural: "1 triangle", "12 triangles".
 std::string to_text(std::size_t count, std::string_view singular);
 

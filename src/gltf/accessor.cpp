@@ -223,6 +223,75 @@ std::vector<glm::dvec2> read_texture_coordinates(const Document& document, int i
   return uvs;
 }
 
+std::vector<glm::dvec3> read_colours(const Document& document, int index, const std::string& where) {
+  const auto& accessors = document.model.accessors;
+  const auto& accessor = accessors[checked_index(document, index, accessors.size(), "the accessor of " + where)];
+  const bool opacity = accessor.type == TINYGLTF_TYPE_VEC4;
+  if (!opacity && accessor.type != TINYGLTF_TYPE_VEC3)
+    refuse(document, where + " are neither of the type VEC3 nor of the type VEC4." + export_again);
+  const bool fractions = accessor.normalized && (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                                                 accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !fractions)
+    refuse(document, where +
+                         " are neither floats nor normalized unsigned bytes or shorts (the types allowed). Export the "
+                         "file again, or set the reflectance of the material: custom property 'reflectance', or "
+                         "--reflectance MATERIAL=R.");
+  const std::size_t components = opacity ? 4 : 3;
+  const std::vector<double> values = values_of(document, accessor, components, where);
+  std::vector<glm::dvec3> colours(values.size() / components);
+  for (std::size_t k = 0; k < colours.size(); ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double value = values[components * k + c];
+      if (std::isnan(value))
+        refuse(document, where + ": number " + std::to_string(k) + " is NaN (allowed: 0 to 1)." + export_again);
+      colours[k][static_cast<glm::length_t>(c)] = std::clamp(value, 0.0, 1.0);
+    }
+  }
+  return colours;
+}
+
+std::vector<glm::uvec4> read_joints(const Document& document, int index, std::size_t joints, const std::string& where) {
+  const auto& accessor = accessor_of(document, index, TINYGLTF_TYPE_VEC4, "VEC4", where);
+  if (!is_unsigned(accessor.componentType) && accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    refuse(document, where + " are not unsigned integers (the types allowed)." + export_again);
+  const std::vector<double> values = values_of(document, accessor, 4, where);
+  std::vector<glm::uvec4> numbers(values.size() / 4);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double value = values[k];
+    if (!(value >= 0.0 && value < static_cast<double>(joints)) || value != std::floor(value))
+      refuse(document, where + ": number " + std::to_string(k / 4) + " refers to joint " + std::to_string(value) +
+                           " (the skin has " + std::to_string(joints) + ")." + export_again);
+    numbers[k / 4][static_cast<glm::length_t>(k % 4)] = static_cast<std::uint32_t>(value);
+  }
+  return numbers;
+}
+
+std::vector<glm::dvec4> read_weights(const Document& document, int index, const std::string& where) {
+  const std::vector<double> values = coordinates(document, index, TINYGLTF_TYPE_VEC4, "VEC4", 4, where);
+  std::vector<glm::dvec4> weights(values.size() / 4);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (!(values[k] >= 0.0) || !std::isfinite(values[k]))
+      refuse(document, where + ": number " + std::to_string(k / 4) +
+                           " is negative or not finite (allowed: finite numbers, 0 or more)." + export_again);
+    weights[k / 4][static_cast<glm::length_t>(k % 4)] = values[k];
+  }
+  return weights;
+}
+
+std::vector<glm::dmat4> read_matrices(const Document& document, int index, const std::string& where) {
+  const auto& accessor = accessor_of(document, index, TINYGLTF_TYPE_MAT4, "MAT4", where);
+  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    refuse(document, where + " are not floats (the type allowed)." + export_again);
+  const std::vector<double> values = values_of(document, accessor, 16, where);
+  std::vector<glm::dmat4> matrices(values.size() / 16);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (!std::isfinite(values[k]))
+      refuse(document, where + ": number " + std::to_string(k / 16) + " is not finite." + export_again);
+    matrices[k / 16][static_cast<glm::length_t>(k % 16 / 4)][static_cast<glm::length_t>(k % 4)] = values[k];
+  }
+  return matrices;
+}
+
 std::vector<std::uint32_t> read_indices(const Document& document, int index, std::size_t vertices,
                                         const std::string& where) {
   const auto& accessor = accessor_of(document, index, TINYGLTF_TYPE_SCALAR, "SCALAR", where);

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "gltf/document.hpp"
 
@@ -27,6 +29,20 @@ std::vector<glm::dquat> read_rotations(const Document& document, int accessor, c
 
 // Texture coordinates (VEC2) as stored; KHR_texture_transform is not applied.
 std::vector<glm::dvec2> read_texture_coordinates(const Document& document, int accessor, const std::string& where);
+
+// Vertex colours (VEC3 or VEC4; floats or normalized unsigned integers): red, green and blue, limited to 0 … 1 as the
+// specification demands. Opacity is not returned.
+std::vector<glm::dvec3> read_colours(const Document& document, int accessor, const std::string& where);
+
+// Joints of vertices: numbers of joints below `joints` (VEC4; unsigned integers, or whole floats after decompression).
+std::vector<glm::uvec4> read_joints(const Document& document, int accessor, std::size_t joints,
+                                    const std::string& where);
+
+// Weights of joints (VEC4; floats or normalized integers), finite and ≥ 0.
+std::vector<glm::dvec4> read_weights(const Document& document, int accessor, const std::string& where);
+
+// Matrices (MAT4, float), finite.
+std::vector<glm::dmat4> read_matrices(const Document& document, int accessor, const std::string& where);
 
 // Indices (unsigned SCALAR), each below `vertices`.
 std::vector<std::uint32_t> read_indices(const Document& document, int accessor, std::size_t vertices,

@@ -1,7 +1,11 @@
 #include "gltf/builder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
 
 #include "base/base64.hpp"
 #include "lichtmc/error.hpp"
@@ -32,7 +36,7 @@ std::string dump(const GltfBuilder::Json& json, int indent) {
 
 }  // namespace
 
-GltfBuilder::GltfBuilder() {
+GltfBuilder::GltfBuilder(const glm::dvec3& offset_m) : offset_m_(offset_m) {
   json["asset"] = {{"version", "2.0"}, {"generator", "lichtmc " + std::string(version())}};
   json["scene"] = 0;
   json["scenes"] = Json::array({{{"nodes", Json::array()}}});
@@ -54,7 +58,13 @@ std::size_t GltfBuilder::add_accessor(const void* data, std::size_t bytes, Json 
   return json["accessors"].size() - 1;
 }
 
-std::size_t GltfBuilder::add_positions(const std::vector<std::array<float, 3>>& positions) {
+std::size_t GltfBuilder::add_positions(const std::vector<glm::dvec3>& world_m) {
+  std::vector<std::array<float, 3>> positions;
+  positions.reserve(world_m.size());
+  for (const glm::dvec3& world : world_m) {
+    const glm::dvec3 p = world - offset_m_;
+    positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  }
   const std::size_t number = add_vectors(positions);
   std::array<float, 3> low = positions.front();
   std::array<float, 3> high = positions.front();
@@ -104,6 +114,7 @@ void GltfBuilder::use_extension(const std::string& name) {
 }
 
 void GltfBuilder::finish() {
+  move_to_offset();
   if (!buffer_.empty()) json["buffers"] = Json::array({{{"byteLength", buffer_.size()}}});
   // The specification does not allow empty arrays.
   if (json["scenes"][0]["nodes"].empty()) json["scenes"][0].erase("nodes");
@@ -134,18 +145,35 @@ std::string GltfBuilder::text() {
   return dump(json, 1) + "\n";
 }
 
-GltfBuilder::Json placed_node(const std::string& name, const glm::dvec3& position_m) {
-  GltfBuilder::Json node{{"translation", {position_m.x, position_m.y, position_m.z}}};
+GltfBuilder::Json GltfBuilder::placed_node(const std::string& name, const glm::dvec3& world_m) const {
+  const glm::dvec3 p = world_m - offset_m_;
+  Json node{{"translation", {p.x, p.y, p.z}}};
   if (!name.empty()) node["name"] = name;
   return node;
 }
 
-std::vector<std::array<float, 3>> as_floats(const std::vector<glm::dvec3>& points) {
-  std::vector<std::array<float, 3>> floats;
-  floats.reserve(points.size());
-  for (const glm::dvec3& p : points)
-    floats.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-  return floats;
+void GltfBuilder::move_to_offset() {
+  Json& roots = json["scenes"][0]["nodes"];
+  if (offset_m_ == glm::dvec3(0.0) || roots.empty()) return;
+  const Json place{offset_m_.x, offset_m_.y, offset_m_.z};
+  json["asset"]["extras"]["lichtmc"] = {{"offset_m", place}};
+  Json children = std::move(roots);
+  roots = Json::array();
+  add_node({{"name", "offset"},
+            {"translation", place},
+            {"children", std::move(children)},
+            {"extras", {{"lichtmc", {{"kind", "offset"}, {"offset_m", place}}}}}});
+  offset_m_ = glm::dvec3(0.0);  // done
+}
+
+glm::dvec3 file_offset(const Bounds& bounds) {
+  const glm::dvec3 size = bounds.high - bounds.low;
+  const glm::dvec3 farthest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
+  const double extent = std::max({size.x, size.y, size.z});
+  constexpr double far_away = 32.0;
+  if (!(std::max({farthest.x, farthest.y, farthest.z}) > far_away * extent) || !(extent > 0.0)) return glm::dvec3(0.0);
+  const double step = std::min(1.0, std::exp2(std::floor(std::log2(extent))));
+  return step * glm::round(0.5 * (bounds.low + bounds.high) / step);
 }
 
 }  // namespace lichtmc

@@ -1,4 +1,5 @@
 // KHR_draco_mesh_compression: decompresses the triangles and attributes of a primitive.
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -103,29 +104,63 @@ float divisor_of(const tinygltf::Accessor& accessor) {
   }
 }
 
-void decompress(Document& document, tinygltf::Primitive& primitive, const std::string& where) {
+// Number of components of an attribute that is read; 0 for others.
+int components_of(const std::string& name) {
+  if (name == "POSITION") return 3;
+  if (name.rfind("TEXCOORD_", 0) == 0) return 2;
+  const bool has_four = name == "COLOR_0" || name.rfind("JOINTS_", 0) == 0 || name.rfind("WEIGHTS_", 0) == 0;
+  return has_four ? 4 : 0;
+}
+
+// Whether a morph target of a mesh has a weight.
+bool is_morphed(const tinygltf::Model& model, std::size_t mesh) {
+  const auto weighted = [](const std::vector<double>& weights) {
+    return std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0.0; });
+  };
+  return weighted(model.meshes[mesh].weights) ||
+         std::any_of(model.nodes.begin(), model.nodes.end(), [&](const tinygltf::Node& node) {
+           return node.mesh == static_cast<int>(mesh) && weighted(node.weights);
+         });
+}
+
+// Morph targets are not compressed and refer to vertices in their original order, which only Draco's sequential
+// encoding keeps (specification of KHR_draco_mesh_compression).
+void check_order(const Document& document, const tinygltf::Value& extension, const std::string& where) {
+  constexpr std::size_t place_of_method = 8;  // in the header of Draco data; 0: sequential
+  const auto& model = document.model;
+  const auto& view =
+      model.bufferViews[static_cast<std::size_t>(number_in(document, extension, "bufferView", -1.0, where))];
+  if (model.buffers[static_cast<std::size_t>(view.buffer)].data[view.byteOffset + place_of_method] == 0) return;
+  refuse(document, where +
+                       " changes the order of the vertices, but the mesh has morph targets with weights (allowed: "
+                       "Draco's sequential encoding). Export the file without compression.");
+}
+
+void decompress(Document& document, tinygltf::Primitive& primitive, bool morphed, const std::string& where) {
   auto& model = document.model;
   const tinygltf::Value& extension = primitive.extensions.at(extension_name);
   const std::unique_ptr<draco::Mesh> mesh = decode(document, extension, where);
+  if (morphed && !primitive.targets.empty()) check_order(document, extension, where);
   primitive.indices =
       add_accessor(model, indices_of(*mesh), 1, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   if (!extension.Has("attributes") || !extension.Get("attributes").IsObject())
     refuse(document, where + " has no 'attributes' object." + export_again);
   for (auto& [name, index] : primitive.attributes) {
-    const bool needed = name == "POSITION" || name.rfind("TEXCOORD_", 0) == 0;
-    if (!needed || !extension.Get("attributes").Has(name)) continue;
+    if (components_of(name) == 0 || !extension.Get("attributes").Has(name)) continue;
     const double id = number_in(document, extension.Get("attributes"), name.c_str(), -1.0, where);
     const int number = id >= 0.0 && id < 0x1p31 ? mesh->GetAttributeIdByUniqueId(static_cast<std::uint32_t>(id)) : -1;
     if (number < 0) refuse(document, where + " does not contain its attribute " + name + "." + export_again);
     const auto& described =
         model.accessors[checked_index(document, index, model.accessors.size(), "the accessor of " + name)];
-    const int components = name == "POSITION" ? 3 : 2;
+    // Colours may have three or four components.
+    const int components = name == "COLOR_0" && described.type == TINYGLTF_TYPE_VEC3 ? 3 : components_of(name);
     std::vector<float> values = values_of(document, *mesh, *mesh->attribute(number), components, where);
     const float divisor = divisor_of(described);
     for (float& value : values) value /= divisor;
-    index = add_accessor(model, values, components, components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC2,
-                         TINYGLTF_COMPONENT_TYPE_FLOAT);
+    // tinygltf's types VEC2, VEC3, VEC4 are these numbers.
+    static_assert(TINYGLTF_TYPE_VEC2 == 2 && TINYGLTF_TYPE_VEC3 == 3 && TINYGLTF_TYPE_VEC4 == 4);
+    index = add_accessor(model, values, components, components, TINYGLTF_COMPONENT_TYPE_FLOAT);
   }
 }
 
@@ -138,7 +173,7 @@ void decompress_primitives(Document& document) {
       tinygltf::Primitive& primitive = meshes[m].primitives[k];
       if (primitive.extensions.count(extension_name) == 0) continue;
       decompress(
-          document, primitive,
+          document, primitive, is_morphed(document.model, m),
           std::string(extension_name) + " of " + label("mesh", meshes[m].name, m) + ", primitive " + std::to_string(k));
     }
   }

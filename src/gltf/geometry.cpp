@@ -10,6 +10,7 @@
 
 #include "base/message.hpp"
 #include "gltf/accessor.hpp"
+#include "gltf/deform.hpp"
 
 namespace lichtmc {
 
@@ -74,6 +75,36 @@ std::vector<glm::dvec2> read_uvs(const Document& document, const tinygltf::Primi
   return uvs;
 }
 
+bool has_uvs(const tinygltf::Primitive& primitive, const TextureUse& use) {
+  return primitive.attributes.count("TEXCOORD_" + std::to_string(use.uv_set)) != 0;
+}
+
+// The coordinates on a texture of the material; none if there is no texture, or no coordinates for it. remedy: what to
+// do besides unwrapping the mesh again.
+std::vector<glm::dvec2> read_texture_uvs(const Document& document, const tinygltf::Primitive& primitive,
+                                         const std::optional<TextureUse>& use, std::size_t vertices,
+                                         const std::string& where, const char* remedy) {
+  if (!use || !has_uvs(primitive, *use)) return {};
+  std::vector<glm::dvec2> uvs = read_uvs(document, primitive, use->uv_set, use->transform, vertices, where);
+  for (const glm::dvec2& uv : uvs) {
+    if (std::isfinite(uv.x) && std::isfinite(uv.y)) continue;
+    refuse(document, "the texture coordinates of " + where +
+                         " are not finite (allowed: finite numbers). Unwrap the mesh again, or " + remedy);
+  }
+  return uvs;
+}
+
+std::vector<glm::dvec3> read_vertex_colours(const Document& document, const tinygltf::Primitive& primitive,
+                                            std::size_t vertices, const std::string& where) {
+  const auto attribute = primitive.attributes.find("COLOR_0");
+  if (attribute == primitive.attributes.end()) return {};
+  std::vector<glm::dvec3> colours = read_colours(document, attribute->second, "the vertex colours of " + where);
+  if (colours.size() != vertices)
+    refuse(document, where + " has " + to_text(vertices, "position") + " but " + std::to_string(colours.size()) +
+                         " vertex colours (allowed: one per position). Export the file again.");
+  return colours;
+}
+
 UvTransform transform_of_set(const Material& material, int set) {
   for (const TextureUse& use : material.textures) {
     if (use.uv_set == set) return use.transform;
@@ -83,19 +114,16 @@ UvTransform transform_of_set(const Material& material, int set) {
 
 void note_ignored_attributes(const tinygltf::Primitive& primitive, const Material& material, const std::string& where,
                              std::vector<Ignored>& ignored) {
-  if (primitive.attributes.count("COLOR_0") != 0) {
-    ignored.push_back({"Vertex colours of " + where + " are not read; its material alone determines its reflectance.",
-                       Effect::figures});
-  }
-  if (primitive.attributes.count("JOINTS_0") != 0)
-    ignored.push_back(
-        {"The skin of " + where + " is not applied; the vertices stay in the rest pose.", Effect::figures});
-  if (!primitive.targets.empty())
-    ignored.push_back({"Morph targets of " + where + " are not applied.", Effect::figures});
   const auto& base = material.base_colour;
-  if (base && primitive.attributes.count("TEXCOORD_" + std::to_string(base->uv_set)) == 0) {
+  if (base && !has_uvs(primitive, *base)) {
     ignored.push_back({"The base colour texture of " + where + " has no texture coordinates (TEXCOORD_" +
                            std::to_string(base->uv_set) + "): the base colour factor alone determines its reflectance.",
+                       Effect::figures});
+  }
+  if (material.emission && material.emission->texture && !has_uvs(primitive, *material.emission->texture)) {
+    ignored.push_back({"The emissive texture of " + where + " has no texture coordinates (TEXCOORD_" +
+                           std::to_string(material.emission->texture->uv_set) +
+                           "): the emissive factor alone determines its emission, uniform over its area.",
                        Effect::figures});
   }
 }
@@ -103,7 +131,8 @@ void note_ignored_attributes(const tinygltf::Primitive& primitive, const Materia
 }  // namespace
 
 std::optional<Primitive> read_primitive(const Document& document, const tinygltf::Primitive& primitive,
-                                        const Material& material, std::optional<int> uv_set, const std::string& where,
+                                        const Material& material, std::optional<int> uv_set,
+                                        const std::vector<double>& morph_weights, const std::string& where,
                                         std::vector<Ignored>& ignored) {
   if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
     refuse(document, "the mode of " + where + " is " + std::to_string(primitive.mode) +
@@ -122,18 +151,15 @@ std::optional<Primitive> read_primitive(const Document& document, const tinygltf
   result.where = where;
   result.positions = read_vectors(document, position->second, "the positions of " + where);
   const std::size_t vertices = result.positions.size();
+  apply_morph_targets(document, primitive, morph_weights, where, result.positions, ignored);
   if (const auto set = choose_uv_set(document, primitive, uv_set))
     result.uvs = read_uvs(document, primitive, *set, transform_of_set(material, *set), vertices, where);
-  const auto& base = material.base_colour;
-  if (base && primitive.attributes.count("TEXCOORD_" + std::to_string(base->uv_set)) != 0) {
-    result.reflectance_uvs = read_uvs(document, primitive, base->uv_set, base->transform, vertices, where);
-    for (const glm::dvec2& uv : result.reflectance_uvs) {
-      if (std::isfinite(uv.x) && std::isfinite(uv.y)) continue;
-      refuse(document, "the texture coordinates of " + where +
-                           " are not finite (allowed: finite numbers). Unwrap the mesh again, or set the custom "
-                           "property 'reflectance' of its material.");
-    }
-  }
+  result.reflectance_uvs = read_texture_uvs(document, primitive, material.base_colour, vertices, where,
+                                            "set the custom property 'reflectance' of its material.");
+  if (material.emission)
+    result.emission_uvs = read_texture_uvs(document, primitive, material.emission->texture, vertices, where,
+                                           "remove the emissive texture of its material.");
+  if (material.takes_vertex_colours) result.vertex_colours = read_vertex_colours(document, primitive, vertices, where);
   result.triangles = read_triangles(document, primitive, vertices, where);
   note_ignored_attributes(primitive, material, where, ignored);
   if (result.triangles.empty()) {
@@ -143,22 +169,42 @@ std::optional<Primitive> read_primitive(const Document& document, const tinygltf
   return result;
 }
 
-Surface place_primitive(const Primitive& primitive, const glm::dmat4& world) {
+namespace {
+
+// to_world(n): the transform of vertex n; mirrors(t): whether that of a triangle mirrors.
+template <class ToWorld, class Mirrors>
+Surface place(const Primitive& primitive, const ToWorld& to_world, const Mirrors& mirrors) {
   Surface surface;
   surface.positions.reserve(primitive.positions.size());
-  for (const glm::dvec3& local : primitive.positions) surface.positions.emplace_back(world * glm::dvec4(local, 1.0));
+  for (std::size_t n = 0; n < primitive.positions.size(); ++n)
+    surface.positions.emplace_back(to_world(n) * glm::dvec4(primitive.positions[n], 1.0));
   surface.uvs = primitive.uvs;
   surface.reflectance_uvs = primitive.reflectance_uvs;
-  const bool mirrored = glm::determinant(glm::dmat3(world)) < 0.0;
   for (glm::uvec3 triangle : primitive.triangles) {
     if (!has_area(surface.positions[triangle.x], surface.positions[triangle.y], surface.positions[triangle.z])) {
       ++surface.without_area;
       continue;
     }
-    if (mirrored) std::swap(triangle.y, triangle.z);
+    if (mirrors(triangle)) std::swap(triangle.y, triangle.z);
     surface.triangles.push_back(triangle);
   }
   return surface;
+}
+
+}  // namespace
+
+Surface place_primitive(const Primitive& primitive, const glm::dmat4& world) {
+  const bool mirrored = glm::determinant(glm::dmat3(world)) < 0.0;
+  return place(
+      primitive, [&](std::size_t) -> const glm::dmat4& { return world; }, [&](const glm::uvec3&) { return mirrored; });
+}
+
+Surface place_primitive(const Primitive& primitive, const std::vector<glm::dmat4>& worlds) {
+  return place(
+      primitive, [&](std::size_t n) -> const glm::dmat4& { return worlds[n]; },
+      [&](const glm::uvec3& t) {
+        return glm::determinant(glm::dmat3(worlds[t.x]) + glm::dmat3(worlds[t.y]) + glm::dmat3(worlds[t.z])) < 0.0;
+      });
 }
 
 }  // namespace lichtmc

@@ -22,18 +22,24 @@ struct Primitive {
   std::vector<glm::uvec3> triangles;
   std::vector<glm::dvec2> uvs;              // for the tiles, decoded; may be empty
   std::vector<glm::dvec2> reflectance_uvs;  // for the base colour texture, decoded; may be empty
+  std::vector<glm::dvec2> emission_uvs;     // for the emissive texture, decoded; may be empty
+  std::vector<glm::dvec3> vertex_colours;   // red, green, blue, 0 … 1; may be empty
 };
 
 // Reads a primitive. Returns none if it has no triangles, and notes that in `ignored`. `uv_set`: the n of TEXCOORD_n
 // for the tiles; none: 1 if present, else 0. The first texture of the material that uses the set determines its
-// transform.
+// transform. morph_weights: see apply_morph_targets().
 std::optional<Primitive> read_primitive(const Document& document, const tinygltf::Primitive& primitive,
-                                        const Material& material, std::optional<int> uv_set, const std::string& where,
+                                        const Material& material, std::optional<int> uv_set,
+                                        const std::vector<double>& morph_weights, const std::string& where,
                                         std::vector<Ignored>& ignored);
 
 // The primitive as a surface in world coordinates. The caller sets name, material and optical properties. If the
 // transform mirrors (determinant < 0), the winding is reversed: the front face stays the front face. Triangles without
 // area are left out and counted.
 Surface place_primitive(const Primitive& primitive, const glm::dmat4& world);
+
+// The same with a transform for each vertex. A triangle is reversed if the mean transform of its vertices mirrors.
+Surface place_primitive(const Primitive& primitive, const std::vector<glm::dmat4>& worlds);
 
 }  // namespace lichtmc

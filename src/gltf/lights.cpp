@@ -5,8 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/luminance.hpp"
 #include "base/message.hpp"
-#include "gltf/luminance.hpp"
 #include "gltf/materials.hpp"
 
 namespace lichtmc {

@@ -15,6 +15,7 @@
 
 #include "base/png.hpp"
 #include "gltf/builder.hpp"
+#include "room/bounds.hpp"
 #include "room/emitter_place.hpp"
 #include "room/nearest_tile.hpp"
 
@@ -90,8 +91,7 @@ class Mesh {
     const auto [entry, inserted] =
         vertices_.try_emplace({position, uv[0], uv[1]}, static_cast<std::uint32_t>(positions_.size()));
     if (inserted) {
-      const glm::dvec3& p = surface_->positions[position];
-      positions_.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+      positions_.push_back(surface_->positions[position]);
       uvs_.push_back(uv);
     }
     return entry->second;
@@ -101,7 +101,7 @@ class Mesh {
   const std::vector<std::array<glm::dvec2, 3>>* cells_;
   glm::dvec2 size_;
   std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> vertices_;  // by position and texture coordinates
-  std::vector<std::array<float, 3>> positions_;
+  std::vector<glm::dvec3> positions_;                                          // m, world
   std::vector<std::array<float, 2>> uvs_;
   std::vector<std::uint32_t> indices_;
 };
@@ -109,7 +109,7 @@ class Mesh {
 class LitRoom {
  public:
   LitRoom(const Room& room, const Result& result, const LitSides& lit, const ColourScale& scale)
-      : room_(&room), result_(&result), lit_(&lit), scale_(&scale) {
+      : room_(&room), result_(&result), lit_(&lit), scale_(&scale), document_(file_offset(bounds_of(room))) {
     document_.use_extension("KHR_materials_unlit");
     document_.json["scenes"][0]["extras"]["lichtmc"] = {{"room", room.source},
                                                         {"quantity", std::string(irradiance_word(room.quantity))},
@@ -237,7 +237,7 @@ void LitRoom::add_surface(std::size_t m) {
 
 void LitRoom::add_emitter(const Emitter& emitter) {
   const glm::dvec3 place = place_of(*room_, emitter);
-  Json node = placed_node(emitter.name, place);
+  Json node = document_.placed_node(emitter.name, place);
   node["extras"]["lichtmc"] = {{"kind", "emitter"},
                                {"name", emitter.name},
                                {"power", emitter.power},
@@ -246,7 +246,7 @@ void LitRoom::add_emitter(const Emitter& emitter) {
 }
 
 void add_paths(GltfBuilder& document, const std::vector<PhotonPath>& paths) {
-  std::vector<std::array<float, 3>> points;
+  std::vector<glm::dvec3> points;
   std::vector<std::array<float, 3>> colours;
   for (const PhotonPath& path : paths) {
     for (std::size_t k = 1; k < path.points.size(); ++k) {
@@ -254,7 +254,7 @@ void add_paths(GltfBuilder& document, const std::vector<PhotonPath>& paths) {
       std::array<float, 3> light{};
       for (std::size_t c = 0; c < 3; ++c) light[c] = static_cast<float>(light_of_srgb(colour[c] / 255.0));
       for (const glm::dvec3& p : {path.points[k - 1].place, path.points[k].place}) {
-        points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+        points.push_back(p);
         colours.push_back(light);
       }
     }
@@ -294,7 +294,11 @@ std::string lit_room_glb(const Room& room, const Result& result, const LitSides&
 }
 
 std::string paths_glb(const std::vector<PhotonPath>& paths) {
-  GltfBuilder document;
+  Bounds bounds;
+  for (const PhotonPath& path : paths) {
+    for (const auto& point : path.points) bounds.add(point.place);
+  }
+  GltfBuilder document(paths.empty() ? glm::dvec3(0.0) : file_offset(bounds));
   add_paths(document, paths);
   return document.binary();
 }

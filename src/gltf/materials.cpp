@@ -1,6 +1,7 @@
 #include "gltf/materials.hpp"
-#include "gltf/luminance.hpp"
+#include "base/luminance.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/message.hpp"
@@ -52,12 +53,13 @@ std::vector<TextureUse> read_texture_uses(const Document& document, const tinygl
 std::optional<Emission> read_emission(const Document& document, const tinygltf::Material& material,
                                       const std::string& where) {
   Emission emission;
-  double strength = 1.0;
   const auto extension = material.extensions.find(strength_extension);
   if (extension != material.extensions.end())
-    strength = number_in(document, extension->second, "emissiveStrength", 1.0, where);
+    emission.strength = number_in(document, extension->second, "emissiveStrength", 1.0, where);
   const std::vector<double>& colour = material.emissiveFactor;
-  if (colour.size() == 3) emission.luminance = strength * luminance(colour[0], colour[1], colour[2]);
+  if (colour.size() == 3) emission.factor = {colour[0], colour[1], colour[2]};
+  const double of_factor = luminance(emission.factor.r, emission.factor.g, emission.factor.b);
+  emission.luminance = emission.strength * of_factor;
   if (!(emission.luminance >= 0.0) || !std::isfinite(emission.luminance)) {
     refuse(document, "the emission of " + where + " is " + to_text(emission.luminance) +
                          " cd/m² (allowed: a finite number, 0 or more). Set its emissive factor and strength.");
@@ -65,6 +67,14 @@ std::optional<Emission> read_emission(const Document& document, const tinygltf::
   emission.power = power_in(document, material.extras, where);
   emission.quantity = unit_in(document, material.extras, where).value_or(Quantity::photometric);
   emission.exponent = exponent_in(document, material.extras, where).value_or(1.0);
+  const auto& info = material.emissiveTexture;
+  if (info.index >= 0 && of_factor > 0.0) {
+    const double least = std::min({emission.factor.r, emission.factor.g, emission.factor.b});
+    if (least < 0.0)
+      refuse(document, "a component of the emissive factor of " + where + " is " + to_text(least) +
+                           " (allowed: 0 to 1). Set its emissive factor.");
+    emission.texture = read_texture_use(document, info.index, info.texCoord, info.extensions, where);
+  }
   if (emission.power ? *emission.power > 0.0 : emission.luminance > 0.0) return emission;
   return std::nullopt;
 }
@@ -108,6 +118,7 @@ std::string material_name(const Document& document, int index) {
 Material read_material(const Document& document, int index, bool by_number) {
   Material result;
   result.name = material_name(document, index);
+  result.takes_vertex_colours = !by_number;
   if (index == -1) return result;
   const auto k = static_cast<std::size_t>(index);
   const auto& material = document.model.materials[k];
@@ -120,6 +131,7 @@ Material read_material(const Document& document, int index, bool by_number) {
   result.textures = read_texture_uses(document, material, where);
   if (material.pbrMetallicRoughness.baseColorTexture.index >= 0 && !gives_reflectance(material) && !by_number)
     result.base_colour = result.textures.front();
+  result.takes_vertex_colours = !gives_reflectance(material) && !by_number;
   result.sides = material.doubleSided ? Sides::both : Sides::one;
   result.emission = read_emission(document, material, where);
   return result;
@@ -145,13 +157,11 @@ void note_ignored_extensions(const tinygltf::Material& material, const std::stri
 }
 
 // `where`: "Material 'name': ".
-void note_ignored_properties(const tinygltf::Material& material, bool emits, const std::string& where,
+void note_ignored_properties(const tinygltf::Material& material, const std::string& where,
                              std::vector<Ignored>& ignored) {
   const auto note = [&](bool present, Effect effect, const char* what) {
     if (present) ignored.push_back({where + what, effect});
   };
-  note(material.emissiveTexture.index >= 0 && emits, Effect::figures,
-       "its emissive texture is not read; its exitance is uniform, from its emissive factor.");
   note(material.normalTexture.index >= 0, Effect::none, "its normal texture is not modelled; facets are flat.");
   note(material.alphaMode == "BLEND" || material.alphaMode == "MASK", Effect::figures,
        "transparency (alpha) is not modelled; the material is opaque. Remove surfaces that should transmit light.");
@@ -170,7 +180,7 @@ void note_ignored_materials(const Document& document, const std::vector<bool>& u
     if (!used[k]) continue;
     const auto& material = materials[k];
     const std::string where = "Material " + in_quotes(name_of(material, k)) + ": ";
-    note_ignored_properties(material, read_emission(document, material, where).has_value(), where, ignored);
+    note_ignored_properties(material, where, ignored);
     if (material.pbrMetallicRoughness.metallicFactor > 0.0 && !gives_reflectance(material)) ++metals;
     note_ignored_extensions(material, where, ignored);
   }

@@ -29,19 +29,23 @@ std::optional<double> exponent_in(const Document& document, const tinygltf::Valu
 
 // Emission of an emissive material.
 struct Emission {
-  double luminance = 0.0;       // L in cd/m², or radiance in W/(m² sr)
-  std::optional<double> power;  // of each surface with the material; replaces the luminance
+  double luminance = 0.0;             // L in cd/m², or radiance in W/(m² sr); where the texture is white
+  double strength = 1.0;              // L = strength · luminance of (factor · colour of the texture)
+  glm::dvec3 factor{0.0};             // linear
+  std::optional<TextureUse> texture;  // none if the factor is black
+  std::optional<double> power;        // of each surface with the material; replaces the luminance
   Quantity quantity = Quantity::photometric;
   double exponent = 1.0;
 };
 
 struct Material {
   std::string name;
-  double reflectance = 1.0;               // uniform; used where a surface has no coordinates for `base_colour`
+  double reflectance = 1.0;  // uniform; used where a surface has no coordinates for `base_colour`
   ReflectanceSource source = ReflectanceSource::default_white;  // of `reflectance`; not a texture
-  std::optional<TextureUse> base_colour;  // the texture that determines ρ point by point
-  glm::dvec3 factor{1.0};                 // base colour factor, linear; multiplies the texture
-  std::vector<TextureUse> textures;       // all textures of the material, base colour first
+  std::optional<TextureUse> base_colour;                        // the texture that determines ρ point by point
+  glm::dvec3 factor{1.0};                                       // base colour factor, linear; multiplies the texture
+  bool takes_vertex_colours = false;  // ρ is not given as a number: vertex colours multiply it
+  std::vector<TextureUse> textures;   // all textures of the material, base colour first
   Sides sides = Sides::one;
   std::optional<Emission> emission;
 };

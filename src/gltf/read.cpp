@@ -5,14 +5,19 @@
 #include <numbers>
 #include <set>
 
+#include "base/luminance.hpp"
 #include "base/message.hpp"
+#include "gltf/deform.hpp"
 #include "gltf/document.hpp"
 #include "gltf/geometry.hpp"
 #include "gltf/lights.hpp"
 #include "gltf/load_document.hpp"
 #include "gltf/materials.hpp"
 #include "gltf/nodes.hpp"
+#include "lichtmc/error.hpp"
 #include "lichtmc/gltf.hpp"
+#include "room/emission.hpp"
+#include "room/emitter_shape.hpp"
 
 namespace lichtmc {
 
@@ -43,19 +48,25 @@ class RoomReader {
   RoomReader(const Document& document, const ReadOptions& options)
       : document_(&document),
         options_(&options),
-        reflectance_maps_(document),
+        reflectance_maps_(document, reflectance_role),
+        emission_maps_(document, emission_role),
         used_materials_(document.model.materials.size(), false) {
     room_.source = document.file;
   }
 
   Room read() {
-    for (const PlacedNode& placed : place_nodes(*document_, options_->scene, root_transform(*document_, *options_))) {
-      read_mesh(placed);
+    const std::vector<PlacedNode> nodes =
+        place_nodes(*document_, options_->scene, root_transform(*document_, *options_));
+    const Skins skins(*document_, nodes);
+    for (const PlacedNode& placed : nodes) {
+      read_mesh(placed, skins);
       if (auto light = read_light(*document_, placed, room_.ignored)) add_emitter(std::move(*light));
       if (auto receiver = read_receiver(*document_, placed)) room_.receivers.push_back(std::move(*receiver));
       note_node(placed);
     }
     room_.reflectance_maps = reflectance_maps_.take();
+    room_.emission_maps = emission_maps_.take();
+    drop_uniform_maps();
     for (Surface& surface : room_.surfaces) surface.reflectance = mean_reflectance(room_, surface);
     note_ignored_materials(*document_, used_materials_, room_.ignored);
     note_file();
@@ -65,7 +76,7 @@ class RoomReader {
   }
 
  private:
-  void read_mesh(const PlacedNode& placed) {
+  void read_mesh(const PlacedNode& placed, const Skins& skins) {
     const auto& model = document_->model;
     const auto& node = model.nodes[placed.index];
     if (node.mesh < 0) return;
@@ -79,13 +90,21 @@ class RoomReader {
       where += " (" + placed.label + ")";
       const Material material = read_material(*document_, primitive.material, by_number(primitive.material));
       if (primitive.material >= 0) used_materials_[static_cast<std::size_t>(primitive.material)] = true;
-      const auto stored = read_primitive(*document_, primitive, material, options_->uv_set, where, room_.ignored);
+      const auto stored = read_primitive(*document_, primitive, material, options_->uv_set, morph_weights(node, mesh),
+                                         where, room_.ignored);
       if (!stored) continue;
       std::string name = !node.name.empty()   ? node.name
                          : !mesh.name.empty() ? mesh.name
                                               : "mesh_" + std::to_string(index);
       if (mesh.primitives.size() > 1) name += "." + (primitive.material >= 0 ? material.name : std::to_string(k));
-      for (const glm::dmat4& world : transforms) add_surface(place_primitive(*stored, world), name, material, where);
+      if (const auto of_vertices =
+              skins.vertex_transforms(node, primitive, stored->positions.size(), where, room_.ignored)) {
+        add_surface(place_primitive(*stored, *of_vertices), name, material, *stored);
+        if (node.extensions.count("EXT_mesh_gpu_instancing") != 0)
+          note("The instances of " + placed.label + " are not applied: its mesh has a skin.", Effect::figures);
+        continue;
+      }
+      for (const glm::dmat4& world : transforms) add_surface(place_primitive(*stored, world), name, material, *stored);
     }
   }
 
@@ -95,11 +114,12 @@ class RoomReader {
     return std::find(names.begin(), names.end(), material_name(*document_, material)) != names.end();
   }
 
-  void add_surface(Surface surface, const std::string& name, const Material& material, const std::string& where) {
+  // stored: the primitive that the surface is made of.
+  void add_surface(Surface surface, const std::string& name, const Material& material, const Primitive& stored) {
     if (surface.triangles.empty()) {
-      note(
-          "None of the " + to_text(surface.without_area, "triangle") + " of " + where + " has an area: it is left out.",
-          Effect::none);
+      note("None of the " + to_text(surface.without_area, "triangle") + " of " + stored.where +
+               " has an area: it is left out.",
+           Effect::none);
       return;
     }
     triangles_ += surface.triangles.size();
@@ -112,14 +132,9 @@ class RoomReader {
     surface.reflectance = material.reflectance;
     surface.reflectance_source = material.source;
     surface.sides = material.sides;
-    if (material.base_colour && !surface.reflectance_uvs.empty()) {
-      surface.reflectance_map = reflectance_maps_.find_or_make(material.base_colour->texture, material.factor,
-                                                               "material " + in_quotes(material.name));
-      surface.reflectance_source = ReflectanceSource::texture;
-    }
+    set_varying_reflectance(surface, material, stored.vertex_colours);
     room_.surfaces.push_back(std::move(surface));
-    if (!material.emission) return;
-    add_area_light(*material.emission);
+    if (!material.emission || !add_area_light(*material.emission, material.name, stored)) return;
     if (material.sides == Sides::both) {
       note("Surface " + in_quotes(room_.surfaces.back().name) +
                " is two-sided and emissive: it emits from its front only. If that is the wrong side, flip its faces.",
@@ -127,15 +142,92 @@ class RoomReader {
     }
   }
 
-  // Makes the surface added last an emitter.
-  void add_area_light(const Emission& emission) {
+  // Vertex colours of one value are part of the factor: they cost nothing.
+  void set_varying_reflectance(Surface& surface, const Material& material, const std::vector<glm::dvec3>& colours) {
+    glm::dvec3 factor = material.factor;
+    const bool vary = std::adjacent_find(colours.begin(), colours.end(), std::not_equal_to<>()) != colours.end();
+    if (!vary && !colours.empty()) factor *= colours.front();
+    if (material.base_colour && !surface.reflectance_uvs.empty()) {
+      surface.reflectance_map = reflectance_maps_.find_or_make(material.base_colour->texture, factor, vary,
+                                                               "material " + in_quotes(material.name));
+      surface.reflectance_source = ReflectanceSource::texture;
+    } else if (!colours.empty()) {
+      surface.reflectance = luminance(factor.r, factor.g, factor.b);
+    }
+    if (colours.empty()) return;
+    surface.reflectance_source = ReflectanceSource::vertex_colours;
+    if (!vary) return;
+    surface.vertex_colours = colours;
+    if (surface.reflectance_map) return;
+    for (glm::dvec3& colour : surface.vertex_colours) colour *= factor;
+  }
+
+  // Makes the surface added last an emitter, unless its emissive texture is black there. Returns whether it emits.
+  bool add_area_light(const Emission& emission, const std::string& material, const Primitive& stored) {
     const Surface& surface = room_.surfaces.back();
+    SurfaceEmitter shape{room_.surfaces.size() - 1, emission.exponent};
+    double luminance_cd_m2 = emission.luminance;
+    const bool textured = emission.texture && !stored.emission_uvs.empty();
+    if (const auto number = textured ? emission_map_of(emission, material) : std::nullopt) {
+      const EmissionMap& map = emission_maps_[*number];
+      const double mean = mean_emission(surface, map, stored.emission_uvs, triangle_means_[*number]);
+      if (!(mean > 0.0)) {
+        note_black_emitter(emission);
+        return false;
+      }
+      luminance_cd_m2 = emission.strength * mean;
+      shape.emission_map = number;
+      shape.emission_uvs = stored.emission_uvs;
+    }
     FileEmitter emitter;
     emitter.emitter.name = surface.name;
-    emitter.emitter.power = emission.power.value_or(std::numbers::pi * emission.luminance * surface_area(surface));
-    emitter.emitter.shape = SurfaceEmitter{room_.surfaces.size() - 1, emission.exponent};
+    emitter.emitter.power = emission.power.value_or(std::numbers::pi * luminance_cd_m2 * surface_area(surface));
+    emitter.emitter.shape = std::move(shape);
     emitter.quantity = emission.quantity;
     add_emitter(std::move(emitter));
+    return true;
+  }
+
+  // The map of an emissive texture. If the power is given, a texture that cannot be read is no error: only the
+  // distribution over the surface is unknown.
+  std::optional<std::size_t> emission_map_of(const Emission& emission, const std::string& material) {
+    const std::string where = "material " + in_quotes(material);
+    try {
+      return emission_maps_.find_or_make(emission.texture->texture, emission.factor, false, where);
+    } catch (const InputError& error) {
+      if (!emission.power) throw;
+      const std::string what =
+          "The emissive texture of " + where +
+          " cannot be read: its surfaces emit the power given, uniformly over their area. Reason: " + error.what();
+      // Once per material, not per surface.
+      const bool known =
+          std::any_of(room_.ignored.begin(), room_.ignored.end(), [&](const Ignored& one) { return one.what == what; });
+      if (!known) note(what, Effect::figures);
+      return std::nullopt;
+    }
+  }
+
+  // Where a map has one value only, the emitter is uniform and costs nothing more.
+  void drop_uniform_maps() {
+    EmissionOfRoom emission(room_);
+    const auto drop_if_uniform = [&](auto& shape) {
+      if constexpr (SurfaceShape<std::decay_t<decltype(shape)>>) {
+        if (!shape.emission_map || !emission.of(shape)->uniform()) return;
+        shape.emission_map.reset();
+        shape.emission_uvs.clear();
+      }
+    };
+    for (Emitter& emitter : room_.emitters) std::visit(drop_if_uniform, emitter.shape);
+    if (std::none_of(room_.emitters.begin(), room_.emitters.end(), has_emission_map)) room_.emission_maps.clear();
+  }
+
+  // Of the surface added last.
+  void note_black_emitter(const Emission& emission) {
+    if (!emission.power) return;
+    note("Surface " + in_quotes(room_.surfaces.back().name) +
+             " emits nothing, although its material has the custom property 'power': its emissive texture is black "
+             "there.",
+         Effect::figures);
   }
 
   void add_emitter(FileEmitter emitter) {
@@ -200,7 +292,9 @@ class RoomReader {
   const Document* document_;
   const ReadOptions* options_;
   Room room_;
-  ReflectanceMaps reflectance_maps_;
+  TextureMaps reflectance_maps_;
+  TextureMaps emission_maps_;
+  std::map<std::size_t, TriangleMeans> triangle_means_;  // by emission map
   std::size_t triangles_ = 0;
   std::vector<Quantity> quantities_;  // of the emitters
   std::vector<bool> used_materials_;

@@ -7,10 +7,11 @@
 #include <utility>
 
 #include <stb/stb_image.h>
+#include <glm/common.hpp>
 
+#include "base/luminance.hpp"
 #include "base/message.hpp"
 #include "base/png.hpp"
-#include "gltf/luminance.hpp"
 
 namespace lichtmc {
 
@@ -41,16 +42,17 @@ std::vector<double> linear_values() {
 }
 
 template <class Channel>
-std::vector<float> luminances(const Channel* pixels, std::size_t count, const glm::dvec3& factor) {
+void set_values(const Channel* pixels, const glm::dvec3& factor, bool coloured, double highest, TextureMap& map) {
   const std::vector<double> light = linear_values<Channel>();
-  std::vector<float> values(count);
+  const std::size_t count = std::size_t{map.columns} * map.rows;
+  map.values.resize(count);
+  if (coloured) map.colours.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
     const Channel* p = pixels + 3 * k;
-    // A factor above 1 by rounding must not give a reflectance above 1.
-    values[k] = static_cast<float>(
-        std::min(luminance(factor.r * light[p[0]], factor.g * light[p[1]], factor.b * light[p[2]]), 1.0));
+    const glm::dvec3 colour(factor.r * light[p[0]], factor.g * light[p[1]], factor.b * light[p[2]]);
+    map.values[k] = static_cast<float>(std::min(luminance(colour.r, colour.g, colour.b), highest));
+    if (coloured) map.colours[k] = glm::vec3(glm::min(colour, glm::dvec3(highest)));
   }
-  return values;
 }
 
 Wrap wrap_of(int mode) {
@@ -59,8 +61,8 @@ Wrap wrap_of(int mode) {
   return Wrap::repeat;
 }
 
-void decode(const Document& document, const std::vector<unsigned char>& bytes, const glm::dvec3& factor,
-            const std::string& what, ReflectanceMap& map) {
+void decode(const Document& document, const std::vector<unsigned char>& bytes, const glm::dvec3& factor, bool coloured,
+            const std::string& what, const TextureRole& role, TextureMap& map) {
   using Free = void (*)(void*);
   const auto size = static_cast<int>(bytes.size());
   int columns = 0;
@@ -72,25 +74,23 @@ void decode(const Document& document, const std::vector<unsigned char>& bytes, c
   };
   const auto refuse_image = [&](const std::string& fault) {
     refuse(document, what + " cannot be read (" + fault +
-                         "; allowed: PNG or JPEG). Export its textures as PNG or JPEG, or set the reflectance of the "
-                         "material: custom property 'reflectance', or --reflectance MATERIAL=R.");
+                         "; allowed: PNG or JPEG). Export its textures as PNG or JPEG, or " + role.remedy);
   };
   if (stbi_info_from_memory(bytes.data(), size, &columns, &rows, &channels) == 0) refuse_image(reason());
   if (double{1} * columns * rows > max_pixels)
     refuse_image("it has " + std::to_string(columns) + " × " + std::to_string(rows) + " pixels, more than 2^28");
   map.columns = static_cast<std::uint32_t>(columns);
   map.rows = static_cast<std::uint32_t>(rows);
-  const std::size_t count = std::size_t{map.columns} * map.rows;
   if (stbi_is_16_bit_from_memory(bytes.data(), size) != 0) {
     const std::unique_ptr<stbi_us, Free> pixels(
         stbi_load_16_from_memory(bytes.data(), size, &columns, &rows, &channels, 3), stbi_image_free);
     if (!pixels) refuse_image(reason());
-    map.values = luminances(pixels.get(), count, factor);
+    set_values(pixels.get(), factor, coloured, role.highest, map);
   } else {
     const std::unique_ptr<stbi_uc, Free> pixels(
         stbi_load_from_memory(bytes.data(), size, &columns, &rows, &channels, 3), stbi_image_free);
     if (!pixels) refuse_image(reason());
-    map.values = luminances(pixels.get(), count, factor);
+    set_values(pixels.get(), factor, coloured, role.highest, map);
   }
 }
 
@@ -122,30 +122,26 @@ TextureUse read_texture_use(const Document& document, int texture, int uv_set, c
   return use;
 }
 
-std::size_t ReflectanceMaps::find_or_make(int texture, const glm::dvec3& factor, const std::string& where) {
-  const auto [entry, inserted] = made_.try_emplace({texture, factor.r, factor.g, factor.b}, maps_.size());
-  if (!inserted) return entry->second;
+std::size_t TextureMaps::find_or_make(int texture, const glm::dvec3& factor, bool coloured, const std::string& where) {
+  const std::tuple key{texture, coloured, factor.r, factor.g, factor.b};
+  if (const auto made = made_.find(key); made != made_.end()) return made->second;
 
+  const std::string whose = std::string(role_->texture) + " of " + where;
   const auto& model = document_->model;
-  const auto& used =
-      model.textures[checked_index(*document_, texture, model.textures.size(), "the base colour texture of " + where)];
+  const auto& used = model.textures[checked_index(*document_, texture, model.textures.size(), "the " + whose)];
   if (used.source < 0) {
-    refuse(*document_, "the base colour texture of " + where +
+    refuse(*document_, "the " + whose +
                            " has no image in a supported format (allowed: PNG or JPEG). Export its textures as PNG or "
-                           "JPEG, or set the reflectance of the material: custom property 'reflectance', or "
-                           "--reflectance MATERIAL=R.");
+                           "JPEG, or " +
+                           role_->remedy);
   }
-  const std::size_t index =
-      checked_index(*document_, used.source, model.images.size(), "the image of the base colour texture of " + where);
+  const std::size_t index = checked_index(*document_, used.source, model.images.size(), "the image of the " + whose);
   const auto& image = model.images[index];
   const std::string name = !image.name.empty() ? image.name : !image.uri.empty() ? image.uri : std::to_string(index);
-  const std::string what = "the image " + in_quotes(name) + ", base colour of " + where + ",";
-  if (document_->images[index].empty()) {
-    refuse(*document_, what +
-                           " is missing. Copy it into the folder of the room file, or set the reflectance of the "
-                           "material: custom property 'reflectance', or --reflectance MATERIAL=R.");
-  }
-  ReflectanceMap map;
+  const std::string what = "the image " + in_quotes(name) + ", " + role_->image + " of " + where + ",";
+  if (document_->images[index].empty())
+    refuse(*document_, what + " is missing. Copy it into the folder of the room file, or " + role_->remedy);
+  TextureMap map;
   map.name = name;
   if (used.sampler >= 0) {
     const auto& sampler =
@@ -153,9 +149,9 @@ std::size_t ReflectanceMaps::find_or_make(int texture, const glm::dvec3& factor,
     map.wrap_u = wrap_of(sampler.wrapS);
     map.wrap_v = wrap_of(sampler.wrapT);
   }
-  decode(*document_, document_->images[index], factor, what, map);
+  decode(*document_, document_->images[index], factor, coloured, what, *role_, map);
   maps_.push_back(std::move(map));
-  return entry->second;
+  return made_[key] = maps_.size() - 1;
 }
 
 }  // namespace lichtmc

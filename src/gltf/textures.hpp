@@ -1,7 +1,9 @@
-// Textures: texture coordinates of vertices, and reflectance maps from base colour textures.
+// Textures: texture coordinates of vertices, reflectance maps from base colour textures, emission maps from emissive
+// textures.
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <string>
 #include <tuple>
@@ -36,22 +38,39 @@ struct TextureUse {
 TextureUse read_texture_use(const Document& document, int texture, int uv_set, const tinygltf::ExtensionMap& extensions,
                             const std::string& where);
 
-// Converts textures to reflectance maps, one for each pair of texture and factor.
-class ReflectanceMaps {
+// A use of textures, in the words of messages.
+struct TextureRole {
+  const char* texture;  // "base colour texture"
+  const char* image;    // "base colour"
+  const char* remedy;   // what to do if the image is missing or cannot be read, besides providing it
+  double highest;       // values above it, by rounding of a factor, are set to it
+};
+inline constexpr TextureRole reflectance_role{
+    "base colour texture", "base colour",
+    "set the reflectance of the material: custom property 'reflectance', or --reflectance MATERIAL=R.", 1.0};
+inline constexpr TextureRole emission_role{
+    "emissive texture", "emission",
+    "give the material the custom property 'power': its surfaces then emit this power, uniformly over their area.",
+    std::numeric_limits<double>::infinity()};
+
+// Converts the textures of one role to maps, one for each pair of texture and factor.
+class TextureMaps {
  public:
-  explicit ReflectanceMaps(const Document& document) : document_(&document) {}
+  TextureMaps(const Document& document, const TextureRole& role) : document_(&document), role_(&role) {}
 
-  // The index of the reflectance map of a base colour texture and its factor (linear colours): the Rec. 709 luminance
-  // of their product, pixel by pixel. Throws InputError with the names of material and image if the image is missing,
-  // is neither PNG nor JPEG, is damaged, or has more than 2^28 pixels.
-  std::size_t find_or_make(int texture, const glm::dvec3& factor, const std::string& where);
+  // The index of the map of a texture and a factor (linear colours): the Rec. 709 luminance of their product, pixel by
+  // pixel; `coloured`: also the product itself. Throws InputError with the names of material and image if the image is
+  // missing, is neither PNG nor JPEG, is damaged, or has more than 2^28 pixels.
+  std::size_t find_or_make(int texture, const glm::dvec3& factor, bool coloured, const std::string& where);
 
-  std::vector<ReflectanceMap> take() { return std::move(maps_); }
+  const TextureMap& operator[](std::size_t map) const { return maps_[map]; }
+  std::vector<TextureMap> take() { return std::move(maps_); }
 
  private:
   const Document* document_;
-  std::vector<ReflectanceMap> maps_;
-  std::map<std::tuple<int, double, double, double>, std::size_t> made_;
+  const TextureRole* role_;
+  std::vector<TextureMap> maps_;
+  std::map<std::tuple<int, bool, double, double, double>, std::size_t> made_;
 };
 
 }  // namespace lichtmc

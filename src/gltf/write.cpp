@@ -17,6 +17,8 @@
 #include "gltf/texture_image.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/gltf.hpp"
+#include "room/bounds.hpp"
+#include "room/emission.hpp"
 #include "room/emitter_shape.hpp"
 
 namespace lichtmc {
@@ -27,8 +29,9 @@ using Json = GltfBuilder::Json;
 
 class Writer {
  public:
-  explicit Writer(const Room& room) : room_(&room) {
-    for (const ReflectanceMap& map : room.reflectance_maps) textures_.push_back(add_texture(map));
+  explicit Writer(const Room& room) : room_(&room), document_(file_offset(bounds_of(room))) {
+    for (const ReflectanceMap& map : room.reflectance_maps) textures_.push_back(add_texture(map, reflectance_png(map)));
+    for (const EmissionMap& map : room.emission_maps) emission_textures_.push_back(add_texture(map, emission_png(map)));
     for (std::size_t k = 0; k < room.surfaces.size(); ++k) add_surface(k);
     for (const Emitter& emitter : room.emitters) {
       visit_shape(
@@ -41,7 +44,8 @@ class Writer {
   GltfBuilder& document() { return document_; }
 
  private:
-  std::size_t add_texture(const ReflectanceMap& map);
+  std::size_t add_texture(const TextureMap& map, const std::string& png);
+  const SurfaceEmitter* emitter_of(std::size_t surface) const;
   void add_surface(std::size_t k);
   template <PointShape Shape>
   void add_point_emitter(const Emitter& emitter, const Shape& shape);
@@ -50,7 +54,8 @@ class Writer {
 
   const Room* room_;
   GltfBuilder document_;
-  std::vector<std::size_t> textures_;             // of the room's maps
+  std::vector<std::size_t> textures_;             // of the room's reflectance maps
+  std::vector<std::size_t> emission_textures_;    // of its emission maps
   std::map<std::string, std::size_t> materials_;  // by their JSON text
 };
 
@@ -66,10 +71,10 @@ int wrap_mode(Wrap wrap) {
   return 0;
 }
 
-std::size_t Writer::add_texture(const ReflectanceMap& map) {
+std::size_t Writer::add_texture(const TextureMap& map, const std::string& png) {
   Json& json = document_.json;
   // Indices first: a new list moves the others.
-  const std::size_t image = document_.add_png(map.name, png_of(map));
+  const std::size_t image = document_.add_png(map.name, png);
   const std::size_t sampler = json["samplers"].size();
   json["samplers"].push_back({{"wrapS", wrap_mode(map.wrap_u)}, {"wrapT", wrap_mode(map.wrap_v)}});
   json["textures"].push_back({{"source", image}, {"sampler", sampler}});
@@ -78,6 +83,18 @@ std::size_t Writer::add_texture(const ReflectanceMap& map) {
 
 const char* unit_of(const Room& room) {
   return room.quantity == Quantity::radiometric ? "W" : "lm";
+}
+
+// The number of the texture coordinates of the reflectance map of a surface with an emission map, see add_surface().
+int reflectance_set(const Surface& surface) {
+  return surface.uvs.empty() ? 1 : 2;
+}
+
+const SurfaceEmitter* Writer::emitter_of(std::size_t surface) const {
+  for (const Emitter& emitter : room_->emitters) {
+    if (emitting_surface(emitter) == surface) return &std::get<SurfaceEmitter>(emitter.shape);
+  }
+  return nullptr;
 }
 
 std::size_t Writer::material_of(std::size_t k) {
@@ -94,14 +111,28 @@ std::size_t Writer::material_of(std::size_t k) {
     material["pbrMetallicRoughness"]["baseColorFactor"] = {1.0, 1.0, 1.0, 1.0};
     material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", textures_[*surface.reflectance_map]}};
   }
+  if (!surface.vertex_colours.empty()) {
+    // ρ is the product of the vertex colours and the texture, or the vertex colours alone.
+    material.erase("extras");
+    material["pbrMetallicRoughness"]["baseColorFactor"] = {1.0, 1.0, 1.0, 1.0};
+  }
   for (const Emitter& emitter : room_->emitters) {
     if (emitting_surface(emitter) != k) continue;
-    const double luminance = emitter.power / (std::numbers::pi * surface_area(surface));
+    const auto& shape = std::get<SurfaceEmitter>(emitter.shape);
+    double luminance = emitter.power / (std::numbers::pi * surface_area(surface));
+    if (shape.emission_map) {
+      // The texture contains the values divided by the highest one.
+      const EmissionMap& map = room_->emission_maps[*shape.emission_map];
+      luminance *= highest_value(map) / mean_emission(surface, map, shape.emission_uvs);
+      material["emissiveTexture"] = {{"index", emission_textures_[*shape.emission_map]}};
+      if (surface.reflectance_map)
+        material["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = reflectance_set(surface);
+    }
     material["emissiveFactor"] = {1.0, 1.0, 1.0};
     material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", luminance}};
     material["extras"]["power"] = emitter.power;
     material["extras"]["unit"] = unit_of(*room_);
-    material["extras"]["lambert_exponent"] = std::get<SurfaceEmitter>(emitter.shape).exponent;
+    material["extras"]["lambert_exponent"] = shape.exponent;
     document_.use_extension("KHR_materials_emissive_strength");
   }
   const auto [entry, fresh] = materials_.try_emplace(material.dump(-1, ' ', false, Json::error_handler_t::replace),
@@ -113,13 +144,24 @@ std::size_t Writer::material_of(std::size_t k) {
 void Writer::add_surface(std::size_t k) {
   const Surface& surface = room_->surfaces[k];
   if (surface.triangles.empty()) return;
-  Json attributes{{"POSITION", document_.add_positions(as_floats(surface.positions))}};
-  // The coordinates of the tiles have the highest number: read_gltf() prefers it.
-  for (const std::vector<glm::dvec2>* set : {&surface.reflectance_uvs, &surface.uvs}) {
+  Json attributes{{"POSITION", document_.add_positions(surface.positions)}};
+  // read_gltf() takes TEXCOORD_1 for the tiles if it exists, and their coordinates are second if there is another set.
+  std::vector<const std::vector<glm::dvec2>*> sets{&surface.reflectance_uvs, &surface.uvs};
+  const SurfaceEmitter* emitter = emitter_of(k);
+  if (emitter != nullptr && emitter->emission_map)
+    sets = {&emitter->emission_uvs, &surface.uvs, &surface.reflectance_uvs};
+  int number = 0;
+  for (const std::vector<glm::dvec2>* set : sets) {
     if (set->empty()) continue;
     std::vector<std::array<float, 2>> uvs;
     for (const glm::dvec2& uv : *set) uvs.push_back({static_cast<float>(uv.x), static_cast<float>(uv.y)});
-    attributes[attributes.contains("TEXCOORD_0") ? "TEXCOORD_1" : "TEXCOORD_0"] = document_.add_vectors(uvs);
+    attributes["TEXCOORD_" + std::to_string(number++)] = document_.add_vectors(uvs);
+  }
+  if (!surface.vertex_colours.empty()) {
+    std::vector<std::array<float, 3>> colours;
+    for (const glm::dvec3& c : surface.vertex_colours)
+      colours.push_back({static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)});
+    attributes["COLOR_0"] = document_.add_vectors(colours);
   }
   std::vector<std::uint32_t> indices;
   for (const glm::uvec3& t : surface.triangles) indices.insert(indices.end(), {t.x, t.y, t.z});
@@ -168,7 +210,7 @@ PunctualLight punctual(const SpotEmitter& shape, double power) {
 
 template <PointShape Shape>
 void Writer::add_point_emitter(const Emitter& emitter, const Shape& shape) {
-  Json node = placed_node(emitter.name, shape.position);
+  Json node = document_.placed_node(emitter.name, shape.position);
   if constexpr (requires { shape.axis; }) node["rotation"] = looking_along(shape.axis);
   PunctualLight written = punctual(shape, emitter.power);
   node["extras"] = std::move(written.node_extras);
@@ -182,7 +224,7 @@ void Writer::add_point_emitter(const Emitter& emitter, const Shape& shape) {
 }
 
 void Writer::add_receiver(const Receiver& receiver) {
-  Json node = placed_node(receiver.name, receiver.position);
+  Json node = document_.placed_node(receiver.name, receiver.position);
   node["rotation"] = looking_along(receiver.normal);
   node["extras"]["receiver"] = {{"area", receiver.area_m2}, {"fov", receiver.half_angle_deg}};
   document_.add_node(std::move(node));
@@ -190,6 +232,12 @@ void Writer::add_receiver(const Receiver& receiver) {
 
 // Values that a Room may have and glTF cannot represent.
 void check_writable(const Room& room) {
+  for (const Surface& surface : room.surfaces) {
+    if (surface.vertex_colours.empty() || surface.highest_reflectance >= 1.0) continue;
+    throw InputError("Surface " + in_quotes(surface.name) + " has vertex colours, limited to a reflectance of " +
+                     to_text(surface.highest_reflectance) +
+                     " (a file cannot contain such a limit). Lower the vertex colours themselves.");
+  }
   std::vector<bool> emits(room.surfaces.size(), false);
   for (const Emitter& emitter : room.emitters) {
     const double parameter = std::visit(

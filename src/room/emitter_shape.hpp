@@ -62,4 +62,10 @@ inline std::optional<std::size_t> emitting_surface(const Emitter& emitter) {
       [](const auto& surface) -> std::optional<std::size_t> { return surface.surface; });
 }
 
+inline bool has_emission_map(const Emitter& emitter) {
+  return visit_shape(
+      emitter, [](const auto& /*point*/) { return false; },
+      [](const auto& surface) { return surface.emission_map.has_value(); });
+}
+
 }  // namespace lichtmc

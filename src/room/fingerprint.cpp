@@ -15,11 +15,14 @@ class RoomChecksum {
     add_all(room.emitters);
     add_all(room.receivers);
     add_all(room.reflectance_maps);
+    // Here and below: rooms without these parts keep the checksum that they had before lichtmc knew them.
+    if (!room.emission_maps.empty()) add_all(room.emission_maps);
   }
   Fingerprint value() const { return sum_.value(); }
 
  private:
   void add(const glm::dvec2& v) { sum_.add(&v, sizeof v); }
+  void add(const glm::vec3& v) { sum_.add(&v, sizeof v); }
   void add(const glm::dvec3& v) { sum_.add(&v, sizeof v); }
   void add(const glm::uvec3& v) { sum_.add(&v, sizeof v); }
   void add(float value) { sum_.add(value); }
@@ -34,13 +37,18 @@ class RoomChecksum {
     add_all(surface.triangles);
     sum_.add(std::uint64_t{surface.reflectance_map ? *surface.reflectance_map + 1 : 0});
     add_all(surface.reflectance_uvs);
+    if (!surface.vertex_colours.empty()) {
+      add_all(surface.vertex_colours);
+      sum_.add(surface.highest_reflectance);
+    }
   }
-  void add(const ReflectanceMap& map) {
+  void add(const TextureMap& map) {
     sum_.add(map.columns);
     sum_.add(map.rows);
     add_all(map.values);
     sum_.add(static_cast<std::uint8_t>(map.wrap_u));
     sum_.add(static_cast<std::uint8_t>(map.wrap_v));
+    if (!map.colours.empty()) add_all(map.colours);
   }
 
   void add(const IsotropicEmitter& emitter) { add(emitter.position); }
@@ -58,6 +66,10 @@ class RoomChecksum {
   void add(const SurfaceEmitter& emitter) {
     sum_.add(std::uint64_t{emitter.surface});
     sum_.add(emitter.exponent);
+    if (emitter.emission_map) {
+      sum_.add(std::uint64_t{*emitter.emission_map + 1});
+      add_all(emitter.emission_uvs);
+    }
   }
   void add(const Emitter& emitter) {
     sum_.add(emitter.name);

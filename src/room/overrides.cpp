@@ -1,8 +1,11 @@
 #include "lichtmc/overrides.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
@@ -26,6 +29,25 @@ std::string materials_of(const Room& room) {
   return list;
 }
 
+// Whether the values of each map may be lowered: those of surfaces with vertex colours must not, because the limit
+// applies to the product. A map that both kinds of surfaces use is copied for those without vertex colours.
+std::vector<bool> separate_maps(Room& room) {
+  std::vector<bool> of_colours(room.reflectance_maps.size(), false);
+  for (const Surface& surface : room.surfaces) {
+    if (surface.reflectance_map && !surface.vertex_colours.empty()) of_colours[*surface.reflectance_map] = true;
+  }
+  std::map<std::size_t, std::size_t> copies;
+  for (Surface& surface : room.surfaces) {
+    if (!surface.reflectance_map || !surface.vertex_colours.empty() || !of_colours[*surface.reflectance_map]) continue;
+    const auto [copy, fresh] = copies.try_emplace(*surface.reflectance_map, room.reflectance_maps.size());
+    if (fresh) room.reflectance_maps.push_back(ReflectanceMap(room.reflectance_maps[*surface.reflectance_map]));
+    surface.reflectance_map = copy->second;
+  }
+  of_colours.resize(room.reflectance_maps.size(), false);
+  of_colours.flip();
+  return of_colours;
+}
+
 }  // namespace
 
 void set_reflectance(Room& room, const std::string& material, double reflectance) {
@@ -37,6 +59,8 @@ void set_reflectance(Room& room, const std::string& material, double reflectance
     surface.reflectance_source = ReflectanceSource::given;
     surface.reflectance_map.reset();
     surface.reflectance_uvs.clear();
+    surface.vertex_colours.clear();
+    surface.highest_reflectance = 1.0;
     ++changed;
   }
   if (changed == 0) {
@@ -55,16 +79,19 @@ void limit_reflectance(Room& room, double highest) {
     if (of_room.of(surface) > highest) above.insert(&surface);
   }
   if (above.empty()) return;
+  const std::vector<bool> lowered = separate_maps(room);
   // The float at or below the limit.
   const float limit = std::nextafter(static_cast<float>(highest), 0.0F);
-  for (ReflectanceMap& reflectance_map : room.reflectance_maps) {
-    for (float& value : reflectance_map.values) {
+  for (std::size_t k = 0; k < room.reflectance_maps.size(); ++k) {
+    if (!lowered[k]) continue;
+    for (float& value : room.reflectance_maps[k].values) {
       if (double{value} > highest) value = limit;
     }
   }
   for (Surface& surface : room.surfaces) {
     if (above.count(&surface) == 0) continue;
-    surface.reflectance = surface.reflectance_map ? mean_reflectance(room, surface) : highest;
+    if (!surface.vertex_colours.empty()) surface.highest_reflectance = std::min(surface.highest_reflectance, highest);
+    surface.reflectance = has_varying_reflectance(surface) ? mean_reflectance(room, surface) : highest;
   }
   room.overrides.push_back("Reflectances above " + to_text(highest) + " lowered to it on " +
                            to_text(above.size(), "surface") + ".");

@@ -9,6 +9,7 @@
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
+#include "room/emission.hpp"
 #include "room/emitter_shape.hpp"
 #include "room/room_check.hpp"
 
@@ -37,35 +38,77 @@ void require(bool valid, const Room& room, const std::string& what, double value
   if (!valid) refuse(room, what, to_text(value), allowed, remedy);
 }
 
-void check_map(const Room& room, const ReflectanceMap& map) {
-  const std::string of = "of the reflectance map " + in_quotes(map.name);
-  if (map.columns == 0 || map.rows == 0 || map.values.size() != std::size_t{map.columns} * map.rows) {
-    refuse(room, "number of values " + of, std::to_string(map.values.size()),
+void check_size(const Room& room, const TextureMap& map, const std::string& of) {
+  const std::size_t pixels = std::size_t{map.columns} * map.rows;
+  if (pixels == 0 || map.values.size() != pixels || (!map.colours.empty() && map.colours.size() != pixels)) {
+    const std::size_t number = map.values.size() != pixels ? map.values.size() : map.colours.size();
+    refuse(room, "number of values " + of, std::to_string(number),
            "columns times rows, " + std::to_string(map.columns) + " × " + std::to_string(map.rows) + ", at least one",
            "Give one for each place.");
   }
-  const auto wrong =
-      std::find_if(map.values.begin(), map.values.end(), [](float value) { return !(value >= 0.0F && value <= 1.0F); });
-  if (wrong == map.values.end()) return;
-  refuse(room, "value " + of, to_text(double{*wrong}), "0 to 1", "Give the fraction of the flux that is reflected.");
 }
 
-void check_surface_map(const Room& room, const Surface& surface, const std::string& of) {
-  if (!surface.reflectance_map) return;
-  if (*surface.reflectance_map >= room.reflectance_maps.size()) {
-    refuse(room, "number of the reflectance map " + of, std::to_string(*surface.reflectance_map),
-           "below " + std::to_string(room.reflectance_maps.size()), "Give the index of a reflectance map.");
+void check_fraction(const Room& room, double value, const std::string& of) {
+  require(value >= 0.0 && value <= 1.0, room, "value " + of, value, "0 to 1",
+          "Give the fraction of the flux that is reflected.");
+}
+
+void check_reflectance_map(const Room& room, const ReflectanceMap& map) {
+  const std::string of = "of the reflectance map " + in_quotes(map.name);
+  check_size(room, map, of);
+  for (const float value : map.values) {
+    if (!(value >= 0.0F && value <= 1.0F)) check_fraction(room, double{value}, of);
   }
-  if (surface.reflectance_uvs.size() != surface.positions.size()) {
-    refuse(room, "number of coordinates on its reflectance map " + of, std::to_string(surface.reflectance_uvs.size()),
+  for (const glm::vec3& colour : map.colours) {
+    for (int k = 0; k < 3; ++k) {
+      if (!(colour[k] >= 0.0F && colour[k] <= 1.0F)) check_fraction(room, double{colour[k]}, of);
+    }
+  }
+}
+
+void check_emission_map(const Room& room, const EmissionMap& map) {
+  const std::string of = "of the emission map " + in_quotes(map.name);
+  check_size(room, map, of);
+  for (const float value : map.values) {
+    if (!(value >= 0.0F) || !std::isfinite(value))
+      refuse(room, "value " + of, to_text(double{value}), "finite numbers, 0 or more", "Give luminances.");
+  }
+}
+
+// map: index of a map of which the room has `count`; kind: "reflectance" or "emission".
+void check_use_of_map(const Room& room, std::size_t map, std::size_t count, const std::vector<glm::dvec2>& uvs,
+                      const Surface& surface, const std::string& kind) {
+  const std::string of = "of surface " + in_quotes(surface.name);
+  if (map >= count) {
+    refuse(room, "number of the " + kind + " map " + of, std::to_string(map), "below " + std::to_string(count),
+           "Give the index of " + std::string(kind == "emission" ? "an " : "a ") + kind + " map.");
+  }
+  if (uvs.size() != surface.positions.size()) {
+    refuse(room, "number of coordinates on its " + kind + " map " + of, std::to_string(uvs.size()),
            std::to_string(surface.positions.size()) + ", one per position", "Give one for each position.");
   }
-  for (const glm::dvec2& uv : surface.reflectance_uvs) {
+  for (const glm::dvec2& uv : uvs) {
     if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
-      refuse(room, "coordinate on its reflectance map " + of, "(" + to_text(uv.x) + ", " + to_text(uv.y) + ")",
+      refuse(room, "coordinate on its " + kind + " map " + of, "(" + to_text(uv.x) + ", " + to_text(uv.y) + ")",
              "finite numbers", "Unwrap the mesh again.");
     }
   }
+}
+
+void check_vertex_colours(const Room& room, const Surface& surface, const std::string& of) {
+  if (surface.vertex_colours.empty()) return;
+  if (surface.vertex_colours.size() != surface.positions.size()) {
+    refuse(room, "number of vertex colours " + of, std::to_string(surface.vertex_colours.size()),
+           std::to_string(surface.positions.size()) + ", one per position, or none", "Give one for each position.");
+  }
+  for (const glm::dvec3& colour : surface.vertex_colours) {
+    for (int k = 0; k < 3; ++k) {
+      require(colour[k] >= 0.0 && colour[k] <= 1.0, room, "vertex colour " + of, colour[k], "0 to 1",
+              "Give the fraction of the flux that is reflected.");
+    }
+  }
+  require(surface.highest_reflectance >= 0.0 && surface.highest_reflectance <= 1.0, room, "highest reflectance " + of,
+          surface.highest_reflectance, "0 to 1", "Give the fraction of the incident flux that it reflects at most.");
 }
 
 void check_surface(const Room& room, const Surface& surface) {
@@ -77,7 +120,11 @@ void check_surface(const Room& room, const Surface& surface) {
     refuse(room, "number of texture coordinates " + of, std::to_string(surface.uvs.size()),
            std::to_string(surface.positions.size()) + ", one per position, or none", "Give one for each position.");
   }
-  check_surface_map(room, surface, of);
+  if (surface.reflectance_map) {
+    check_use_of_map(room, *surface.reflectance_map, room.reflectance_maps.size(), surface.reflectance_uvs, surface,
+                     "reflectance");
+  }
+  check_vertex_colours(room, surface, of);
   for (const glm::uvec3& triangle : surface.triangles) {
     for (int k = 0; k < 3; ++k) {
       if (triangle[k] >= surface.positions.size()) {
@@ -121,6 +168,13 @@ void check_shape(const Room& room, const Shape& shape, const std::string& of) {
           "area in m² of the emitting surface " + in_quotes(room.surfaces[shape.surface].name) + " " + of, 0.0,
           "above 0", "Give it triangles that have an area, or remove the emitter.");
   check_law(room, shape.law().fault(), of);
+  if (!shape.emission_map) return;
+  check_use_of_map(room, *shape.emission_map, room.emission_maps.size(), shape.emission_uvs,
+                   room.surfaces[shape.surface], "emission");
+  const EmissionMap& map = room.emission_maps[*shape.emission_map];
+  require(emits(room.surfaces[shape.surface], map, shape.emission_uvs), room,
+          "mean of the emission map " + in_quotes(map.name) + " " + of, 0.0, "above 0",
+          "Give the surface coordinates on a part of the map that is not black, or remove the emitter.");
 }
 
 void check_receiver(const Room& room, const Receiver& receiver) {
@@ -137,7 +191,8 @@ void check_receiver(const Room& room, const Receiver& receiver) {
 }  // namespace
 
 void check_surfaces(const Room& room) {
-  for (const ReflectanceMap& map : room.reflectance_maps) check_map(room, map);
+  for (const ReflectanceMap& map : room.reflectance_maps) check_reflectance_map(room, map);
+  for (const EmissionMap& map : room.emission_maps) check_emission_map(room, map);
   std::set<std::string> names;
   for (const Surface& surface : room.surfaces) {
     check_surface(room, surface);

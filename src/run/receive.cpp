@@ -7,6 +7,7 @@
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
+#include "room/reflectance.hpp"
 #include "run/backward_work.hpp"
 #include "run/rounds.hpp"
 #include "run/surface_results.hpp"
@@ -79,7 +80,7 @@ std::vector<SurfaceResult> surfaces_of(const Room& room, const Tiling& tiling, c
     surface.mean_irradiance = surface.power / surface.area_m2;
     surface.standard_error /= surface.area_m2;
     if (surface.power > 0.0) surface.behind_share = behind[m] / surface.power;
-    if (!room.surfaces[tiling.maps[m].surface].reflectance_map)
+    if (!has_varying_reflectance(room.surfaces[tiling.maps[m].surface]))
       surface.absorbed = surface.power * (1.0 - surface.reflectance);
   }
   return results;

@@ -163,7 +163,9 @@ void check_settings_for(const Room& room, const Settings& settings) {
     if (const Surface* surface = surface_that_absorbs_nothing(room)) {
       throw InputError("The estimator 'absorption' cannot score on the surface " + in_quotes(surface->name) +
                        " (material " + in_quotes(surface->material) + ") of " + room.source + ": its reflectance is 1" +
-                       (surface->reflectance_map ? " in parts of its texture" : "") +
+                       (surface->reflectance_map           ? " in parts of its texture"
+                        : !surface->vertex_colours.empty() ? " in parts of it"
+                                                           : "") +
                        ", so that it never absorbs there. Use the estimator 'collision' or 'weight', or a "
                        "reflectance below 1.");
     }

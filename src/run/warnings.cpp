@@ -30,7 +30,7 @@ bool emits_backwards(const Emitter& emitter) {
 }
 
 std::string place_text(const glm::dvec3& p) {
-  return "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ") m";
+  return "(" + position_text(p.x) + ", " + position_text(p.y) + ", " + position_text(p.z) + ") m";
 }
 
 // Whether a surface, or a point of one, has the reflectance 1.
@@ -45,9 +45,12 @@ bool reflects_all(const Room& room) {
 std::vector<Advised> emitters_outside(const Room& room) {
   std::vector<Advised> outside;
   const Bounds bounds = bounds_of(room);
-  // Files contain floats: an emitter at the ceiling may be above it by rounding.
+  // Files contain floats: an emitter at the ceiling may be above it by rounding. Coordinates count with at most the
+  // extent of the room, as for the tracers (tracer/touch.hpp): a translation far from the origin counts as exact.
   const glm::dvec3 farthest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
-  const double slack = 4.0 * 0x1p-24 * std::max({farthest.x, farthest.y, farthest.z});
+  const glm::dvec3 size = bounds.high - bounds.low;
+  const double slack =
+      4.0 * 0x1p-24 * std::min(std::max({farthest.x, farthest.y, farthest.z}), std::max({size.x, size.y, size.z}));
   const std::vector<bool> beyond_walls = emitters_beyond_walls(room);
   for (std::size_t k = 0; k < room.emitters.size(); ++k) {
     const Emitter& emitter = room.emitters[k];
@@ -57,7 +60,7 @@ std::vector<Advised> emitters_outside(const Room& room) {
     if (!is_area && !bounds.holds(p, slack)) {
       std::string range;
       for (int c = 0; c < 3; ++c)
-        range += (c > 0 ? ", " : "") + short_number(bounds.low[c]) + " to " + short_number(bounds.high[c]);
+        range += (c > 0 ? ", " : "") + position_text(bounds.low[c]) + " to " + position_text(bounds.high[c]);
       outside.push_back({which + "lies outside the room, which extends from x, y, z = " + range + " m.",
                          "Check its position; Y is up."});
     } else if (beyond_walls[k]) {

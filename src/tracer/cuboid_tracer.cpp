@@ -20,6 +20,7 @@
 #include "chance/directions.hpp"
 #include "room/cuboid_shape.hpp"
 #include "room/emitter_shape.hpp"
+#include "room/reflectance.hpp"
 #include "tracer/cuboid_facets.hpp"
 #include "tracer/touch.hpp"
 #include "tracer/tracer.hpp"
@@ -293,8 +294,12 @@ std::unique_ptr<Tracer> make_cuboid_tracer(const Room& room, const Tiling& tilin
     return nullptr;
   }
   if (std::any_of(room.surfaces.begin(), room.surfaces.end(),
-                  [](const Surface& surface) { return surface.reflectance_map.has_value(); })) {
-    why_not = "has a reflectance map";
+                  [](const Surface& surface) { return has_varying_reflectance(surface); })) {
+    why_not = "has a reflectance that varies over a surface";
+    return nullptr;
+  }
+  if (std::any_of(room.emitters.begin(), room.emitters.end(), has_emission_map)) {
+    why_not = "has an emission map";
     return nullptr;
   }
   std::optional<CuboidFacets> facets = facets_of_cuboid(room, tiling, *shape);

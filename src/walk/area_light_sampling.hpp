@@ -88,7 +88,8 @@ class AreaLightSampler {
     const LightSample sample =
         light_.sample_light(reference, in_stratum(k, n, unit_open(words[0])), unit_open(words[1]), unit_open(words[2]));
     if (!(sample.irradiance > 0.0) || is_blocked(tracer_, reference, sample.target, count_)) return 0.0;
-    return sample.irradiance * pdf_light_ / (pdf_light_ + sample.pdf_bsdf / reference.squared_sine());
+    const double pdf_light = pdf_light_ * sample.relative;
+    return sample.irradiance * pdf_light / (pdf_light + sample.pdf_bsdf / reference.squared_sine());
   }
 
   // Samples k … k + chunk − 1 of n new ones: flights from the reference points.
@@ -118,7 +119,9 @@ class AreaLightSampler {
     const FlightGeometry flight = flight_geometry(tracer_, flights_, i);
     if (flight.degenerate()) return 0.0;
     const double pdf_flight = flight.pdf_bsdf(cosine) / view;
-    return view * light_.radiance(flight.cosine_there) * std::numbers::pi * pdf_flight / (pdf_flight + pdf_light_);
+    const double relative = light_.relative_exitance(flights_.facet[i], flights_.s[i], flights_.t[i]);
+    return view * (light_.radiance(flight.cosine_there) * relative) * std::numbers::pi * pdf_flight /
+           (pdf_flight + pdf_light_ * relative);
   }
 
   const AreaLight& light_;
@@ -127,7 +130,7 @@ class AreaLightSampler {
   const Stream& stream_;
   std::uint64_t number_;
   TraceCount& count_;
-  double pdf_light_;
+  double pdf_light_;  // mean over the emitter
   double sum_ = 0.0;
   double squares_ = 0.0;  // of the differences within pairs
   Rays flights_{chunk};

@@ -91,7 +91,7 @@ class BackwardGoal : public GoalBase {
       if (rays.behind[i] != 0 || !light_->is_area_light(facet.surface)) continue;
       const FlightGeometry flight = flight_geometry(tracer, rays, i);
       if (flight.degenerate()) continue;
-      const double irradiance = light_->mis_weighted_emission(facet.surface, double{cosine_[i]}, flight);
+      const double irradiance = light_->mis_weighted_emission(rays, i, double{cosine_[i]}, flight);
       if constexpr (Policy::scores_every_impact) {
         found_[i] += (Policy::carries_weight ? wave.weight[i] : 1.0) * irradiance;
       } else {

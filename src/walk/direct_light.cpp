@@ -30,6 +30,7 @@ constexpr double on_emitter = 1e-6;
 DirectLight::DirectLight(const Room& room, const Tracer& tracer) : room_(&room), tracer_(&tracer) {
   areas_of_surface_.resize(room.surfaces.size());
   std::vector<double> fluxes;
+  EmissionOfRoom emission(room);
   for (std::size_t n = 0; n < room.emitters.size(); ++n) {
     const double flux = room.emitters[n].power;
     if (flux == 0.0) continue;
@@ -43,7 +44,7 @@ DirectLight::DirectLight(const Room& room, const Tracer& tracer) : room_(&room),
         [&](const auto& area) {
           areas_of_surface_[area.surface].push_back(areas_.size());
           sources_.push_back({true, areas_.size(), 1.0});
-          areas_.emplace_back(room, area.surface, area.law(), flux);
+          areas_.emplace_back(room, area, emission.of(area), flux, tracer.locate(area.surface, 0).facet);
         });
   }
   area_shares_.assign(areas_.size(), 1.0);
@@ -71,7 +72,7 @@ DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, con
   }
   if (reference.way_out) return sum;  // the walls lie between area lights, which are walls, and points outside
   for (std::size_t k = 0; k < areas_.size(); ++k) {
-    if (!tracer_->casts_shadows() && areas_[k].lambertian() && reference.least_cosine <= 0.0) {
+    if (!tracer_->casts_shadows() && areas_[k].has_closed_form() && reference.least_cosine <= 0.0) {
       sum.value += areas_[k].polygon_irradiance(reference);
       continue;
     }
@@ -102,17 +103,19 @@ LightSample DirectLight::sample_light(std::size_t k, const ReferencePoint& refer
   }
   const AreaLight& light = areas_[source.index];
   LightSample sample = light.sample_light(reference, unit_open(where[0]), unit_open(where[1]), unit_open(where[2]));
-  const double pdf_light = source.share / light.area_m2();
+  const double pdf_light = source.share / light.area_m2() * sample.relative;
   sample.irradiance *= pdf_light / (pdf_light + sample.pdf_bsdf) / source.share;
   return sample;
 }
 
-double DirectLight::mis_weighted_emission(std::size_t surface, double cosine_here, const FlightGeometry& flight) const {
+double DirectLight::mis_weighted_emission(const Rays& rays, std::size_t i, double cosine_here,
+                                          const FlightGeometry& flight) const {
   double sum = 0.0;
   const double pdf_bsdf = flight.pdf_bsdf(cosine_here);
-  for (const std::size_t k : areas_of_surface_[surface]) {
-    const double pdf_light = area_shares_[k] / areas_[k].area_m2();
-    sum += pi * areas_[k].radiance(flight.cosine_there) * pdf_bsdf / (pdf_light + pdf_bsdf);
+  for (const std::size_t k : areas_of_surface_[tracer_->facets()[rays.facet[i]].surface]) {
+    const double relative = areas_[k].relative_exitance(rays.facet[i], rays.s[i], rays.t[i]);
+    const double pdf_light = area_shares_[k] / areas_[k].area_m2() * relative;
+    sum += pi * (areas_[k].radiance(flight.cosine_there) * relative) * pdf_bsdf / (pdf_light + pdf_bsdf);
   }
   return sum;
 }

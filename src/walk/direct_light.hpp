@@ -44,11 +44,11 @@ class DirectLight {
   LightSample sample_light(std::size_t k, const ReferencePoint& reference, const Words& which,
                            const Words& where) const;
 
-  // A flight that left a surface at an angle of cosine `cosine_here` has hit the front of an area light: its weighted
-  // contribution to the direct irradiance at the surface that it left. Samples of the emitter's points and flights that
-  // hit it are combined by the balance heuristic, see area_light_sampling.hpp. Without it, light samples on a wall that
-  // touches a luminous ceiling would grow as 1/r² near the common edge.
-  double mis_weighted_emission(std::size_t surface, double cosine_here, const FlightGeometry& flight) const;
+  // Flight i, which left a surface at an angle of cosine `cosine_here`, has hit the front of an area light: its
+  // weighted contribution to the direct irradiance at the surface that it left. Samples of the emitter's points and
+  // flights that hit it are combined by the balance heuristic, see area_light_sampling.hpp. Without it, light samples
+  // on a wall that touches a luminous ceiling would grow as 1/r² near the common edge.
+  double mis_weighted_emission(const Rays& rays, std::size_t i, double cosine_here, const FlightGeometry& flight) const;
   bool has_area_lights() const { return !areas_.empty(); }
   bool is_area_light(std::size_t surface) const { return !areas_of_surface_[surface].empty(); }
 

@@ -260,7 +260,7 @@ DirectIrradiance DirectTiles::by_point(const PointLight& source, std::size_t fac
 DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::uint64_t number,
                                          TraceCount& count) const {
   const AreaLight& source = light_->areas()[k];
-  if (!source.lambertian() || source.triangles() > most_triangles) {
+  if (!source.has_closed_form() || source.triangles() > most_triangles) {
     const auto random_place = [&](std::uint32_t n) {
       const Words words = stream_.draw(number, n, Purpose::direct_place);
       return faces_->reference(face, faces_->place(face, unit_open(words[0]), unit_open(words[1])));

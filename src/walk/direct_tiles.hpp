@@ -5,8 +5,8 @@
 // then estimate the visible fraction: the mean over pairs of points in strata of the unshadowed flux, unbiased up to
 // the second order of its own error. If nothing casts a shadow, no rays are traced.
 //
-// Emitters without a closed form (surfaces that do not follow Lambert's law, or of very many triangles) are sampled as
-// at receivers, from points distributed over the tile.
+// Emitters without a closed form (surfaces that do not follow Lambert's law, have an emission map, or very many
+// triangles) are sampled as at receivers, from points distributed over the tile.
 #pragma once
 
 #include <cstddef>

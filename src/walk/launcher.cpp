@@ -44,11 +44,12 @@ LICHTMC_LANES void aim(std::size_t n, const float* LICHTMC_APART sine_polar, con
 
 Launcher::Launcher(const Room& room, const Tracer& tracer) : facets_(&tracer.facets()) {
   std::vector<double> powers;
+  EmissionOfRoom emission(room);
   for (const Emitter& emitter : room.emitters) {
     powers.push_back(emitter.power);
     visit_shape(
         emitter, [&](const auto& shape) { sources_.emplace_back(point_source(shape, tracer)); },
-        [&](const auto& shape) { sources_.emplace_back(surface_source(room, shape.surface, shape.law(), tracer)); });
+        [&](const auto& shape) { sources_.emplace_back(surface_source(room, shape, emission, tracer)); });
   }
   // The largest fractions first: very small powers would lose their digits in the sum.
   const double largest = *std::max_element(powers.begin(), powers.end());
@@ -73,17 +74,18 @@ Launcher::PointSource Launcher::point_source(const Shape& shape, const Tracer& t
   return source;
 }
 
-Launcher::SurfaceSource Launcher::surface_source(const Room& room, std::size_t number, const LambertLaw& law,
-                                                 const Tracer& tracer) {
-  const Surface& surface = room.surfaces[number];
+Launcher::SurfaceSource Launcher::surface_source(const Room& room, const SurfaceEmitter& emitter,
+                                                 EmissionOfRoom& emission, const Tracer& tracer) {
+  const Surface& surface = room.surfaces[emitter.surface];
   SurfaceSource source;
-  source.law = law;
+  source.law = emitter.law();
+  source.emission = emission.of(emitter);
   std::vector<double> areas;
   for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
     const glm::uvec3 corner = surface.triangles[n];
     const glm::dvec3 a = surface.positions[corner.x];
     areas.push_back(glm::length(glm::cross(surface.positions[corner.y] - a, surface.positions[corner.z] - a)));
-    source.triangles.push_back(tracer.locate(number, n));
+    source.triangles.push_back(tracer.locate(emitter.surface, n));
   }
   source.areas_up_to = cumulative(areas);
   return source;
@@ -99,7 +101,7 @@ void Launcher::launch(const Stream& stream, std::uint64_t history, Rays& rays, s
   } else {
     const auto& surface = std::get<SurfaceSource>(source);
     const glm::dvec3 local = surface.law.sample(unit_open(words[0]), unit_open(words[1]));
-    start_on(surface, glm::vec3(local), stream.draw(history, 0, Purpose::place), rays, i);
+    start_on(surface, glm::vec3(local), stream, history, rays, i);
   }
 }
 
@@ -164,7 +166,7 @@ void Launcher::launch_from(std::size_t k, Launches& launches, std::uint32_t begi
       float cosine = 0.0F;
       sine_cosine(static_cast<float>(launches.azimuth[i]) * 0x1p-32F, sine, cosine);
       const glm::vec3 local(launches.sine[i] * cosine, launches.sine[i] * sine, launches.cosine[i]);
-      start_on(*surface, local, stream.draw(first + photon[i], 0, Purpose::place), rays, i);
+      start_on(*surface, local, stream, first + photon[i], rays, i);
     }
     return;
   }
@@ -204,10 +206,23 @@ void Launcher::start_at(const PointSource& source, const glm::dvec3& local, Rays
   rays.set_direction(i, direction);
 }
 
-void Launcher::start_on(const SurfaceSource& source, const glm::vec3& local, const Words& place, Rays& rays,
-                        std::size_t i) const {
-  const std::size_t n = choose(source.areas_up_to, unit_fine(place[0], place[1]));
-  const glm::vec2 weights(uniform_on_triangle(unit_open(place[2]), unit_open(place[3])));
+void Launcher::start_on(const SurfaceSource& source, const glm::vec3& local, const Stream& stream,
+                        std::uint64_t history, Rays& rays, std::size_t i) const {
+  const Words place = stream.draw(history, 0, Purpose::place);
+  const double u = unit_fine(place[0], place[1]);
+  const double v = unit_open(place[2]);
+  const double w = unit_open(place[3]);
+  std::size_t n = 0;
+  glm::vec2 weights(0.0F);
+  if (source.emission) {
+    const auto further = [&](std::uint32_t k) { return stream.draw(history, k + 1, Purpose::place); };
+    const EmissionPlace chosen = source.emission->choose_place(u, v, w, further);
+    n = chosen.triangle;
+    weights = chosen.weights;
+  } else {
+    n = choose(source.areas_up_to, u);
+    weights = uniform_on_triangle(v, w);
+  }
   const TriangleOnFacet& triangle = source.triangles[n];
   const glm::vec2 st = triangle.st_0 + weights.x * triangle.st_1 + weights.y * triangle.st_2;
   rays.facet[i] = triangle.facet;

@@ -13,6 +13,7 @@
 
 #include "chance/stream.hpp"
 #include "lichtmc/room.hpp"
+#include "room/emission.hpp"
 #include "tracer/rays.hpp"
 #include "tracer/tracer.hpp"
 
@@ -43,12 +44,13 @@ class Launcher {
   struct SurfaceSource {
     std::vector<double> areas_up_to;  // cumulative fractions of the triangles' areas, the last is 1
     std::vector<TriangleOnFacet> triangles;
-    LambertLaw law;  // about the normal
+    LambertLaw law;                           // about the normal
+    std::optional<SurfaceEmission> emission;  // if it is not uniform
   };
 
   template <class Shape>
   PointSource point_source(const Shape& shape, const Tracer& tracer);
-  static SurfaceSource surface_source(const Room& room, std::size_t number, const LambertLaw& law,
+  static SurfaceSource surface_source(const Room& room, const SurfaceEmitter& emitter, EmissionOfRoom& emission,
                                       const Tracer& tracer);
   struct Launches;
 
@@ -60,8 +62,9 @@ class Launcher {
   void launch_from_point(const PointSource& point, const Law& law, Launches& launches, std::uint32_t begin,
                          std::uint32_t end, Rays& rays) const;
   static void start_at(const PointSource& source, const glm::dvec3& local, Rays& rays, std::size_t i);
-  void start_on(const SurfaceSource& source, const glm::vec3& local, const Words& place, Rays& rays,
-                std::size_t i) const;
+  // A photon of this history starts from a surface, in a direction of the facet's frame.
+  void start_on(const SurfaceSource& source, const glm::vec3& local, const Stream& stream, std::uint64_t history,
+                Rays& rays, std::size_t i) const;
 
   const std::vector<Facet>* facets_;
   std::vector<double> powers_up_to_;  // cumulative fractions of the power, the last is 1

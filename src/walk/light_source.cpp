@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "chance/choice.hpp"
+#include "chance/philox.hpp"
 #include "chance/places.hpp"
 
 namespace lichtmc {
@@ -77,6 +80,17 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
+// A random point of an emitter with an emission map. If the first proposal, by u, v and w, is rejected, the words for
+// others are a function of these three numbers: as random as they are, and independent of them.
+EmissionPlace place_by_map(const SurfaceEmission& emission, double u, double v, double w) {
+  const auto word = [](double unit) { return static_cast<std::uint32_t>(unit * 0x1p32); };
+  const auto bits = std::bit_cast<std::uint64_t>(u);
+  return emission.choose_place(u, v, w, [&](std::uint32_t k) {
+    return philox4x32_10({static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32), k, 0},
+                         {word(v), word(w)});
+  });
+}
+
 }  // namespace
 
 LightSample PointLight::sample_light(const ReferencePoint& reference) const {
@@ -91,12 +105,15 @@ LightSample PointLight::sample_light(const ReferencePoint& reference) const {
   return {intensity(law_, flux_, local) * cosine / (r * r), position_, 0.0};
 }
 
-AreaLight::AreaLight(const Room& room, std::size_t surface, const LambertLaw& law, double flux)
-    : surface_(&room.surfaces[surface]),
-      surface_number_(surface),
+AreaLight::AreaLight(const Room& room, const SurfaceEmitter& emitter, std::optional<SurfaceEmission> emission,
+                     double flux, std::uint32_t first_facet)
+    : surface_(&room.surfaces[emitter.surface]),
+      surface_number_(emitter.surface),
       flux_(flux),
       area_m2_(surface_area(*surface_)),
-      law_(law) {
+      law_(emitter.law()),
+      first_facet_(first_facet),
+      emission_(std::move(emission)) {
   std::vector<double> areas;
   low_ = glm::dvec3(std::numeric_limits<double>::infinity());
   high_ = -low_;
@@ -184,9 +201,11 @@ double AreaLight::mean_radiance() const {
 }
 
 LightSample AreaLight::sample_light(const ReferencePoint& reference, double u, double v, double w) const {
-  const std::size_t triangle = triangles_[choose(areas_up_to_, u)];
+  const EmissionPlace place = emission_ ? place_by_map(*emission_, u, v, w)
+                                        : EmissionPlace{triangles_[choose(areas_up_to_, u)], uniform_on_triangle(v, w)};
+  const std::size_t triangle = place.triangle;
   const glm::dvec3 target = point_of_triangle(corner_of(*surface_, triangle, 0), corner_of(*surface_, triangle, 1),
-                                              corner_of(*surface_, triangle, 2), uniform_on_triangle(v, w));
+                                              corner_of(*surface_, triangle, 2), place.weights);
   const glm::dvec3 segment = target - reference.point;
   const double r = glm::length(segment);
   if (!(r > 0.0)) return {};
@@ -194,7 +213,9 @@ LightSample AreaLight::sample_light(const ReferencePoint& reference, double u, d
   const double cosine = glm::dot(towards, reference.normal);
   const double cosine_there = -glm::dot(towards, glm::normalize(cross_of(*surface_, triangle)));
   if (cosine <= 0.0 || cosine < reference.least_cosine || cosine_there <= 0.0) return {};
-  return {flux_ * law_.density_at(cosine_there) * cosine / (r * r), target, cosine * cosine_there / (pi * r * r)};
+  // The exitance at the point and the density of the points are proportional: their ratio is the flux everywhere.
+  return {flux_ * law_.density_at(cosine_there) * cosine / (r * r), target, cosine * cosine_there / (pi * r * r),
+          place.relative};
 }
 
 // L/2 Σ Γ_k · n, Γ_k the angle subtended by edge k times the normal of the plane through the point and it (J. H.

@@ -1,7 +1,8 @@
 // The irradiance by each emitter at a reference point, without shadows.
 //
-// Point lights in closed form, E = I(θ) cos θ'/r²; Lambertian area lights by the polygon formula; any area light by a
-// random point on it. World coordinates in m; shadows are in direct_light.hpp.
+// Point lights in closed form, E = I(θ) cos θ'/r²; Lambertian area lights of uniform exitance by the polygon formula;
+// any area light by a random point on it, with a density proportional to its exitance. World coordinates in m; shadows
+// are in direct_light.hpp.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +15,7 @@
 #include "base/frame.hpp"
 #include "lichtmc/emitter_law.hpp"
 #include "lichtmc/room.hpp"
+#include "room/emission.hpp"
 #include "room/emitter_shape.hpp"
 #include "walk/reference_point.hpp"
 
@@ -24,6 +26,7 @@ struct LightSample {
   double irradiance = 0.0;  // W/m² or lx; 0: none
   glm::dvec3 target{0.0};   // m, the point of the emitter
   double pdf_bsdf = 0.0;    // density per area with which a diffuse flight hits that point; 0 for point lights
+  double relative = 1.0;    // of area lights: exitance at that point, divided by its mean
 };
 
 class PointLight {
@@ -56,11 +59,14 @@ class PointLight {
 
 class AreaLight {
  public:
-  // surface: index into Room::surfaces; law: about the normal; flux: in W or lm. The room must outlive the light.
-  AreaLight(const Room& room, std::size_t surface, const LambertLaw& law, double flux);
+  // emission: of the emitter, none if it is uniform; flux: in W or lm; first_facet: the tracer's facet of the surface's
+  // first triangle; with an emission map the facets of a surface must be its triangles in their order, with s and t to
+  // the second and third corner. The room must outlive the light.
+  AreaLight(const Room& room, const SurfaceEmitter& emitter, std::optional<SurfaceEmission> emission, double flux,
+            std::uint32_t first_facet);
 
-  // The sample at a point uniform over the area, chosen by u, v, w (in [0, 1)). Its mean is the irradiance by the
-  // emitter, without shadows.
+  // The sample at a point chosen by u, v, w (in [0, 1)) with a density proportional to the exitance: relative/area. Its
+  // mean is the irradiance by the emitter, without shadows.
   LightSample sample_light(const ReferencePoint& reference, double u, double v, double w) const;
 
   // The least distance, in m, of a point from the part of the emitter whose front it sees; infinite if it sees none.
@@ -76,12 +82,20 @@ class AreaLight {
   // Whether the emitter's bounding box reaches above the horizon of a reference point; if not, the irradiance is 0.
   bool reaches_above_horizon(const ReferencePoint& reference) const;
 
-  bool lambertian() const { return law_.exponent == 1.0; }
-  // The irradiance by a Lambertian emitter over the whole hemisphere, without shadows, in closed form.
+  // Whether polygon_irradiance() is valid: the emitter is Lambertian, and its exitance is uniform.
+  bool has_closed_form() const { return law_.exponent == 1.0 && !emission_; }
+  // The irradiance over the whole hemisphere, without shadows.
   double polygon_irradiance(const ReferencePoint& reference) const;
   std::size_t triangles() const { return triangles_.size(); }
 
-  double radiance(double cosine) const;  // W/(m² sr) or cd/m² at an angle of this cosine to the normal
+  // The mean radiance over the emitter, W/(m² sr) or cd/m², at an angle of this cosine to the normal.
+  double radiance(double cosine) const;
+  // The exitance at a point of a facet of the emitter, divided by its mean.
+  double relative_exitance(std::uint32_t facet, float s, float t) const {
+    return emission_ ? emission_->relative(facet - first_facet_, {s, t}) : 1.0;
+  }
+  // A bound of it.
+  double highest_exitance() const { return emission_ ? emission_->highest() : 1.0; }
   std::size_t surface() const { return surface_number_; }
   double area_m2() const { return area_m2_; }
   // Radiance of a Lambertian emitter of the same exitance, W/(m² sr) or cd/m².
@@ -95,7 +109,9 @@ class AreaLight {
   double flux_;
   double area_m2_;
   LambertLaw law_;
-  glm::dvec3 low_{0.0};  // bounding box
+  std::uint32_t first_facet_;
+  std::optional<SurfaceEmission> emission_;  // if it is not uniform
+  glm::dvec3 low_{0.0};                      // bounding box
   glm::dvec3 high_{0.0};
   std::vector<double> areas_up_to_;
   std::vector<std::size_t> triangles_;  // those with an area

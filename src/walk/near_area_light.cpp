@@ -29,7 +29,7 @@ class NearLightSampler {
         count_(count),
         start_(start_of(reference, tracer)),
         view_(reference.squared_sine()),
-        complement_(light.lambertian() && reference.least_cosine <= 0.0) {}
+        complement_(light.has_closed_form() && reference.least_cosine <= 0.0) {}
 
   DirectIrradiance sample() {
     const SamplingAccuracy accuracy;
@@ -51,8 +51,9 @@ class NearLightSampler {
   }
 
  private:
-  // The score of one flight that arrives; of the largest, if they differ.
-  double unit() const { return std::max(largest_, pi * view_ * light_.mean_radiance()); }
+  // The score of one flight that arrives; of the largest, if they differ. An emitter with a map may have a small bright
+  // part that no flight has hit yet.
+  double unit() const { return std::max(largest_, pi * view_ * light_.mean_radiance() * light_.highest_exitance()); }
 
   // Flights k … k + chunk − 1 of n new ones after the first `samples`.
   void add_flights(std::uint32_t samples, std::uint32_t k, std::uint32_t n) {
@@ -86,7 +87,9 @@ class NearLightSampler {
     }
     if (!hits) return 0.0;
     const FlightGeometry flight = flight_geometry(tracer_, flights_, i);
-    return flight.degenerate() ? 0.0 : pi * view_ * light_.radiance(flight.cosine_there);
+    if (flight.degenerate()) return 0.0;
+    return pi * view_ * light_.radiance(flight.cosine_there) *
+           light_.relative_exitance(flights_.facet[i], flights_.s[i], flights_.t[i]);
   }
 
   const AreaLight& light_;

@@ -67,25 +67,6 @@ std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engi
   return make_embree_tracer(room, tiling, requested == Engine::embree_fast ? Edges::fast : Edges::robust);
 }
 
-// The positions of facets on the reflectance maps of their surfaces. Each facet of such a surface is one triangle.
-std::vector<ReflectanceMapPlace> reflectance_map_places_of(const Room& room, const Tracer& tracer) {
-  std::vector<ReflectanceMapPlace> places;
-  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
-    const Surface& surface = room.surfaces[k];
-    if (!surface.reflectance_map) continue;
-    places.resize(tracer.facets().size());
-    for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
-      const glm::uvec3 corner = surface.triangles[n];
-      const TriangleOnFacet triangle = tracer.locate(k, n);
-      assert(triangle.st_0 == glm::vec2(0.0F) && triangle.st_1 == glm::vec2(1.0F, 0.0F));
-      const glm::dvec2 uv_0 = surface.reflectance_uvs[corner.x];
-      places[triangle.facet] = {&room.reflectance_maps[*surface.reflectance_map], uv_0,
-                                surface.reflectance_uvs[corner.y] - uv_0, surface.reflectance_uvs[corner.z] - uv_0};
-    }
-  }
-  return places;
-}
-
 }  // namespace
 
 Scene::Scene(const Room& room, const Tiling& tiling, Engine requested)
@@ -108,10 +89,38 @@ void Scene::set_reflectances(const Room& room) {
     // unit_fine() returns multiples of 2⁻⁵³: as many of them are below this number as below ρ.
     survival_of.push_back(static_cast<std::int64_t>(std::ceil(reflectance * 0x1p53)));
   }
-  reflectance_map_places = reflectance_map_places_of(room, *tracer);
+  place_on_maps(room);
   const HighestReflectance highest(room);
   reflects_all_somewhere = std::any_of(room.surfaces.begin(), room.surfaces.end(),
                                        [&](const Surface& surface) { return highest.of(surface) == 1.0; });
+}
+
+// The positions of facets on the reflectance maps of their surfaces, and their vertex colours. Each facet of such a
+// surface is one triangle.
+void Scene::place_on_maps(const Room& room) {
+  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
+    const Surface& surface = room.surfaces[k];
+    if (!has_varying_reflectance(surface)) continue;
+    reflectance_map_places.resize(tracer->facets().size());
+    for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
+      const glm::uvec3 corner = surface.triangles[n];
+      const TriangleOnFacet triangle = tracer->locate(k, n);
+      assert(triangle.st_0 == glm::vec2(0.0F) && triangle.st_1 == glm::vec2(1.0F, 0.0F));
+      ReflectanceMapPlace& place = reflectance_map_places[triangle.facet];
+      if (surface.reflectance_map) {
+        const glm::dvec2 uv_0 = surface.reflectance_uvs[corner.x];
+        place.map = &room.reflectance_maps[*surface.reflectance_map];
+        place.uv_0 = uv_0;
+        place.uv_s = surface.reflectance_uvs[corner.y] - uv_0;
+        place.uv_t = surface.reflectance_uvs[corner.z] - uv_0;
+      }
+      if (surface.vertex_colours.empty()) continue;
+      const glm::dvec3 colour_0 = surface.vertex_colours[corner.x];
+      place.coloured = static_cast<std::uint32_t>(coloured_facets.size());
+      coloured_facets.push_back({colour_0, surface.vertex_colours[corner.y] - colour_0,
+                                 surface.vertex_colours[corner.z] - colour_0, surface.highest_reflectance});
+    }
+  }
 }
 
 void Scene::set_tiles(const Tiling& tiling) {

@@ -137,7 +137,7 @@ Glb with_draco(const Glb& plain, int bits) {
       for (const auto& [name, accessor] : primitive["attributes"].items()) {
         const bool position = name == "POSITION";
         const std::vector<float> values = values_of<float>(plain, accessor);
-        const std::size_t size = position ? 3 : 2;
+        const std::size_t size = position || name == "COLOR_0" ? 3 : 2;
         const int id =
             builder.AddAttribute(position ? draco::GeometryAttribute::POSITION : draco::GeometryAttribute::TEX_COORD,
                                  static_cast<std::int8_t>(size), draco::DT_FLOAT32);

@@ -25,6 +25,11 @@ Room room_of_everything() {
   surface.reflectance_map = 0;
   surface.reflectance_uvs.assign(surface.positions.size(), {0.5, 0.5});
   room.reflectance_maps.push_back({"picture", 2, 1, {0.2F, 0.4F}});
+  auto& panel = std::get<SurfaceEmitter>(room.emitters.back().shape);
+  panel.emission_map = 0;
+  panel.emission_uvs.assign(surface.positions.size(), {0.5, 0.5});
+  room.emission_maps.push_back({"panel", 2, 1, {0.0F, 1.0F}});
+  room.surfaces[2].vertex_colours.assign(room.surfaces[2].positions.size(), {0.5, 0.25, 0.75});
   return room;
 }
 
@@ -58,6 +63,16 @@ const std::vector<Change>& changes() {
       {"map's value", [](Room& r) { r.reflectance_maps[0].values[1] = 0.5F; }},
       {"map's wrap in u", [](Room& r) { r.reflectance_maps[0].wrap_u = Wrap::clamp; }},
       {"map's wrap in v", [](Room& r) { r.reflectance_maps[0].wrap_v = Wrap::mirror; }},
+      {"vertex colour", [](Room& r) { r.surfaces[2].vertex_colours[0].z += 1e-12; }},
+      {"vertex colours left out", [](Room& r) { r.surfaces[2].vertex_colours.clear(); }},
+      {"limit of vertex colours", [](Room& r) { r.surfaces[2].highest_reflectance = 0.6; }},
+      {"map's colours",
+       [](Room& r) {
+         r.reflectance_maps[0].colours.assign(2, {0.2F, 0.3F, 0.4F});
+       }},
+      {"emission map left out", [](Room& r) { shape<SurfaceEmitter>(r, 3).emission_map.reset(); }},
+      {"place on the emission map", [](Room& r) { shape<SurfaceEmitter>(r, 3).emission_uvs[0].x += 1e-12; }},
+      {"emission map's value", [](Room& r) { r.emission_maps[0].values[1] = 0.5F; }},
       {"emitter left out", [](Room& r) { r.emitters.pop_back(); }},
       {"emitter name", [](Room& r) { r.emitters[0].name += "x"; }},
       {"power", [](Room& r) { r.emitters[0].power += 1e-15; }},

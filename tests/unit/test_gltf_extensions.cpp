@@ -193,6 +193,22 @@ TEST_CASE("a room compressed by Draco is the same room except for rounding") {
   }
 }
 
+TEST_CASE("vertex colours and morph targets of meshes compressed by Draco") {
+  Room room = read_document(triangle_document());
+  Surface& floor = room.surfaces[0];
+  floor.vertex_colours = {{1, 0, 0.5}, {0, 1, 0.25}, {0.5, 0.5, 0}};
+  Glb packed = with_draco(glb_of(room), 14);
+  const Room again = read_again(packed);
+  REQUIRE(again.surfaces[0].vertex_colours.size() == 3);
+  CHECK(mean_reflectance(again, again.surfaces[0]) == Approx(mean_reflectance(room, floor)).epsilon(1e-3));
+  // Its edge-breaker encoding, the default, changes the order of the vertices: targets would move the wrong ones.
+  packed.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
+  packed.json["meshes"][0]["weights"] = {0};
+  CHECK(refusal_of(packed).empty());
+  packed.json["meshes"][0]["weights"] = {1};
+  CHECK_THAT(refusal_of(packed), ContainsSubstring("morph targets") && ContainsSubstring("without compression"));
+}
+
 TEST_CASE("damaged compressed data is refused with its location") {
   const Glb plain = glb_of(read_document(triangle_document()));
   Glb meshopt = with_meshopt(plain);

@@ -1,6 +1,7 @@
 // Base colour textures as reflectance.
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "lichtmc/error.hpp"
 #include "lichtmc/gltf.hpp"
 #include "lichtmc/overrides.hpp"
+#include "room/emission.hpp"
 #include "room/reflectance.hpp"
 #include "support/catch.hpp"
 #include "support/gltf_text.hpp"
@@ -44,6 +46,21 @@ json textured_triangle() {
   document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
   return document;
 }
+
+// The triangle with the image as emissive texture, 100 cd/m² × (½, ½, 0).
+json emissive_triangle() {
+  json document = textured_triangle();
+  json& material = document["materials"][0];
+  material["pbrMetallicRoughness"].erase("baseColorTexture");
+  material["extras"]["reflectance"] = 0.5;
+  material["emissiveFactor"] = {0.5, 0.5, 0.0};
+  material["emissiveTexture"] = {{"index", 0}};
+  material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", 100}};
+  document["extensionsUsed"].push_back("KHR_materials_emissive_strength");
+  return document;
+}
+
+constexpr double pi = std::numbers::pi;
 
 // sRGB 128 of 255 in linear light (IEC 61966-2-1).
 constexpr double mid_grey = 0.21586050011389926;
@@ -120,6 +137,106 @@ TEST_CASE("an image that is missing or cannot be decoded is refused with the mat
   set_reflectance(room, "paint", 0.6);
   CHECK(room.surfaces[0].reflectance == 0.6);
   CHECK(!room.surfaces[0].reflectance_map);
+}
+
+TEST_CASE("an emissive texture gives the flux and the distribution of an area light") {
+  json document = emissive_triangle();
+  const Room room = read_document(document);
+  REQUIRE(room.emitters.size() == 2);
+  const auto& shape = std::get<SurfaceEmitter>(room.emitters[0].shape);
+  REQUIRE(room.emission_maps.size() == 1);
+  CHECK(shape.emission_map == 0);
+  CHECK(shape.emission_uvs == std::vector<glm::dvec2>{{0, 0}, {0, 1}, {1, 0}});
+  CHECK(room.reflectance_maps.empty());
+  const EmissionMap& map = room.emission_maps[0];
+  CHECK(double{map.values[1]} == Approx(0.5 * 0.7152));
+  // 100 cd/m² × factor × texture, times π, times 0.5 m².
+  const double mean = mean_emission(room.surfaces[0], map, shape.emission_uvs);
+  CHECK(room.emitters[0].power == Approx(100.0 * mean * pi * 0.5));
+  CHECK(room.ignored.empty());
+  // With a power the texture gives the distribution only.
+  document["materials"][0]["extras"]["power"] = 7;
+  CHECK(read_document(document).emitters[0].power == 7.0);
+  CHECK(read_document(document).emission_maps.size() == 1);
+}
+
+TEST_CASE("an emissive texture of one colour is a uniform area light; where it is black nothing emits") {
+  json document = emissive_triangle();
+  auto& uvs = document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"];
+  // The centre of the green pixel.
+  uvs = add_accessor(document, std::vector<float>{0.75, 0.25, 0.75, 0.25, 0.75, 0.25}, "VEC2", 5126, 2);
+  const Room room = read_document(document);
+  CHECK(room.emission_maps.empty());
+  CHECK(room.emitters[0].power == Approx(100.0 * 0.5 * 0.7152 * pi * 0.5));
+
+  document["materials"][0]["emissiveFactor"] = {0, 0, 1};
+  CHECK(read_document(document).emitters.size() == 1);
+  CHECK(read_document(document).ignored.empty());
+  document["materials"][0]["extras"]["power"] = 7;
+  CHECK(read_document(document).emitters.size() == 1);
+  CHECK(ignores(read_document(document), "emits nothing, although its material has the custom property 'power'"));
+  // A black factor hides the texture: the power is uniform.
+  document["materials"][0]["emissiveFactor"] = {0, 0, 0};
+  CHECK(read_document(document).emitters[0].power == 7.0);
+}
+
+TEST_CASE("an emissive texture that is missing is an error, or uniform if the power is given") {
+  json document = emissive_triangle();
+  document["images"][0]["uri"] = "missing.png";
+  CHECK_THAT(refusal(document), ContainsSubstring("missing.png") && ContainsSubstring("emission of material 'paint'") &&
+                                    ContainsSubstring("custom property 'power'"));
+  document["materials"][0]["extras"]["power"] = 7;
+  const Room room = read_document(document);
+  CHECK(room.emission_maps.empty());
+  CHECK(room.emitters[0].power == 7.0);
+  CHECK(ignores(room, "uniformly over their area"));
+  // Not needed if nothing emits.
+  document["materials"][0].erase("extras");
+  document["materials"][0]["emissiveFactor"] = {0, 0, 0};
+  CHECK(read_document(document).emitters.size() == 1);
+}
+
+TEST_CASE("vertex colours multiply a texture channel by channel") {
+  json document = textured_triangle();
+  document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
+      add_accessor(document, std::vector<float>{1, 1, 1, 0, 1, 0, 0.5, 0, 0}, "VEC3", 5126, 3);
+  const Room room = read_document(document);
+  const ReflectanceMap& map = room.reflectance_maps.at(0);
+  REQUIRE(map.colours.size() == 4);
+  const Surface& surface = room.surfaces[0];
+  REQUIRE(surface.vertex_colours.size() == 3);
+  // At the centre of the grey pixel with the colour of the second corner: only green is reflected.
+  CHECK(coloured_reflectance(surface.vertex_colours[1], &map, {0.75, 0.75}, 1.0) == Approx(mid_grey * 0.7152));
+  CHECK(coloured_reflectance(surface.vertex_colours[2], &map, {0.25, 0.25}, 1.0) == Approx(0.5 * 0.2126));
+  // Of one colour: part of the factor, without a look-up of colours.
+  document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
+      add_accessor(document, std::vector<float>{0.5, 1, 0, 0.5, 1, 0, 0.5, 1, 0}, "VEC3", 5126, 3);
+  const Room plain = read_document(document);
+  CHECK(plain.reflectance_maps.at(0).colours.empty());
+  CHECK(double{plain.reflectance_maps[0].values[0]} == Approx(0.5 * 0.2126));
+}
+
+TEST_CASE("emission maps and vertex colours are written and read back") {
+  json document = emissive_triangle();
+  document["materials"][0].erase("extras");
+  document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
+      add_accessor(document, std::vector<float>{1, 1, 1, 0, 1, 0, 0.5, 0, 0}, "VEC3", 5126, 3);
+  const Room room = read_document(document);
+  const TemporaryFolder folder;
+  write_gltf(room, folder.path() / "room.glb");
+  const Room again = read_gltf(folder.path() / "room.glb");
+  CHECK(again.ignored.empty());
+  CHECK(again.surfaces[0].vertex_colours == room.surfaces[0].vertex_colours);
+  CHECK(again.surfaces[0].reflectance_uvs == room.surfaces[0].reflectance_uvs);
+  CHECK(again.surfaces[0].uvs == room.surfaces[0].uvs);
+  CHECK(again.surfaces[0].reflectance == Approx(room.surfaces[0].reflectance).epsilon(0.01));
+  REQUIRE(again.emission_maps.size() == 1);
+  CHECK(again.emitters[0].power == room.emitters[0].power);
+  const auto relative = [](const Room& r) {
+    return EmissionOfRoom(r).of(std::get<SurfaceEmitter>(r.emitters[0].shape))->relative(0, {0.2, 0.3});
+  };
+  CHECK(relative(again) == Approx(relative(room)).epsilon(0.01));
 }
 
 TEST_CASE("a texture without texture coordinates is reported as left out") {

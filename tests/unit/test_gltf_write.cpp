@@ -74,6 +74,33 @@ TEST_CASE("a room written and read again is the same room") {
   }
 }
 
+TEST_CASE("a room far from the origin is written with an offset, and keeps its shape") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "room.gltf";
+  Room room = full_room();
+  write_gltf(room, file);
+  const auto offset_of = [&] {
+    std::ifstream in(file);
+    const nlohmann::json written = nlohmann::json::parse(in);
+    return written["asset"].value("extras", nlohmann::json());
+  };
+  CHECK(offset_of().is_null());
+  const glm::dvec3 move(691608.25, 520.0, -5334760.4);
+  for (Surface& surface : room.surfaces) {
+    for (glm::dvec3& p : surface.positions) p += move;
+  }
+  std::get<IsotropicEmitter>(room.emitters[5].shape).position += move;
+  room.receivers[0].position += move;
+  write_gltf(room, file);
+  CHECK(offset_of()["lichtmc"]["offset_m"] == nlohmann::json({691609.0, 521.0, -5334758.0}));
+  const Room again = read_gltf(file);
+  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
+    for (std::size_t n = 0; n < room.surfaces[k].positions.size(); ++n)
+      CHECK(glm::length(again.surfaces[k].positions[n] - room.surfaces[k].positions[n]) < 1e-6);
+  }
+  CHECK(glm::length(again.receivers[0].position - room.receivers[0].position) < 1e-6);
+}
+
 TEST_CASE("another file extension is refused and no file is written") {
   const TemporaryFolder folder;
   CHECK_THROWS_AS(write_gltf(full_room(), folder.path() / "room.obj"), InputError);

@@ -1,4 +1,5 @@
 // Reflectance maps: values between pixels, beyond the edges, and over a surface.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -122,4 +123,39 @@ TEST_CASE("input overrides change reflectance maps") {
   set_reflectance(room, "tiles", 0.4);
   CHECK(!room.surfaces[0].reflectance_map);
   CHECK(room.surfaces[0].reflectance == 0.4);
+}
+
+TEST_CASE("input overrides change vertex colours") {
+  Room room = floor_with_map(four_pixels(Wrap::repeat), 1.0);
+  room.surfaces.push_back(room.surfaces[0]);
+  room.surfaces[1].name = "coloured";
+  room.surfaces[1].vertex_colours.assign(room.surfaces[1].positions.size(), glm::dvec3(0.95));
+  // The limit applies to the product; the map of the other surface becomes its own.
+  limit_reflectance(room, 0.9);
+  REQUIRE(room.reflectance_maps.size() == 2);
+  CHECK(room.surfaces[0].reflectance_map == 1);
+  CHECK(double{*std::max_element(room.reflectance_maps[1].values.begin(), room.reflectance_maps[1].values.end())} <=
+        0.9);
+  const Surface& coloured = room.surfaces[1];
+  CHECK(coloured.highest_reflectance == 0.9);
+  const auto at = [&](double u, double v) {
+    return coloured_reflectance(coloured.vertex_colours[0], &room.reflectance_maps[0], {u, v},
+                                coloured.highest_reflectance);
+  };
+  CHECK(at(0.75, 0.75) == 0.9);
+  CHECK(at(0.25, 0.25) == Approx(0.95 * reflectance_at(room.reflectance_maps[0], 0.25, 0.25)));
+  set_reflectance(room, "tiles", 0.4);
+  CHECK(room.surfaces[1].vertex_colours.empty());
+  CHECK(mean_reflectance(room, room.surfaces[1]) == 0.4);
+}
+
+TEST_CASE("the mean of vertex colours is that of the corners, unless a limit cuts them") {
+  Room room;
+  room.surfaces.push_back(make_floor(1.0, 1.0));
+  Surface& floor = room.surfaces[0];
+  for (const glm::dvec3& p : floor.positions) floor.vertex_colours.emplace_back(p.x);
+  CHECK(mean_reflectance(room, floor) == Approx(0.5).epsilon(1e-12));
+  // ∫ min(x, ½) dx = 3/8.
+  floor.highest_reflectance = 0.5;
+  CHECK(mean_reflectance(room, floor) == Approx(0.375).margin(1e-4));
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -142,6 +143,29 @@ TEST_CASE("lit room: it contains every triangle of the room in its position, and
   REQUIRE(values.size() == floor.tiles);
   CHECK(bytes.find(std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float))) !=
         std::string::npos);
+}
+
+TEST_CASE("lit room: a room far from the origin keeps its shape and place") {
+  const glm::dvec3 move(691608.2, 520.0, -5334760.4);
+  Room room = unit_cube(0.5, isotropic(move + glm::dvec3(0.5)));
+  for (Surface& surface : room.surfaces) {
+    for (glm::dvec3& p : surface.positions) p += move;
+  }
+  const Result result = simulate_it(room);
+  const RoomPainter painter(room, result);
+  const Folder folder;
+  const std::string bytes =
+      lit_room_glb(room, result, painter.lit_sides(), choose_scale(result), trace_paths(room, result.settings, 3));
+  CHECK(bytes.find("\"offset_m\":[691609.0,521.0,-5334760.0]") != std::string::npos);
+  std::ofstream(folder.path() / "room_lit.glb", std::ios::binary) << bytes;
+  const Room lit = read_gltf(folder.path() / "room_lit.glb");
+  for (const Surface& surface : lit.surfaces) {
+    CHECK(surface_area(surface) == Approx(1.0).epsilon(1e-6));
+    for (const glm::dvec3& p : surface.positions) {
+      const glm::dvec3 local = p - move;
+      for (int k = 0; k < 3; ++k) CHECK(std::min(std::abs(local[k]), std::abs(local[k] - 1.0)) < 1e-6);
+    }
+  }
 }
 
 TEST_CASE("svg: text is escaped, and control characters that XML does not allow are visible") {

@@ -5,9 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/message.hpp"
 #include "lichtmc/cuboid.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/room.hpp"
+#include "run/warnings.hpp"
 #include "support/catch.hpp"
 
 using namespace lichtmc;
@@ -128,4 +130,29 @@ TEST_CASE("the power of a room is the sum of its emitters") {
   room.emitters.push_back({"a", 1.5, IsotropicEmitter{}});
   room.emitters.push_back({"b", 2.25, SurfaceEmitter{}});
   CHECK(total_power(room) == 3.75);
+}
+
+TEST_CASE("an emitter well inside a room far from the origin is not reported as outside or on the boundary") {
+  Room room = make_cuboid({4.0, 2.6, 5.0}, uniform_reflectance(0.5));
+  const glm::dvec3 move(691608.2, 520.0, -5334760.4);
+  for (Surface& surface : room.surfaces) {
+    for (glm::dvec3& p : surface.positions) p += move;
+  }
+  const auto reported = [&](const glm::dvec3& place) {
+    room.emitters = {{"lamp", 100.0, IsotropicEmitter{move + place}}};
+    const std::vector<Advised> outside = emitters_outside(room);
+    return outside.empty() ? std::string() : outside.front().what;
+  };
+  CHECK(reported({2.0, 2.0, 2.5}).empty());
+  CHECK(reported({2.0, 2.599, 2.5}).empty());
+  CHECK_THAT(reported({2.0, 2.6, 2.5}), ContainsSubstring("(691610.2, 522.6, -5334757.9) m lies on the boundary"));
+  CHECK_THAT(reported({2.0, 2.61, 2.5}), ContainsSubstring("outside the room") && ContainsSubstring("520 to 522.6"));
+}
+
+TEST_CASE("coordinates are written to the millimetre, small ones to three digits") {
+  CHECK(position_text(-5334760.4) == "-5334760.4");
+  CHECK(position_text(12.34567) == "12.346");
+  CHECK(position_text(2.0) == "2");
+  CHECK(position_text(-1e-17) == "0");
+  CHECK(position_text(0.000123456) == "0.000123");
 }

@@ -102,6 +102,37 @@ TEST_CASE("reflectance maps: the ceiling receives what a non-uniform floor refle
   }
 }
 
+TEST_CASE("vertex colours: the ceiling receives what a non-uniform floor reflects") {
+  const auto luminance_at = [](double x, double z) { return 0.2126 * x + 0.7152 * (1.0 - z) + 0.0722 * 0.5; };
+  // Exchanged axes, as from an error in the order of the corners.
+  const auto swapped = [&](double x, double z) { return luminance_at(z, x); };
+  const ReflectanceMap map = uneven();
+  for (const bool mapped : {false, true}) {
+    Room room = unit_cube(0.0, paper_emitter());
+    Surface& floor = room.surfaces[0];
+    for (const glm::dvec3& p : floor.positions) floor.vertex_colours.emplace_back(p.x, 1.0 - p.z, 0.5);
+    if (mapped) give_map(room, 0, map);
+    floor.reflectance = mean_reflectance(room, floor);
+    const Result result = simulate_uneven_floor(room, Estimator::collision);
+    CHECK(result.engine == Engine::embree);
+    const auto figures = [&](const std::function<double(double, double)>& colour) {
+      const auto rho = [&](double x, double z) { return colour(x, z) * (mapped ? reflectance_at(map, x, z) : 1.0); };
+      return against(result, "ceiling", [&](const Tile& tile) {
+        return tile_mean(tile.point, {0.1, 0, 0}, {0, 0, 0.1}, 2,
+                         [&](const glm::dvec3& p) { return ceiling_irradiance(p, rho); });
+      });
+    };
+    const Verdict verdict = compare(figures(luminance_at));
+    INFO((mapped ? "with a map: " : "alone: ") << verdict.text);
+    WARN(verdict.text);
+    CHECK(verdict.agrees);
+    CHECK(verdict.smallest_bias < 0.03);
+    CHECK_FALSE(compare(figures(swapped)).agrees);
+    const Balance& b = result.balance;
+    CHECK(std::abs(b.absorbed + b.escaped + b.residual + b.lost - b.emitted) <= 16 * 0x1p-53 * b.emitted);
+  }
+}
+
 TEST_CASE("reflectance maps: all three estimators agree in a room with non-uniform walls") {
   Room room = unit_cube(0.6, paper_emitter());
   for (std::size_t k = 0; k < 6; ++k) give_map(room, k, uneven());

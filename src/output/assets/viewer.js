@@ -1,7 +1,8 @@
 "use strict";
 // 3-D view: draws room_lit.glb with WebGL 2 and shows the irradiance of the tile under the pointer.
 //
-// Reads only the subset of glTF that lichtmc writes: no transforms, one buffer, triangles with a tile map as texture, or
+// Reads only the subset of glTF that lichtmc writes: no transforms but the offset of a room far from the origin, which
+// moves everything alike and is left out; one buffer, triangles with a tile map as texture, or
 // lines with colours. This keeps the page small and without third-party code.
 function lichtmcView(container, glb) {
   const canvas = container.appendChild(document.createElement("canvas"));
