@@ -16,6 +16,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr std::uint32_t chunk = 64;  // flights that are traced together
+// For an emitter with more triangles, testing all of them for every flight would cost more than the flights.
+constexpr std::size_t most_triangles = 256;
 
 class NearLightSampler {
  public:
@@ -29,7 +31,7 @@ class NearLightSampler {
         count_(count),
         start_(start_of(reference, tracer)),
         view_(reference.squared_sine()),
-        complement_(light.has_closed_form() && reference.least_cosine <= 0.0) {}
+        complement_(light.has_closed_form() && light.triangles() <= most_triangles && reference.least_cosine <= 0.0) {}
 
   DirectIrradiance sample() {
     const SamplingAccuracy accuracy;
