@@ -110,7 +110,9 @@ double mean_emission(const Surface& surface, const EmissionMap& map, const std::
   for (const glm::uvec3& t : surface.triangles) {
     const Corners corner = corners_on_map(uvs, t);
     const double own_cells = OnPixels(corner, map).cells();
-    const double n = std::clamp(std::ceil(std::sqrt(per_cell * own_cells)), 1.0, 2048.0);
+    // Coordinates may be so large that these numbers are not finite: then one part.
+    const double across = std::ceil(std::sqrt(per_cell * own_cells));
+    const double n = across >= 1.0 ? std::min(across, 2048.0) : 1.0;
     const auto compute = [&] {
       return exact ? exact_mean(corner, map, parts) : mean_of_parts(corner, map, static_cast<int>(n));
     };

@@ -139,6 +139,21 @@ TEST_CASE("a map with one value on the surface is uniform") {
     CHECK(emission_over(floor, palette, std::vector<glm::dvec2>(floor.uvs.size(), {u, 0.5})).uniform());
 }
 
+TEST_CASE("texture coordinates of any size are harmless") {
+  const Surface floor = make_floor(1.0, 1.0);
+  for (const Wrap wrap : {Wrap::repeat, Wrap::clamp, Wrap::mirror}) {
+    const EmissionMap map = random_map(5, 4, wrap, wrap, 11);
+    for (const double size : {1e6, 1e12, 1e20, 1e300}) {
+      std::vector<glm::dvec2> uvs;
+      for (const glm::dvec2& uv : floor.uvs) uvs.push_back(size * (uv - 0.3));
+      const double mean = mean_emission(floor, map, uvs);
+      CHECK(mean >= 0.0);
+      CHECK(mean <= 10.0);
+      if (mean > 0.0) CHECK(emission_over(floor, map, uvs).highest() >= 1.0);
+    }
+  }
+}
+
 TEST_CASE("damaged emission maps are refused") {
   const auto refused = [](const std::function<void(Room&, SurfaceEmitter&)>& damage) -> std::string {
     Room room = unit_cube(0.5, surface_emitter(1, 1.0));
