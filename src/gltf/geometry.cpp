@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -167,6 +169,22 @@ std::optional<Primitive> read_primitive(const Document& document, const tinygltf
     return std::nullopt;
   }
   return result;
+}
+
+double coarse_rounding(const Document& document, const tinygltf::Primitive& primitive, const Primitive& stored) {
+  const auto accessor = static_cast<std::size_t>(primitive.attributes.at("POSITION"));
+  if (document.model.accessors[accessor].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) return 0.0;
+  glm::dvec3 low = stored.positions.front();
+  glm::dvec3 high = low;
+  for (const glm::dvec3& p : stored.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const auto largest = [](const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); };
+  const auto farthest = static_cast<float>(largest(glm::max(glm::abs(low), glm::abs(high))));
+  const double spacing = double{std::nextafter(farthest, std::numeric_limits<float>::max())} - double{farthest};
+  constexpr double noticeable = 0.001;
+  return spacing > noticeable * largest(high - low) ? spacing : 0.0;
 }
 
 namespace {

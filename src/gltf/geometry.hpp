@@ -34,6 +34,10 @@ std::optional<Primitive> read_primitive(const Document& document, const tinygltf
                                         const std::vector<double>& morph_weights, const std::string& where,
                                         std::vector<Ignored>& ignored);
 
+// The distance between neighbouring floats at the largest coordinate of a primitive, in its local unit of length, if its
+// positions are floats and this distance is more than a thousandth of its largest extent; else 0.
+double coarse_rounding(const Document& document, const tinygltf::Primitive& primitive, const Primitive& stored);
+
 // The primitive as a surface in world coordinates. The caller sets name, material and optical properties. If the
 // transform mirrors (determinant < 0), the winding is reversed: the front face stays the front face. Triangles without
 // area are left out and counted.

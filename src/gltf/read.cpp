@@ -5,6 +5,8 @@
 #include <numbers>
 #include <set>
 
+#include <glm/geometric.hpp>
+
 #include "base/luminance.hpp"
 #include "base/message.hpp"
 #include "gltf/deform.hpp"
@@ -43,6 +45,10 @@ glm::dmat4 root_transform(const Document& document, const ReadOptions& options) 
   return transform;
 }
 
+double largest_scale(const glm::dmat4& transform) {
+  return std::max({glm::length(transform[0]), glm::length(transform[1]), glm::length(transform[2])});
+}
+
 class RoomReader {
  public:
   RoomReader(const Document& document, const ReadOptions& options)
@@ -69,6 +75,7 @@ class RoomReader {
     drop_uniform_maps();
     for (Surface& surface : room_.surfaces) surface.reflectance = mean_reflectance(room_, surface);
     note_ignored_materials(*document_, used_materials_, room_.ignored);
+    note_rounded();
     note_file();
     note_overrides();
     set_quantity();
@@ -93,6 +100,8 @@ class RoomReader {
       const auto stored = read_primitive(*document_, primitive, material, options_->uv_set, morph_weights(node, mesh),
                                          where, room_.ignored);
       if (!stored) continue;
+      note_rounding(largest_scale(placed.world) * coarse_rounding(*document_, primitive, *stored),
+                    in_quotes(!node.name.empty() ? node.name : mesh.name));
       std::string name = !node.name.empty()   ? node.name
                          : !mesh.name.empty() ? mesh.name
                                               : "mesh_" + std::to_string(index);
@@ -284,6 +293,22 @@ class RoomReader {
     for (const std::string& warning : document_->warnings) note("Message of the parser: " + warning, Effect::none);
   }
 
+  void note_rounding(double spacing, const std::string& name) {
+    if (!(spacing > 0.0)) return;
+    rounded_.add(name);
+    coarsest_ = std::max(coarsest_, spacing);
+  }
+
+  void note_rounded() {
+    if (rounded_.count() == 0) return;
+    note("The positions of " + rounded_.text() +
+             " are floats so far from the origin of their nodes that they are rounded to multiples of up to " +
+             short_number(coarsest_) +
+             " m: their shapes are not what was modelled. Move the meshes to the origin and their place into the "
+             "translation of a node, or export the room with an offset.",
+         Effect::figures);
+  }
+
   void note_overrides() {
     if (options_->scale != 1.0) room_.overrides.push_back("Lengths multiplied by " + to_text(options_->scale) + ".");
     if (options_->up == UpAxis::z) room_.overrides.push_back("Rotated from Z-up to Y-up.");
@@ -296,6 +321,8 @@ class RoomReader {
   TextureMaps emission_maps_;
   std::map<std::size_t, TriangleMeans> triangle_means_;  // by emission map
   std::size_t triangles_ = 0;
+  Names rounded_;                     // meshes whose positions are too coarse
+  double coarsest_ = 0.0;             // distance between floats there, in the file's unit
   std::vector<Quantity> quantities_;  // of the emitters
   std::vector<bool> used_materials_;
   std::set<std::string> names_;

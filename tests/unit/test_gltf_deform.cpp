@@ -192,3 +192,14 @@ TEST_CASE("the property 'reflectance' replaces vertex colours; damaged ones are 
       add_accessor(document, std::vector<float>{1, 1, 1}, "VEC3", floats, 3);
   CHECK_THAT(refusal(document), ContainsSubstring("3 positions but 1 vertex colours"));
 }
+
+TEST_CASE("positions that are floats far from their node's origin are reported with their rounding") {
+  json document = triangle_document();
+  document["nodes"][0]["translation"] = {692000, 520, -5334760};
+  CHECK(read_document(document).ignored.empty());
+  const float far = 5334760.0F;
+  primitive_of(document)["attributes"]["POSITION"] =
+      add_accessor(document, std::vector<float>{0, 0, far, 0, 0, far + 2, 3, 0, far}, "VEC3", floats, 3);
+  CHECK(ignores(read_document(document), "'floor' are floats so far from the origin of their nodes"));
+  CHECK(ignores(read_document(document), "multiples of up to 0.5 m"));
+}
