@@ -17,7 +17,7 @@ using namespace lichtmc::test;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double luminance = 1000.0;
+constexpr double panel_luminance = 1000.0;
 
 // A panel of 1 m × 1 m at 2.5 m, facing down, and a crate that makes the room cast shadows. Everything is black.
 Room room_with_panel(double exponent) {
@@ -30,7 +30,7 @@ Room room_with_panel(double exponent) {
   crate.reflectance = 0.0;
   for (glm::dvec3& p : crate.positions) p += glm::dvec3(-2.0, 0.0, -2.0);
   room.surfaces = {panel, crate};
-  room.emitters.push_back(surface_emitter(0, pi * luminance, exponent));
+  room.emitters.push_back(surface_emitter(0, pi * panel_luminance, exponent));
   return room;
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("near light: errors cover at 0.3 mm to 0.2 m from a panel") {
   const Room room = room_with_panel(1.0);
   for (const double height : {0.0003, 0.001, 0.002, 0.005, 0.02, 0.05, 0.06, 0.1, 0.2}) {
     INFO(height << " m");
-    const double exact = pi * luminance * element_to_parallel_rectangle(height, 0.6, 0.4, 0.3, 0.7);
+    const double exact = pi * panel_luminance * element_to_parallel_rectangle(height, 0.6, 0.4, 0.3, 0.7);
     check_covers(coverage(room, under_panel(height), exact, runs));
   }
 }
@@ -88,7 +88,7 @@ TEST_CASE("near light: errors cover for a narrow field of view") {
   const double half_angle = 40.0 * pi / 180.0;
   for (const double height : {0.001, 0.005, 0.05}) {
     INFO(height << " m");
-    const double exact = pi * luminance * std::pow(std::sin(half_angle), 2);
+    const double exact = pi * panel_luminance * std::pow(std::sin(half_angle), 2);
     check_covers(coverage(room, under_panel(height, std::cos(half_angle)), exact, runs));
   }
 }
@@ -99,7 +99,7 @@ TEST_CASE("near light: errors cover for an emitter that is not Lambertian") {
   const Room room = room_with_panel(3.0);
   for (const double height : {0.0003, 0.001}) {
     INFO(height << " m");
-    check_covers(coverage(room, under_panel(height), pi * luminance, runs));
+    check_covers(coverage(room, under_panel(height), pi * panel_luminance, runs));
   }
 }
 
@@ -114,8 +114,8 @@ TEST_CASE("near light: errors cover with a plate in between, and a figure withou
   const double panel = element_to_parallel_rectangle(0.005, 0.5, 0.5, 0.5, 0.5);
   const double hidden = element_to_parallel_rectangle(0.003, 0.3, 0.0, 0.3, 0.3);
   const ReferencePoint reference{{0.0, 2.495, 0.0}, {0, 1, 0}};
-  const Coverage found = coverage(room, reference, pi * luminance * (panel - hidden), runs);
+  const Coverage found = coverage(room, reference, pi * panel_luminance * (panel - hidden), runs);
   // About a half of the flights arrives: √(p(1 − p)/16384)/p is 0.8 %.
   check_covers(found, 1e-2);
-  CHECK(coverage(room, reference, pi * luminance * panel, 20).beyond_3 == 20);
+  CHECK(coverage(room, reference, pi * panel_luminance * panel, 20).beyond_3 == 20);
 }
