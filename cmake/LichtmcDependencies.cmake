@@ -29,6 +29,15 @@ if(NOT TARGET lichtmc_hdf5)
   set_target_properties(lichtmc_xxhash PROPERTIES IMPORTED_LOCATION ${LICHTMC_XXHASH_LIBRARY}
     INTERFACE_INCLUDE_DIRECTORIES ${LICHTMC_XXHASH_INCLUDE_DIR})
 endif()
+# libwebp has a CMake package in neither release.
+if(NOT TARGET lichtmc_webp)
+  find_library(LICHTMC_WEBP_LIBRARY webp REQUIRED)
+  find_path(LICHTMC_WEBP_INCLUDE_DIR webp/decode.h REQUIRED)
+  mark_as_advanced(LICHTMC_WEBP_LIBRARY LICHTMC_WEBP_INCLUDE_DIR)
+  add_library(lichtmc_webp UNKNOWN IMPORTED)
+  set_target_properties(lichtmc_webp PROPERTIES IMPORTED_LOCATION ${LICHTMC_WEBP_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${LICHTMC_WEBP_INCLUDE_DIR})
+endif()
 # stb comes without a CMake package.
 if(NOT TARGET stb::stb)
   find_library(LICHTMC_STB_LIBRARY stb REQUIRED)

@@ -11,6 +11,7 @@ packages=(
   libdraco-dev                               # compressed meshes
   libmeshoptimizer-dev                       # compressed meshes
   libstb-dev                                 # pictures
+  libwebp-dev                                # textures in WebP
   libopenexr-dev                             # tile maps as images
   libhdf5-dev libxxhash-dev                  # states of runs, their checksums
   libopenmpi-dev openmpi-bin                 # runs on several machines

@@ -12,18 +12,18 @@ namespace lichtmc::app {
 
 namespace {
 
-// A material and its new reflectance.
+// A material or surface and its new reflectance.
 struct NewReflectance {
-  std::string material;
+  std::string name;
   double value = 0.0;
 };
 
 NewReflectance parse_reflectance(const std::string& text) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string::npos) {
-    throw InputError(
-        "The value '" + text +
-        "' of --reflectance cannot be used (allowed: MATERIAL=R). Give it in that form, for example Wall=0.6.");
+    throw InputError("The value '" + text +
+                     "' of --reflectance cannot be used (allowed: NAME=R, with the name of a material or surface). "
+                     "Give it in that form, for example Wall=0.6.");
   }
   return {text.substr(0, equals), parse_number(text.substr(equals + 1), "--reflectance " + text)};
 }
@@ -49,8 +49,10 @@ void add_room_options(CLI::App& command, RoomOptions& options) {
       ->expected(1)
       ->take_all()
       ->group(reading);
-  command.add_option("--reflectance", options.reflectances, "Set a material's reflectance, 0 to 1 (repeatable)")
-      ->type_name("MATERIAL=R")
+  command
+      .add_option("--reflectance", options.reflectances,
+                  "Set the reflectance of a material or surface, 0 to 1 (name or pattern; repeatable)")
+      ->type_name("NAME=R")
       ->expected(1)
       ->take_all()
       ->group(reading);
@@ -76,6 +78,18 @@ void add_room_options(CLI::App& command, RoomOptions& options) {
                   "Texture coordinates for the tiles, the n of TEXCOORD_n [1 if present, else 0]")
       ->type_name("N")
       ->group(reading);
+  command
+      .add_option("--without", options.without,
+                  "Leave out nodes (with all below them), meshes, materials or surfaces of this name or pattern "
+                  "(repeatable)")
+      ->type_name("NAME")
+      ->expected(1)
+      ->take_all()
+      ->group(reading);
+  command
+      .add_flag("--follow-links", options.follow_links,
+                "Read buffers and images that are symbolic links to files outside the folder of the room")
+      ->group(reading);
   command.add_option("--scene", options.scene, "Name of the scene to use [the file's default scene]")
       ->type_name("NAME")
       ->group(reading);
@@ -87,15 +101,17 @@ Room read_room(const RoomOptions& options) {
   read.uv_set = options.uv_set;
   read.scene = options.scene;
   read.up = parse_up(options.up);
+  read.without = options.without;
+  read.follow_links = options.follow_links;
   if (options.scale) read.scale = parse_number(*options.scale, "--scale");
   if (options.unit) read.quantity = parse_unit(*options.unit, "--unit");
   for (const std::string& text : options.reflectances) {
     reflectances.push_back(parse_reflectance(text));
-    read.numbered_materials.push_back(reflectances.back().material);
+    read.numbered.push_back(reflectances.back().name);
   }
   Room room = read_gltf(options.file, read);
   if (options.unit) room.overrides.push_back("The powers of the file are interpreted in " + *options.unit + ".");
-  for (const NewReflectance& change : reflectances) set_reflectance(room, change.material, change.value);
+  for (const NewReflectance& change : reflectances) set_reflectance(room, change.name, change.value);
   if (options.max_reflectance) limit_reflectance(room, parse_number(*options.max_reflectance, "--max-reflectance"));
   add_lights(room, options.lights);
   return room;

@@ -17,6 +17,8 @@ struct RoomOptions {
   std::string up = "y";
   std::vector<std::string> lights;
   std::vector<std::string> reflectances;
+  std::vector<std::string> without;
+  bool follow_links = false;
   std::string scene;
   std::optional<int> uv_set;
 };

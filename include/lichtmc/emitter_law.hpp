@@ -32,6 +32,7 @@ namespace lichtmc {
 struct EmitterExtent {
   double half_angle = 0.0;  // 0 … π
   double width = 0.0;       // > 0
+  bool sharp = false;       // whether the intensity falls to 0 at the cone within less than 1/64 of its half angle
 };
 
 // A parameter that is out of its range, as the parts of a message: "The {what} of … is {value} (allowed: {allowed}).
@@ -95,10 +96,10 @@ struct LambertLaw {
 };
 
 // Spot: full intensity inside the inner cone; between the cones a² of it, a = (cos θ − cos outer)/(cos inner − cos
-// outer); 0 outside. This is the falloff that the specification of KHR_lights_punctual shows as an implementation note;
-// it leaves the choice to the reader.
+// outer); 0 outside. With inner = outer the edge is hard. This is the falloff that the specification of
+// KHR_lights_punctual shows as an implementation note; it leaves the choice to the reader.
 struct SpotLaw {
-  double inner = 0.0;                      // rad, half angle, 0 ≤ inner < outer
+  double inner = 0.0;                      // rad, half angle, 0 ≤ inner ≤ outer
   double outer = std::numbers::pi * 0.25;  // rad, half angle, smallest_outer ≤ outer ≤ π/2
 
   // Below 10⁻⁶ rad a cone is a pencil beam: that is a Lambert law of large exponent. π/2 as a float may be rounded up.
@@ -121,17 +122,20 @@ struct SpotLaw {
   }
   double density(const glm::dvec3& local) const {
     const double edge = versine_of(outer);
-    const double ramp = (edge - (1.0 - local.z)) / (edge - versine_of(inner));
-    const double a = std::fmin(std::fmax(ramp, 0.0), 1.0);
+    const double core = versine_of(inner);
+    const double below_edge = edge - (1.0 - local.z);
+    // A hard edge, also if the cones differ by less than the rounding of their versines: the ramp has no width.
+    if (!(edge > core)) return below_edge >= 0.0 ? 1.0 / solid_angle() : 0.0;
+    const double a = std::fmin(std::fmax(below_edge / (edge - core), 0.0), 1.0);
     return a * a / solid_angle();
   }
-  EmitterExtent extent() const { return {outer, outer}; }
+  EmitterExtent extent() const { return {outer, outer, outer - inner < outer / 64.0}; }
   std::optional<LawFault> fault() const {
     if (!(outer >= smallest_outer && outer <= largest_outer))
       return LawFault{"outer cone angle", outer, "1e-6 to π/2 = 1.5708 rad",
                       "Give the half angle of the cone that contains its light."};
-    if (!(inner >= 0.0 && inner < outer))
-      return LawFault{"inner cone angle", inner, "0 rad to below the outer angle",
+    if (!(inner >= 0.0 && inner <= outer))
+      return LawFault{"inner cone angle", inner, "0 rad to the outer angle",
                       "Give the half angle of the cone of full intensity."};
     return std::nullopt;
   }

@@ -19,8 +19,14 @@ struct ReadOptions {
   std::string scene;                 // name of the scene; default: the file's default scene, else its first
   double scale = 1.0;                // length of the file's unit in m, > 0: 0.01 for centimetres
   UpAxis up = UpAxis::y;             // z: the file's Z becomes the room's Y, its Y the room's −Z
-  std::vector<std::string> numbered_materials;  // their reflectance will be set by set_reflectance(): their textures
-                                                // may be missing
+  // Names of materials or surfaces, as for set_reflectance(), whose reflectance that function will set: their textures
+  // may be missing.
+  std::vector<std::string> numbered;
+  // What is left out: names or patterns ("*", "?", "[a-z]") of nodes, each with all nodes below it, of meshes,
+  // materials or surfaces.
+  std::vector<std::string> without;
+  // Whether the buffers and images of the file may be symbolic links that lead out of its folder.
+  bool follow_links = false;
 };
 
 // Reads a room from a .gltf or .glb file.
@@ -30,13 +36,20 @@ struct ReadOptions {
 // Reflectance: material extras.reflectance, else the Rec. 709 luminance of the base colour factor times the base colour
 // texture, point by point. Emitters: KHR_lights_punctual point and spot; node or light extras lambert_exponent, power,
 // unit; emissive materials (radiant or luminous flux = exitance · area in m²). Receivers: nodes with extras.receiver.
+// Nodes that KHR_node_visibility hides are left out, with all below them.
+//
+// A surface has the name of its node, or of the mesh if the node has none ("node.material" if the mesh has several
+// primitives). Where several nodes have one name, names of parents come before it, as few as tell them apart:
+// "desk_1/top"; where parents do not, a number follows: "top_2".
+//
 // Room::ignored lists what the file contains beyond that; Room::overrides lists scale and up axis if they differ from
-// the default.
+// the default, and what was left out.
 //
 // read_gltf() does not check whether the room can be simulated (check_room() does) or is plausible (inspect() does).
 // Throws InputError, with the name of the file and of the node, mesh, material or accessor, if the file cannot be read,
-// violates the specification in a way that matters here, requires an unknown extension, lacks an image, or contains
-// both W and lm; and if the scale is not a finite number above 0.
+// violates the specification in a way that matters here, requires an unknown extension, lacks an image, contains both W
+// and lm, or names a file that is not beneath its own folder; if the scale is not a finite number above 0; and if a
+// pattern of `without` fits nothing.
 Room read_gltf(const std::filesystem::path& file, const ReadOptions& options = {});
 
 // Writes a room as a .glb (binary) or .gltf (JSON with embedded buffer) file; the extension of the name determines

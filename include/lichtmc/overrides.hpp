@@ -8,9 +8,11 @@
 
 namespace lichtmc {
 
-// Sets the reflectance (0 … 1) of every surface with this material; it replaces a reflectance map. Throws InputError if
-// the room has no such material (the message lists its materials) or the reflectance is out of range.
-void set_reflectance(Room& room, const std::string& material, double reflectance);
+// Sets the reflectance (0 … 1) of surfaces; it replaces a reflectance map. `name` is the name of a material, which
+// means all its surfaces, or of a surface; "material:NAME" and "surface:NAME" mean only one of both. It may be a
+// pattern with "*", "?" and "[…]". Throws InputError if there is none of this name (the message lists similar ones), if
+// a name without prefix means a material and also a surface of another material, or if the reflectance is out of range.
+void set_reflectance(Room& room, const std::string& name, double reflectance);
 
 // Lowers every reflectance above `highest` (0 … 1) to `highest`, in reflectance maps too. Throws InputError if it is
 // out of range.

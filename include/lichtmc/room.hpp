@@ -94,13 +94,13 @@ struct LambertEmitter {
   LambertLaw law() const { return {exponent}; }
 };
 
-// A spot with a soft edge: I(θ) = I₀ inside the inner cone, I₀ a² between the cones with
-// a = (cos θ − cos outer)/(cos inner − cos outer), 0 outside.
-// Hence Φ = 2π I₀ [(1 − cos inner) + (cos inner − cos outer)/3].
+// A spot with a soft edge, or with inner = outer a hard one: I(θ) = I₀ inside the inner cone, I₀ a² between the cones
+// with a = (cos θ − cos outer)/(cos inner − cos outer), 0 outside. Hence Φ = 2π I₀ [(1 − cos inner) + (cos inner − cos
+// outer)/3].
 struct SpotEmitter {
   glm::dvec3 position{0.0};          // m
   glm::dvec3 axis{0.0, -1.0, 0.0};   // direction of the beam, any length but 0
-  double inner = 0.0;                // rad, half angle of the cone of full intensity, 0 ≤ inner < outer
+  double inner = 0.0;                // rad, half angle of the cone of full intensity, 0 ≤ inner ≤ outer
   double outer = 0.785398163397448;  // rad, half angle of the cone that contains all light, 1e-6 ≤ outer ≤ π/2
 
   SpotLaw law() const { return {inner, outer}; }
@@ -145,6 +145,7 @@ enum class Effect { none, figures };
 struct Ignored {
   std::string what;              // a sentence or two
   Effect effect = Effect::none;  // whether it may change the figures
+  std::string advice = {};       // what to do, a sentence; empty: what its effect demands
 };
 
 struct Room {

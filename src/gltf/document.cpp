@@ -1,5 +1,7 @@
 #include "gltf/document.hpp"
 
+#include <cmath>
+
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
 
@@ -34,6 +36,25 @@ double number_in(const Document& document, const tinygltf::Value& object, const 
   if (!value.IsNumber())
     refuse(document, "'" + std::string(name) + "' of " + where + " is not a number. Set it to a number.");
   return value.GetNumberAsDouble();
+}
+
+glm::dvec3 colour_in(const Document& document, const tinygltf::Value& object, const char* name,
+                     const glm::dvec3& otherwise, const std::string& where) {
+  if (!object.IsObject() || !object.Has(name)) return otherwise;
+  const tinygltf::Value& value = object.Get(name);
+  glm::dvec3 colour(0.0);
+  bool valid = value.IsArray() && value.ArrayLen() >= 3;
+  for (int k = 0; valid && k < 3; ++k) {
+    const tinygltf::Value& channel = value.Get(k);
+    valid = channel.IsNumber() && channel.GetNumberAsDouble() >= 0.0 && std::isfinite(channel.GetNumberAsDouble());
+    if (valid) colour[k] = channel.GetNumberAsDouble();
+  }
+  if (!valid) {
+    refuse(document,
+           "'" + std::string(name) + "' of " + where +
+               " is not a colour (allowed: at least three finite numbers, 0 or more). Export the file again.");
+  }
+  return colour;
 }
 
 }  // namespace lichtmc

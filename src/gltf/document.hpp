@@ -1,19 +1,34 @@
 // A glTF file parsed by tinygltf, with the checks that tinygltf does not make.
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <tiny_gltf.h>
+#include <glm/vec3.hpp>
 
 namespace lichtmc {
 
+// An extension of glTF that a file uses.
+struct ExtensionUse {
+  std::string name;
+  bool required = false;
+  std::size_t places = 0;   // number of objects that have it
+  std::string first_place;  // "material 'glass'"; empty: it is only listed
+};
+
 struct Document {
-  std::string file;  // the path as the user gave it, for messages
+  std::string file;              // the path as the user gave it, for messages
+  std::filesystem::path folder;  // that contains it; buffers and images are beneath it
+  bool follow_links = false;     // whether they may be symbolic links that lead out of it
+  std::vector<ExtensionUse> extensions;
   tinygltf::Model model;
   std::vector<std::vector<unsigned char>>
-      images;                         // the files of Model::images, not decoded; empty if a file is missing
-  std::vector<std::string> warnings;  // of the parser, one line each
+      images;                           // Model::images in buffers or data URIs, not decoded; empty for those in files
+  std::vector<std::string> image_uris;  // of those in files; empty for the others
+  std::vector<std::string> warnings;    // of the parser, one line each
 };
 
 // "node 'lamp'"; "node 3" without a name.
@@ -29,5 +44,10 @@ std::size_t checked_index(const Document& document, long long index, std::size_t
 // not a number. `where`: what it belongs to, for messages.
 double number_in(const Document& document, const tinygltf::Value& object, const char* name, double otherwise,
                  const std::string& where);
+
+// A colour in extras or an extension: the first three of its numbers; `otherwise` if there is no entry of that name.
+// Throws InputError if they are not finite numbers, 0 or more.
+glm::dvec3 colour_in(const Document& document, const tinygltf::Value& object, const char* name,
+                     const glm::dvec3& otherwise, const std::string& where);
 
 }  // namespace lichtmc

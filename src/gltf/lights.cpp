@@ -77,7 +77,7 @@ SpotEmitter read_spot(const Document& document, const tinygltf::Value& light, co
   if (spot.law().fault()) {
     refuse(document, "the cone angles of the spot of " + placed.label + " are " + to_text(spot.inner) +
                          " (inner) and " + to_text(spot.outer) +
-                         " rad (outer) (allowed: 0 ≤ inner < outer, outer from 1e-6 to π/2). Set its size and blend.");
+                         " rad (outer) (allowed: 0 ≤ inner ≤ outer, outer from 1e-6 to π/2). Set its size and blend.");
   }
   return spot;
 }

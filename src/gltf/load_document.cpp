@@ -1,21 +1,19 @@
 #include "gltf/load_document.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <limits>
+#include <new>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "base/message.hpp"
+#include "base/read_file.hpp"
 #include "base/wide.hpp"
 #include "gltf/decompress.hpp"
+#include "gltf/extensions.hpp"
+#include "gltf/external_files.hpp"
 #include "gltf/prepare.hpp"
 #include "lichtmc/error.hpp"
 
@@ -25,21 +23,11 @@ namespace {
 
 constexpr const char* export_again = " Export the file again.";
 
-// Extensions that are read, or that have no influence on the room.
-constexpr std::array<const char*, 8> known_extensions{"EXT_mesh_gpu_instancing",         "EXT_meshopt_compression",
-                                                      "KHR_draco_mesh_compression",      "KHR_lights_punctual",
-                                                      "KHR_materials_emissive_strength", "KHR_materials_unlit",
-                                                      "KHR_mesh_quantization",           "KHR_texture_transform"};
+// The parser counts bytes in 32 bits.
+constexpr std::size_t most_bytes = std::numeric_limits<std::int32_t>::max();
 
 std::string read_bytes(const std::filesystem::path& path, const std::string& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw InputError("Cannot read " + file + " (it is a folder). Give the name of a .gltf or .glb file.");
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError("Cannot open " + file + " (" + std::strerror(errno) + "). Check the name of the file.");
-  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (in.bad()) throw InputError("Cannot read " + file + ". Check the disk that contains it.");
+  std::string bytes = require_regular_file(path, most_bytes, file, "Give the name of a .gltf or .glb file.");
   if (bytes.empty()) throw InputError(file + ": the file is empty. Give the name of a .gltf or .glb file.");
   return bytes;
 }
@@ -114,32 +102,13 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+// The lines of a message of the parser, which may quote whole buffers.
 std::string joined(const std::string& text) {
+  constexpr std::size_t longest = 200;
   std::string all;
-  for (const std::string& line : lines_of(text)) all += (all.empty() ? "" : "; ") + line;
+  for (const std::string& line : lines_of(text))
+    all += (all.empty() ? "" : "; ") + (line.size() > longest ? line.substr(0, longest) + "…" : line);
   return all.empty() ? "unknown reason" : all;
-}
-
-// The strings in an array of the file; none if the JSON is invalid: the parser reports that later.
-std::vector<std::string> names_in(const nlohmann::json& json, const char* list) {
-  std::vector<std::string> names;
-  if (!json.is_object() || !json.contains(list) || !json[list].is_array()) return names;
-  for (const auto& name : json[list]) {
-    if (name.is_string()) names.push_back(name.get<std::string>());
-  }
-  return names;
-}
-
-// Called before parsing: the parser reports an unknown required extension less clearly.
-void check_extensions(const Document& document, const nlohmann::json& json) {
-  for (const std::string& name : names_in(json, "extensionsRequired")) {
-    if (is_known_extension(name)) continue;
-    std::string known;
-    for (const char* k : known_extensions) known += (known.empty() ? "" : ", ") + std::string(k);
-    refuse(document, "the file requires the extension " + in_quotes(name) +
-                         ", which lichtmc does not support (allowed: " + known +
-                         "). Export the file without this extension.");
-  }
 }
 
 void check_version(const Document& document) {
@@ -175,13 +144,9 @@ void replace_json(std::string& bytes, bool binary, const JsonText& old, std::str
 }
 
 // Parses the bytes; the checks before parsing have passed.
-void parse(Document& document, const std::string& bytes, bool binary, const std::string& folder) {
-  constexpr std::size_t largest = std::numeric_limits<std::int32_t>::max();  // the parser counts bytes in 32 bits
-  if (bytes.size() > largest) {
-    refuse(document,
-           "the file has " + std::to_string(bytes.size()) + " bytes (allowed: up to 2147483647). Split the room.");
-  }
+void parse(Document& document, const std::string& bytes, bool binary, ExternalFiles& files) {
   tinygltf::TinyGLTF parser;
+  files.serve(parser);
   parser.SetImageLoader(store_image, &document.images);
   std::string error;
   std::string warning;
@@ -189,26 +154,31 @@ void parse(Document& document, const std::string& bytes, bool binary, const std:
   bool parsed = false;
   try {
     parsed = binary ? parser.LoadBinaryFromMemory(&document.model, &error, &warning,
-                                                  reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
-                    : parser.LoadASCIIFromString(&document.model, &error, &warning, bytes.data(), size, folder);
-  } catch (const std::exception& reason) {
-    error += reason.what();
+                                                  reinterpret_cast<const unsigned char*>(bytes.data()), size, "")
+                    : parser.LoadASCIIFromString(&document.model, &error, &warning, bytes.data(), size, "");
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {  // of its JSON library, whose text means nothing to a user
+    error += "a value has an unexpected type or size";
   }
   if (!parsed) refuse(document, "the file is not valid glTF 2.0 (" + joined(error) + ")." + export_again);
   document.warnings = lines_of(warning);
   document.images.resize(document.model.images.size());
+  document.image_uris.resize(document.model.images.size());
+  for (std::size_t k = 0; k < document.images.size(); ++k) {
+    if (document.image_uris[k].empty()) continue;
+    document.images[k].clear();
+    document.model.images[k].uri = document.image_uris[k];
+  }
   store_images_in_buffers(document);
 }
 
 }  // namespace
 
-bool is_known_extension(const std::string& name) {
-  return std::any_of(known_extensions.begin(), known_extensions.end(),
-                     [&](const char* known) { return name == known; });
-}
-
-Document load_document(const std::filesystem::path& path) {
+Document load_document(const std::filesystem::path& path, bool follow_links) {
   Document document;
+  document.folder = path.parent_path();
+  document.follow_links = follow_links;
   document.file = path.string();
   std::string bytes = read_bytes(path, document.file);
   const bool binary = is_binary(bytes);
@@ -218,9 +188,13 @@ Document load_document(const std::filesystem::path& path) {
     refuse(document, "the JSON is nested deeper than 256 levels (the limit)." + std::string(export_again));
   const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(text.offset);
   nlohmann::json json = nlohmann::json::parse(begin, begin + static_cast<std::ptrdiff_t>(text.size), nullptr, false);
-  check_extensions(document, json);
-  if (make_readable(json)) replace_json(bytes, binary, text, json.dump());
-  parse(document, bytes, binary, path.parent_path().string());
+  document.extensions = extensions_in(json);
+  check_required_extensions(document);
+  ExternalFiles files;
+  const bool readable = make_readable(json);
+  const bool external = files.take(json, document);
+  if (readable || external) replace_json(bytes, binary, text, json.dump());
+  parse(document, bytes, binary, files);
   check_version(document);
   decompress_views(document);
   decompress_primitives(document);

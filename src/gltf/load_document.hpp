@@ -8,13 +8,11 @@
 
 namespace lichtmc {
 
-// Parses a .gltf or .glb file; the first bytes determine the format. Loads buffers and images. Decompresses meshes
-// (EXT_meshopt_compression, KHR_draco_mesh_compression).
-// Throws InputError if the file cannot be opened, is not glTF 2.x or requires an unknown extension, if its GLB
-// container or compressed data is damaged, or if a buffer is missing.
-Document load_document(const std::filesystem::path& file);
-
-// Whether an extension is read completely, or has no influence on the simulation.
-bool is_known_extension(const std::string& name);
+// Parses a .gltf or .glb file; the first bytes determine the format. Loads buffers and embedded images. Decompresses
+// meshes (EXT_meshopt_compression, KHR_draco_mesh_compression). `follow_links`: as in ReadOptions.
+// Throws InputError if the file cannot be read, is not a regular file of up to 2 GiB or not glTF 2.x, or requires an
+// unknown extension; if its GLB container or compressed data is damaged; or if a buffer is missing, too short or not
+// beneath the folder of the file.
+Document load_document(const std::filesystem::path& file, bool follow_links);
 
 }  // namespace lichtmc

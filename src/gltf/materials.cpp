@@ -16,17 +16,43 @@ std::string name_of(const tinygltf::Material& material, std::size_t index) {
   return material.name.empty() ? "material_" + std::to_string(index) : material.name;
 }
 
-bool gives_reflectance(const tinygltf::Material& material) {
-  return material.extras.IsObject() && material.extras.Has("reflectance");
-}
+// The base colour: factor, and texture if there is one.
+struct BaseColour {
+  glm::dvec3 factor{1.0};
+  std::optional<TextureUse> texture;
+};
 
-glm::dvec3 base_colour_factor(const tinygltf::Material& material) {
+// With KHR_materials_pbrSpecularGlossiness: diffuse factor and texture, which the extension puts in place of the base
+// colour.
+BaseColour read_base_colour(const Document& document, const tinygltf::Material& material, const std::string& where) {
+  BaseColour result;
+  const auto diffuse = material.extensions.find("KHR_materials_pbrSpecularGlossiness");
+  if (diffuse != material.extensions.end()) {
+    const tinygltf::Value& values = diffuse->second;
+    result.factor = colour_in(document, values, "diffuseFactor", glm::dvec3(1.0), where);
+    if (!values.IsObject() || !values.Has("diffuseTexture")) return result;
+    const tinygltf::Value& info = values.Get("diffuseTexture");
+    const std::string what = "the diffuse texture of " + where;
+    const double index = number_in(document, info, "index", -1.0, what);
+    const double set = number_in(document, info, "texCoord", 0.0, what);
+    if (!(index >= 0.0 && index < 1e9 && set >= 0.0 && set < 1e6))
+      refuse(document, what + " has the index " + to_text(index) + " and the texCoord " + to_text(set) +
+                           " (allowed: numbers of a texture and a UV set). Export the file again.");
+    const auto extensions = info.Has("extensions") && info.Get("extensions").IsObject()
+                                ? info.Get("extensions").Get<tinygltf::Value::Object>()
+                                : tinygltf::ExtensionMap{};
+    result.texture = read_texture_use(document, static_cast<int>(index), static_cast<int>(set), extensions, where);
+    return result;
+  }
   const std::vector<double>& colour = material.pbrMetallicRoughness.baseColorFactor;
-  return colour.size() >= 3 ? glm::dvec3(colour[0], colour[1], colour[2]) : glm::dvec3(1.0);
+  if (colour.size() >= 3) result.factor = glm::dvec3(colour[0], colour[1], colour[2]);
+  const auto& info = material.pbrMetallicRoughness.baseColorTexture;
+  if (info.index >= 0) result.texture = read_texture_use(document, info.index, info.texCoord, info.extensions, where);
+  return result;
 }
 
-double read_reflectance(const Document& document, const tinygltf::Material& material, const std::string& where) {
-  const glm::dvec3 colour = base_colour_factor(material);
+double read_reflectance(const Document& document, const tinygltf::Material& material, const glm::dvec3& colour,
+                        const std::string& where) {
   const double reflectance = gives_reflectance(material)
                                  ? number_in(document, material.extras, "reflectance", 0.0, where)
                                  : luminance(colour.r, colour.g, colour.b);
@@ -37,12 +63,12 @@ double read_reflectance(const Document& document, const tinygltf::Material& mate
 }
 
 std::vector<TextureUse> read_texture_uses(const Document& document, const tinygltf::Material& material,
-                                          const std::string& where) {
+                                          const BaseColour& base, const std::string& where) {
   std::vector<TextureUse> uses;
+  if (base.texture) uses.push_back(*base.texture);
   const auto add = [&](const auto& info) {
     if (info.index >= 0) uses.push_back(read_texture_use(document, info.index, info.texCoord, info.extensions, where));
   };
-  add(material.pbrMetallicRoughness.baseColorTexture);
   add(material.emissiveTexture);
   add(material.normalTexture);
   add(material.occlusionTexture);
@@ -80,6 +106,10 @@ std::optional<Emission> read_emission(const Document& document, const tinygltf::
 }
 
 }  // namespace
+
+bool gives_reflectance(const tinygltf::Material& material) {
+  return material.extras.IsObject() && material.extras.Has("reflectance");
+}
 
 std::optional<double> power_in(const Document& document, const tinygltf::Value& extras, const std::string& where) {
   if (!extras.IsObject() || !extras.Has("power")) return std::nullopt;
@@ -123,73 +153,18 @@ Material read_material(const Document& document, int index, bool by_number) {
   const auto k = static_cast<std::size_t>(index);
   const auto& material = document.model.materials[k];
   const std::string where = label("material", material.name, k);
-  result.reflectance = read_reflectance(document, material, where);
-  result.factor = base_colour_factor(material);
+  const BaseColour base = read_base_colour(document, material, where);
+  result.reflectance = read_reflectance(document, material, base.factor, where);
+  result.factor = base.factor;
   result.source = gives_reflectance(material)        ? ReflectanceSource::property
                   : result.factor == glm::dvec3(1.0) ? ReflectanceSource::default_white
                                                      : ReflectanceSource::base_colour;
-  result.textures = read_texture_uses(document, material, where);
-  if (material.pbrMetallicRoughness.baseColorTexture.index >= 0 && !gives_reflectance(material) && !by_number)
-    result.base_colour = result.textures.front();
+  result.textures = read_texture_uses(document, material, base, where);
+  if (!gives_reflectance(material) && !by_number) result.base_colour = base.texture;
   result.takes_vertex_colours = !gives_reflectance(material) && !by_number;
   result.sides = material.doubleSided ? Sides::both : Sides::one;
   result.emission = read_emission(document, material, where);
   return result;
-}
-
-namespace {
-
-void note_ignored_extensions(const tinygltf::Material& material, const std::string& where,
-                             std::vector<Ignored>& ignored) {
-  for (const auto& [name, value] : material.extensions) {
-    if (name == strength_extension || name == "KHR_materials_unlit") continue;
-    const bool transmits = name == "KHR_materials_transmission" || name == "KHR_materials_diffuse_transmission" ||
-                           name == "KHR_materials_volume";
-    const bool has_other_colour = name == "KHR_materials_pbrSpecularGlossiness";
-    const char* consequence = transmits          ? " and transmits no light. Remove panes that should transmit light."
-                              : has_other_colour ? " with the reflectance of its base colour. Set the custom property "
-                                                   "'reflectance'."
-                                                 : ".";
-    ignored.push_back(
-        {where + "the extension " + name + " is not modelled; the material reflects diffusely" + consequence,
-         transmits || has_other_colour ? Effect::figures : Effect::none});
-  }
-}
-
-// `where`: "Material 'name': ".
-void note_ignored_properties(const tinygltf::Material& material, const std::string& where,
-                             std::vector<Ignored>& ignored) {
-  const auto note = [&](bool present, Effect effect, const char* what) {
-    if (present) ignored.push_back({where + what, effect});
-  };
-  note(material.normalTexture.index >= 0, Effect::none, "its normal texture is not modelled; facets are flat.");
-  note(material.alphaMode == "BLEND" || material.alphaMode == "MASK", Effect::figures,
-       "transparency (alpha) is not modelled; the material is opaque. Remove surfaces that should transmit light.");
-  note(material.occlusionTexture.index >= 0, Effect::none,
-       "its occlusion texture is not used; occlusion is simulated.");
-  note(material.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0, Effect::none,
-       "its metallic-roughness texture is not modelled; the material reflects diffusely.");
-}
-
-}  // namespace
-
-void note_ignored_materials(const Document& document, const std::vector<bool>& used, std::vector<Ignored>& ignored) {
-  const auto& materials = document.model.materials;
-  std::size_t metals = 0;
-  for (std::size_t k = 0; k < materials.size(); ++k) {
-    if (!used[k]) continue;
-    const auto& material = materials[k];
-    const std::string where = "Material " + in_quotes(name_of(material, k)) + ": ";
-    note_ignored_properties(material, where, ignored);
-    if (material.pbrMetallicRoughness.metallicFactor > 0.0 && !gives_reflectance(material)) ++metals;
-    note_ignored_extensions(material, where, ignored);
-  }
-  if (metals > 0) {
-    ignored.push_back({to_text(metals, "material") + (metals == 1 ? " is" : " are") +
-                           " metallic (glTF's default is metallicFactor 1): metal and gloss are not modelled, these "
-                           "materials reflect diffusely. Near real mirrors the figures differ.",
-                       Effect::figures});
-  }
 }
 
 }  // namespace lichtmc

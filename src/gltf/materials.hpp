@@ -57,7 +57,17 @@ Material read_material(const Document& document, int index, bool by_number);
 // The name of material number `index`, as used in surfaces and tables.
 std::string material_name(const Document& document, int index);
 
-// Adds the properties of used materials that are not modelled.
-void note_ignored_materials(const Document& document, const std::vector<bool>& used, std::vector<Ignored>& ignored);
+// Whether a material has the custom property 'reflectance'.
+bool gives_reflectance(const tinygltf::Material& material);
+
+// How a material is used in the room.
+struct MaterialUse {
+  bool used = false;
+  bool by_number = false;  // its reflectance will be set as a number
+};
+
+// Adds the properties of used materials that are not modelled. `uses`: one for each material of the file.
+void note_ignored_materials(const Document& document, const std::vector<MaterialUse>& uses,
+                            std::vector<Ignored>& ignored);
 
 }  // namespace lichtmc

@@ -79,6 +79,21 @@ bool finite(const glm::dmat4& matrix) {
   return true;
 }
 
+// Whether KHR_node_visibility hides a node and all nodes below it. Drafts of the extension had `hidden` in place of
+// `visible`.
+bool hides(const Document& document, const tinygltf::Node& node, const std::string& where) {
+  const auto found = node.extensions.find("KHR_node_visibility");
+  if (found == node.extensions.end()) return false;
+  const auto flag = [&](const char* name, bool otherwise) {
+    if (!found->second.IsObject() || !found->second.Has(name)) return otherwise;
+    const tinygltf::Value& value = found->second.Get(name);
+    if (value.IsBool()) return value.Get<bool>();
+    refuse(document, "'" + std::string(name) + "' of the extension KHR_node_visibility of " + where +
+                         " is not a truth value (allowed: true or false). Export the file again.");
+  };
+  return !flag("visible", true) || flag("hidden", false);
+}
+
 // The root nodes of the scene, in the order of the file.
 std::vector<std::size_t> roots_of(const Document& document, const std::string& scene) {
   const auto& nodes = document.model.nodes;
@@ -101,11 +116,13 @@ std::vector<PlacedNode> place_nodes(const Document& document, const std::string&
   const auto& nodes = document.model.nodes;
   struct Pending {
     std::size_t node;
-    glm::dmat4 parent;
+    glm::dmat4 transform;               // of its parent
+    std::optional<std::size_t> parent;  // position in `placed`
   };
   std::vector<Pending> pending;  // a stack: depth first, without recursion
   const std::vector<std::size_t> roots = roots_of(document, scene);
-  for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root, root_transform});
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+    pending.push_back({*root, root_transform, std::nullopt});
 
   std::vector<PlacedNode> placed;
   std::vector<bool> visited(nodes.size(), false);
@@ -118,12 +135,14 @@ std::vector<PlacedNode> place_nodes(const Document& document, const std::string&
       refuse(document, where + " has two parents or is its own ancestor (allowed: one parent). Export the file again.");
     }
     visited[next.node] = true;
-    const glm::dmat4 world = next.parent * local_transform(document, node, where);
+    const glm::dmat4 world = next.transform * local_transform(document, node, where);
     if (!finite(world))
       refuse(document, "the transform of " + where + " is not finite. Set its position, rotation and scale.");
-    placed.push_back({next.node, where, world});
+    const bool hidden = hides(document, node, where) || (next.parent && placed[*next.parent].hidden);
+    const std::size_t number = placed.size();
+    placed.push_back({next.node, where, world, next.parent, hidden});
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
-      pending.push_back({checked_index(document, *child, nodes.size(), "a child of " + where), world});
+      pending.push_back({checked_index(document, *child, nodes.size(), "a child of " + where), world, number});
     }
   }
   return placed;

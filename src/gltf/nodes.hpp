@@ -1,6 +1,8 @@
 // The nodes of a scene with their world transforms.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,8 @@ struct PlacedNode {
   std::size_t index = 0;  // in the file
   std::string label;      // for messages: "node 'lamp'"
   glm::dmat4 world{1.0};
+  std::optional<std::size_t> parent;  // position in the list of placed nodes; none for a root
+  bool hidden = false;                // KHR_node_visibility: the node or an ancestor is not visible
 
   glm::dvec3 position() const { return glm::dvec3(world[3]); }
   // The direction of the node's −Z axis. Not normalized; 0 if the scale of the node is 0.

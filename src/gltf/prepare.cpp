@@ -12,12 +12,6 @@ using Json = nlohmann::json;
 
 constexpr int max_depth = 256;
 
-// The elements of an array; none if it is missing or not an array.
-Json& list_in(Json& object, const char* name) {
-  static thread_local Json none = Json::array();
-  return object.is_object() && object.contains(name) && object[name].is_array() ? object[name] : none;
-}
-
 bool has_extension(const Json& object, const char* name) {
   return object.is_object() && object.contains("extensions") && object["extensions"].is_object() &&
          object["extensions"].contains(name);
@@ -55,6 +49,12 @@ bool fill_empty_buffers(Json& json) {
 }
 
 }  // namespace
+
+Json& list_in(Json& object, const char* name) {
+  static thread_local Json none;
+  none = Json::array();
+  return object.is_object() && object.contains(name) && object[name].is_array() ? object[name] : none;
+}
 
 bool nests_too_deep(const char* begin, const char* end) {
   int depth = 0;

@@ -11,15 +11,19 @@
 #include "base/message.hpp"
 #include "gltf/deform.hpp"
 #include "gltf/document.hpp"
+#include "gltf/extensions.hpp"
 #include "gltf/geometry.hpp"
+#include "gltf/left_out.hpp"
 #include "gltf/lights.hpp"
 #include "gltf/load_document.hpp"
 #include "gltf/materials.hpp"
+#include "gltf/node_names.hpp"
 #include "gltf/nodes.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/gltf.hpp"
 #include "room/emission.hpp"
 #include "room/emitter_shape.hpp"
+#include "room/surface_choice.hpp"
 
 namespace lichtmc {
 
@@ -54,27 +58,28 @@ class RoomReader {
   RoomReader(const Document& document, const ReadOptions& options)
       : document_(&document),
         options_(&options),
+        nodes_(place_nodes(document, options.scene, root_transform(document, options))),
+        names_of_scene_(name_scene(document, nodes_)),
+        skins_(document, nodes_),
+        left_out_(document, nodes_, options.without),
         reflectance_maps_(document, reflectance_role),
         emission_maps_(document, emission_role),
-        used_materials_(document.model.materials.size(), false) {
+        material_uses_(document.model.materials.size()) {
     room_.source = document.file;
+    for (const std::string& text : options.numbered) numbered_.emplace_back(text);
   }
 
   Room read() {
-    const std::vector<PlacedNode> nodes =
-        place_nodes(*document_, options_->scene, root_transform(*document_, *options_));
-    const Skins skins(*document_, nodes);
-    for (const PlacedNode& placed : nodes) {
-      read_mesh(placed, skins);
-      if (auto light = read_light(*document_, placed, room_.ignored)) add_emitter(std::move(*light));
-      if (auto receiver = read_receiver(*document_, placed)) room_.receivers.push_back(std::move(*receiver));
-      note_node(placed);
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (!nodes_[k].hidden && !left_out_.node(k)) read_node(k);
     }
+    left_out_.check_patterns(nodes_, room_.overrides);
     room_.reflectance_maps = reflectance_maps_.take();
     room_.emission_maps = emission_maps_.take();
     drop_uniform_maps();
     for (Surface& surface : room_.surfaces) surface.reflectance = mean_reflectance(room_, surface);
-    note_ignored_materials(*document_, used_materials_, room_.ignored);
+    note_ignored_materials(*document_, material_uses_, room_.ignored);
+    note_extensions(*document_, room_.ignored);
     note_rounded();
     note_file();
     note_overrides();
@@ -83,7 +88,23 @@ class RoomReader {
   }
 
  private:
-  void read_mesh(const PlacedNode& placed, const Skins& skins) {
+  void read_node(std::size_t k) {
+    const PlacedNode& placed = nodes_[k];
+    read_mesh(k);
+    if (auto light = read_light(*document_, placed, room_.ignored)) {
+      light->emitter.name = names_of_scene_.nodes[k];
+      add_emitter(std::move(*light));
+    }
+    if (auto receiver = read_receiver(*document_, placed)) {
+      receiver->name = names_of_scene_.nodes[k];
+      room_.receivers.push_back(std::move(*receiver));
+    }
+    const auto& node = document_->model.nodes[placed.index];
+    if (node.camera >= 0) note("The camera of " + placed.label + " is not used.", Effect::none);
+  }
+
+  void read_mesh(std::size_t number) {
+    const PlacedNode& placed = nodes_[number];
     const auto& model = document_->model;
     const auto& node = model.nodes[placed.index];
     if (node.mesh < 0) return;
@@ -92,22 +113,24 @@ class RoomReader {
     const std::vector<glm::dmat4> transforms = mesh_transforms(*document_, placed);
     for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
       const auto& primitive = mesh.primitives[k];
+      const std::string name_of_material = material_name(*document_, primitive.material);
+      if (left_out_.mesh(mesh.name) || left_out_.material(name_of_material)) {
+        left_out_.count_surfaces(transforms.size());
+        continue;
+      }
       std::string where = label("mesh", mesh.name, index);
       if (mesh.primitives.size() > 1) where += ", primitive " + std::to_string(k);
       where += " (" + placed.label + ")";
-      const Material material = read_material(*document_, primitive.material, by_number(primitive.material));
-      if (primitive.material >= 0) used_materials_[static_cast<std::size_t>(primitive.material)] = true;
+      const bool by_number = numbered_material(name_of_material);
+      const Material material = read_material(*document_, primitive.material, by_number);
+      if (primitive.material >= 0) material_uses_[static_cast<std::size_t>(primitive.material)] = {true, by_number};
       const auto stored = read_primitive(*document_, primitive, material, options_->uv_set, morph_weights(node, mesh),
                                          where, room_.ignored);
       if (!stored) continue;
-      note_rounding(largest_scale(placed.world) * coarse_rounding(*document_, primitive, *stored),
-                    in_quotes(!node.name.empty() ? node.name : mesh.name));
-      std::string name = !node.name.empty()   ? node.name
-                         : !mesh.name.empty() ? mesh.name
-                                              : "mesh_" + std::to_string(index);
-      if (mesh.primitives.size() > 1) name += "." + (primitive.material >= 0 ? material.name : std::to_string(k));
+      const std::string& name = names_of_scene_.primitives[number][k];
+      note_rounding(largest_scale(placed.world) * coarse_rounding(*document_, primitive, *stored), in_quotes(name));
       if (const auto of_vertices =
-              skins.vertex_transforms(node, primitive, stored->positions.size(), where, room_.ignored)) {
+              skins_.vertex_transforms(node, primitive, stored->positions.size(), where, room_.ignored)) {
         add_surface(place_primitive(*stored, *of_vertices), name, material, *stored);
         if (node.extensions.count("EXT_mesh_gpu_instancing") != 0)
           note("The instances of " + placed.label + " are not applied: its mesh has a skin.", Effect::figures);
@@ -117,10 +140,14 @@ class RoomReader {
     }
   }
 
-  // Whether the reflectance of a material will be set as a number.
-  bool by_number(int material) const {
-    const auto& names = options_->numbered_materials;
-    return std::find(names.begin(), names.end(), material_name(*document_, material)) != names.end();
+  // Whether the reflectance of a material, or of a surface, will be set as a number.
+  bool numbered_material(const std::string& material) const {
+    return std::any_of(numbered_.begin(), numbered_.end(),
+                       [&](const SurfaceChoice& choice) { return choice.by_material(material); });
+  }
+  bool numbered_surface(const std::string& name) const {
+    return std::any_of(numbered_.begin(), numbered_.end(),
+                       [&](const SurfaceChoice& choice) { return choice.by_name(name); });
   }
 
   // stored: the primitive that the surface is made of.
@@ -131,17 +158,25 @@ class RoomReader {
            Effect::none);
       return;
     }
+    surface.name = unique(name);
+    if (left_out_.surface(surface.name)) {
+      left_out_.count_surfaces(1);
+      return;
+    }
     triangles_ += surface.triangles.size();
     if (triangles_ > max_triangles) {
       refuse(*document_, "the room has more than " + std::to_string(max_triangles) +
                              " triangles (the limit), including instances. Split it, or simplify its meshes.");
     }
-    surface.name = unique(name);
     surface.material = material.name;
     surface.reflectance = material.reflectance;
     surface.reflectance_source = material.source;
     surface.sides = material.sides;
-    set_varying_reflectance(surface, material, stored.vertex_colours);
+    if (numbered_surface(surface.name)) {
+      surface.reflectance_uvs.clear();
+    } else {
+      set_varying_reflectance(surface, material, stored.vertex_colours);
+    }
     room_.surfaces.push_back(std::move(surface));
     if (!material.emission || !add_area_light(*material.emission, material.name, stored)) return;
     if (material.sides == Sides::both) {
@@ -270,15 +305,6 @@ class RoomReader {
 
   void note(std::string what, Effect effect) { room_.ignored.push_back({std::move(what), effect}); }
 
-  void note_node(const PlacedNode& placed) {
-    const auto& node = document_->model.nodes[placed.index];
-    if (node.camera >= 0) note("The camera of " + placed.label + " is not used.", Effect::none);
-    for (const auto& [name, value] : node.extensions) {
-      if (name == "KHR_lights_punctual" || name == "EXT_mesh_gpu_instancing") continue;
-      note("The extension " + name + " of " + placed.label + " is not applied.", Effect::none);
-    }
-  }
-
   void note_file() {
     const auto& model = document_->model;
     if (model.scenes.size() > 1) {
@@ -287,9 +313,7 @@ class RoomReader {
     }
     if (!model.animations.empty())
       note("Not applied: " + to_text(model.animations.size(), "animation") + ".", Effect::none);
-    for (const std::string& name : model.extensionsUsed) {
-      if (!is_known_extension(name)) note("The file uses the extension " + name + ", which is not read.", Effect::none);
-    }
+    note_hidden();
     for (const std::string& warning : document_->warnings) note("Message of the parser: " + warning, Effect::none);
   }
 
@@ -309,6 +333,19 @@ class RoomReader {
          Effect::figures);
   }
 
+  void note_hidden() {
+    constexpr std::size_t shown = 5;
+    std::size_t hidden = 0;
+    std::string names;
+    for (const PlacedNode& node : nodes_) {
+      if (!node.hidden || (node.parent && nodes_[*node.parent].hidden)) continue;
+      if (++hidden <= shown) names += (names.empty() ? "" : ", ") + node.label;
+    }
+    if (hidden == 0) return;
+    if (hidden > shown) names += " and " + std::to_string(hidden - shown) + " more";
+    note("Hidden in the file (KHR_node_visibility) and left out, with the nodes below: " + names + ".", Effect::none);
+  }
+
   void note_overrides() {
     if (options_->scale != 1.0) room_.overrides.push_back("Lengths multiplied by " + to_text(options_->scale) + ".");
     if (options_->up == UpAxis::z) room_.overrides.push_back("Rotated from Z-up to Y-up.");
@@ -316,6 +353,11 @@ class RoomReader {
 
   const Document* document_;
   const ReadOptions* options_;
+  std::vector<PlacedNode> nodes_;
+  SceneNames names_of_scene_;
+  Skins skins_;
+  LeftOut left_out_;
+  std::vector<SurfaceChoice> numbered_;
   Room room_;
   TextureMaps reflectance_maps_;
   TextureMaps emission_maps_;
@@ -324,7 +366,7 @@ class RoomReader {
   Names rounded_;                     // meshes whose positions are too coarse
   double coarsest_ = 0.0;             // distance between floats there, in the file's unit
   std::vector<Quantity> quantities_;  // of the emitters
-  std::vector<bool> used_materials_;
+  std::vector<MaterialUse> material_uses_;
   std::set<std::string> names_;
   std::map<std::string, int> last_number_;  // appended to make a name unique, by name
 };
@@ -332,7 +374,7 @@ class RoomReader {
 }  // namespace
 
 Room read_gltf(const std::filesystem::path& file, const ReadOptions& options) {
-  const Document document = load_document(file);
+  const Document document = load_document(file, options.follow_links);
   return RoomReader(document, options).read();
 }
 

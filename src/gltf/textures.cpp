@@ -3,21 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <utility>
 
-#include <stb/stb_image.h>
 #include <glm/common.hpp>
 
 #include "base/luminance.hpp"
 #include "base/message.hpp"
 #include "base/png.hpp"
+#include "gltf/texture_source.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-constexpr double max_pixels = 0x1p28;
 
 glm::dvec2 pair_in(const Document& document, const tinygltf::Value& object, const char* name,
                    const glm::dvec2& otherwise, const std::string& where) {
@@ -42,13 +39,14 @@ std::vector<double> linear_values() {
 }
 
 template <class Channel>
-void set_values(const Channel* pixels, const glm::dvec3& factor, bool coloured, double highest, TextureMap& map) {
+void set_values(const std::vector<Channel>& pixels, const glm::dvec3& factor, bool coloured, double highest,
+                TextureMap& map) {
   const std::vector<double> light = linear_values<Channel>();
   const std::size_t count = std::size_t{map.columns} * map.rows;
   map.values.resize(count);
   if (coloured) map.colours.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const Channel* p = pixels + 3 * k;
+    const Channel* p = pixels.data() + 3 * k;
     const glm::dvec3 colour(factor.r * light[p[0]], factor.g * light[p[1]], factor.b * light[p[2]]);
     map.values[k] = static_cast<float>(std::min(luminance(colour.r, colour.g, colour.b), highest));
     if (coloured) map.colours[k] = glm::vec3(glm::min(colour, glm::dvec3(highest)));
@@ -59,39 +57,6 @@ Wrap wrap_of(int mode) {
   if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp;
   if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirror;
   return Wrap::repeat;
-}
-
-void decode(const Document& document, const std::vector<unsigned char>& bytes, const glm::dvec3& factor, bool coloured,
-            const std::string& what, const TextureRole& role, TextureMap& map) {
-  using Free = void (*)(void*);
-  const auto size = static_cast<int>(bytes.size());
-  int columns = 0;
-  int rows = 0;
-  int channels = 0;
-  const auto reason = [] {
-    const char* text = stbi_failure_reason();
-    return std::string(text != nullptr ? text : "unknown reason");
-  };
-  const auto refuse_image = [&](const std::string& fault) {
-    refuse(document, what + " cannot be read (" + fault +
-                         "; allowed: PNG or JPEG). Export its textures as PNG or JPEG, or " + role.remedy);
-  };
-  if (stbi_info_from_memory(bytes.data(), size, &columns, &rows, &channels) == 0) refuse_image(reason());
-  if (double{1} * columns * rows > max_pixels)
-    refuse_image("it has " + std::to_string(columns) + " × " + std::to_string(rows) + " pixels, more than 2^28");
-  map.columns = static_cast<std::uint32_t>(columns);
-  map.rows = static_cast<std::uint32_t>(rows);
-  if (stbi_is_16_bit_from_memory(bytes.data(), size) != 0) {
-    const std::unique_ptr<stbi_us, Free> pixels(
-        stbi_load_16_from_memory(bytes.data(), size, &columns, &rows, &channels, 3), stbi_image_free);
-    if (!pixels) refuse_image(reason());
-    set_values(pixels.get(), factor, coloured, role.highest, map);
-  } else {
-    const std::unique_ptr<stbi_uc, Free> pixels(
-        stbi_load_from_memory(bytes.data(), size, &columns, &rows, &channels, 3), stbi_image_free);
-    if (!pixels) refuse_image(reason());
-    set_values(pixels.get(), factor, coloured, role.highest, map);
-  }
 }
 
 }  // namespace
@@ -126,30 +91,25 @@ std::size_t TextureMaps::find_or_make(int texture, const glm::dvec3& factor, boo
   const std::tuple key{texture, coloured, factor.r, factor.g, factor.b};
   if (const auto made = made_.find(key); made != made_.end()) return made->second;
 
-  const std::string whose = std::string(role_->texture) + " of " + where;
+  const std::string what = "the " + std::string(role_->texture) + " of " + where;
+  const DecodedImage image = read_texture(*document_, texture, what, "Or " + std::string(role_->remedy));
   const auto& model = document_->model;
-  const auto& used = model.textures[checked_index(*document_, texture, model.textures.size(), "the " + whose)];
-  if (used.source < 0) {
-    refuse(*document_, "the " + whose +
-                           " has no image in a supported format (allowed: PNG or JPEG). Export its textures as PNG or "
-                           "JPEG, or " +
-                           role_->remedy);
-  }
-  const std::size_t index = checked_index(*document_, used.source, model.images.size(), "the image of the " + whose);
-  const auto& image = model.images[index];
-  const std::string name = !image.name.empty() ? image.name : !image.uri.empty() ? image.uri : std::to_string(index);
-  const std::string what = "the image " + in_quotes(name) + ", " + role_->image + " of " + where + ",";
-  if (document_->images[index].empty())
-    refuse(*document_, what + " is missing. Copy it into the folder of the room file, or " + role_->remedy);
+  const auto& used = model.textures[static_cast<std::size_t>(texture)];
   TextureMap map;
-  map.name = name;
+  map.name = image_name(*document_, *image_of_texture(*document_, texture, what));
   if (used.sampler >= 0) {
     const auto& sampler =
         model.samplers[checked_index(*document_, used.sampler, model.samplers.size(), "the sampler of " + where)];
     map.wrap_u = wrap_of(sampler.wrapS);
     map.wrap_v = wrap_of(sampler.wrapT);
   }
-  decode(*document_, document_->images[index], factor, coloured, what, *role_, map);
+  map.columns = image.columns;
+  map.rows = image.rows;
+  if (image.words.empty()) {
+    set_values(image.bytes, factor, coloured, role_->highest, map);
+  } else {
+    set_values(image.words, factor, coloured, role_->highest, map);
+  }
   maps_.push_back(std::move(map));
   return made_[key] = maps_.size() - 1;
 }

@@ -60,7 +60,7 @@ class TextureMaps {
 
   // The index of the map of a texture and a factor (linear colours): the Rec. 709 luminance of their product, pixel by
   // pixel; `coloured`: also the product itself. Throws InputError with the names of material and image if the image is
-  // missing, is neither PNG nor JPEG, is damaged, or has more than 2^28 pixels.
+  // missing, is neither PNG, JPEG nor WebP, is damaged, or has more than 2^28 pixels.
   std::size_t find_or_make(int texture, const glm::dvec3& factor, bool coloured, const std::string& where);
 
   const TextureMap& operator[](std::size_t map) const { return maps_[map]; }

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "base/message.hpp"
+#include "base/names.hpp"
 #include "lichtmc/error.hpp"
 #include "room/reflectance.hpp"
+#include "room/surface_choice.hpp"
 
 namespace lichtmc {
 
@@ -21,12 +23,32 @@ void check_reflectance(double reflectance, const std::string& what) {
                    " (allowed: 0 to 1). Give the share of light that is reflected, for example 0.5.");
 }
 
-std::string materials_of(const Room& room) {
-  std::set<std::string> names;
-  for (const Surface& surface : room.surfaces) names.insert(in_quotes(surface.material));
+// "(allowed: …)" with the materials and surfaces that have similar names.
+std::string similar_names(const Room& room, const SurfaceChoice& choice) {
+  std::vector<std::string> materials;
+  std::vector<std::string> surfaces;
+  for (const Surface& surface : room.surfaces) {
+    materials.push_back(surface.material);
+    surfaces.push_back(surface.name);
+  }
   std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
+  if (choice.materials) list += "materials: " + nearest_names(choice.name, std::move(materials));
+  if (choice.surfaces)
+    list += (list.empty() ? "" : "; ") + std::string("surfaces: ") + nearest_names(choice.name, std::move(surfaces));
+  return "(allowed, among others: " + list + ")";
+}
+
+// Throws if a name without prefix means a material and also a surface that has another material.
+void check_one_meaning(const Room& room, const SurfaceChoice& choice) {
+  const auto has = [&](auto fits) { return std::find_if(room.surfaces.begin(), room.surfaces.end(), fits); };
+  const auto by_material = has([&](const Surface& s) { return choice.by_material(s.material); });
+  const auto by_name_only =
+      has([&](const Surface& s) { return choice.by_name(s.name) && !choice.by_material(s.material); });
+  if (by_material == room.surfaces.end() || by_name_only == room.surfaces.end()) return;
+  throw InputError("The name " + in_quotes(choice.name) + " of --reflectance means the material " +
+                   in_quotes(by_material->material) + " and also the surface " + in_quotes(by_name_only->name) +
+                   ", which has another material (allowed: one of both). Give --reflectance 'material:" + choice.name +
+                   "=R' or --reflectance 'surface:" + choice.name + "=R'.");
 }
 
 // Whether the values of each map may be lowered: those of surfaces with vertex colours must not, because the limit
@@ -50,11 +72,16 @@ std::vector<bool> separate_maps(Room& room) {
 
 }  // namespace
 
-void set_reflectance(Room& room, const std::string& material, double reflectance) {
-  check_reflectance(reflectance, "The reflectance for material " + in_quotes(material));
+void set_reflectance(Room& room, const std::string& name, double reflectance) {
+  const SurfaceChoice choice(name);
+  check_reflectance(reflectance, "The reflectance for " + in_quotes(choice.name));
+  check_one_meaning(room, choice);
   std::size_t changed = 0;
+  bool by_material = false;
   for (Surface& surface : room.surfaces) {
-    if (surface.material != material) continue;
+    const bool fits = choice.by_material(surface.material);
+    if (!fits && !choice.by_name(surface.name)) continue;
+    by_material = by_material || fits;
     surface.reflectance = reflectance;
     surface.reflectance_source = ReflectanceSource::given;
     surface.reflectance_map.reset();
@@ -64,11 +91,12 @@ void set_reflectance(Room& room, const std::string& material, double reflectance
     ++changed;
   }
   if (changed == 0) {
-    throw InputError("There is no material " + in_quotes(material) + " in " + room.source + " (it has " +
-                     materials_of(room) + "). Give one of these names.");
+    const std::string kind = !choice.surfaces ? "material " : !choice.materials ? "surface " : "material or surface ";
+    throw InputError("There is no " + kind + in_quotes(choice.name) + " in " + room.source + " " +
+                     similar_names(room, choice) + ". Give the name of a material or surface of the room.");
   }
-  room.overrides.push_back("Material " + in_quotes(material) + ": reflectance set to " + to_text(reflectance) + " on " +
-                           to_text(changed, "surface") + ".");
+  room.overrides.push_back((by_material ? "Material " : "Surface ") + in_quotes(choice.name) + ": reflectance set to " +
+                           to_text(reflectance) + " on " + to_text(changed, "surface") + ".");
 }
 
 void limit_reflectance(Room& room, double highest) {

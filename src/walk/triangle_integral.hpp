@@ -64,15 +64,16 @@ IntegratedTriangle integrate_once(const Triangle& t, const Function& f) {
 
 // Divides a triangle into four until the error of each part is at most `relative` of its integral or `absolute` times
 // its area; appends the parts to `leaves`.
-// coarse(triangle): whether the function may vary between the points without an effect on them, so that the triangle
-// must be divided; is_zero(triangle): whether the function is 0 on all of it.
+// coarse(triangle, depth): whether the function may vary between the points without an effect on them, so that the
+// triangle, which comes from `depth` divisions, must be divided; is_zero(triangle): whether the function is 0 on all of
+// it.
 template <class Function, class Coarse, class IsZero>
 void integrate(const Triangle& t, const Function& f, const Coarse& coarse, const IsZero& is_zero, double relative,
                double absolute, std::vector<IntegratedTriangle>& leaves, int depth = 0) {
   constexpr int deepest = 40;         // a triangle of 10⁻¹² of the size of the first
   constexpr int deepest_smooth = 10;  // few triangles of 10⁻³ of the size contain kinks: the remaining error is small
   if (is_zero(t)) return;
-  const bool divide = depth < deepest && coarse(t);
+  const bool divide = depth < deepest && coarse(t, depth);
   if (!divide) {
     const IntegratedTriangle leaf = integrate_once(t, f);
     const double allowed = std::fmax(relative * leaf.integral, absolute * area_of(t));

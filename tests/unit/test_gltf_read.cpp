@@ -132,7 +132,10 @@ TEST_CASE("a spot has the power of its cones") {
   CHECK(glm::length(spot.axis - glm::dvec3(0, -1, 0)) < 4 * 0x1p-53);
   const double expected = 2.0 * pi * 100.0 * ((1.0 - std::cos(0.3)) + (std::cos(0.3) - std::cos(0.6)) / 3.0);
   CHECK(std::abs(room.emitters[0].power / expected - 1.0) < 1e-14);  // 1 − cos loses two digits in the test's own form
+  // A hard edge: full intensity in the whole cone.
   light["spot"] = {{"innerConeAngle", 0.6}, {"outerConeAngle", 0.6}};
+  CHECK(read_document(document).emitters[0].power == Approx(2.0 * pi * 100.0 * (1.0 - std::cos(0.6))).epsilon(1e-14));
+  light["spot"] = {{"innerConeAngle", 0.7}, {"outerConeAngle", 0.6}};
   CHECK_THAT(refusal(document), ContainsSubstring("cone angles"));
 }
 

@@ -132,7 +132,7 @@ TEST_CASE("an image that is missing or cannot be decoded is refused with the mat
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "room.gltf") << document.dump();
   ReadOptions options;
-  options.numbered_materials = {"paint"};
+  options.numbered = {"paint"};
   Room room = read_gltf(folder.path() / "room.gltf", options);
   set_reflectance(room, "paint", 0.6);
   CHECK(room.surfaces[0].reflectance == 0.6);

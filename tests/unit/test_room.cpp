@@ -97,7 +97,8 @@ TEST_CASE("check_room names the emitter and the value that is wrong") {
   refuses(with_emitter({"lamp", 1.0, LambertEmitter{p, down, not_a_number}}), {"'lamp'", "nan", "exponent"});
   refuses(with_emitter({"lamp", 1.0, SpotEmitter{p, down, 0.2, 1.6}}), {"'lamp'", "1.6", "outer"});
   refuses(with_emitter({"lamp", 1.0, SpotEmitter{p, down, 0.0, 0.0}}), {"'lamp'", "outer"});
-  refuses(with_emitter({"lamp", 1.0, SpotEmitter{p, down, 0.5, 0.5}}), {"'lamp'", "0.5", "inner"});
+  refuses(with_emitter({"lamp", 1.0, SpotEmitter{p, down, 0.6, 0.5}}), {"'lamp'", "0.6", "inner"});
+  CHECK_NOTHROW(check_room(with_emitter({"lamp", 1.0, SpotEmitter{p, down, 0.5, 0.5}})));  // a hard edge
   refuses(with_emitter({"lamp", 1.0, SpotEmitter{p, down, -0.1, 0.5}}), {"'lamp'", "-0.1", "inner"});
   refuses(with_emitter({"lamp", 1.0, SurfaceEmitter{6, 1.0}}), {"'lamp'", " is 6 ", "below 6"});
   Room room = with_emitter({"lamp", 1.0, SurfaceEmitter{2, 1.0}});
