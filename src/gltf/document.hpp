@@ -7,7 +7,9 @@
 #include <vector>
 
 #include <tiny_gltf.h>
+
 #include <glm/vec3.hpp>
+#include "lichtmc/room.hpp"
 
 namespace lichtmc {
 
@@ -24,6 +26,7 @@ struct Document {
   std::filesystem::path folder;  // that contains it; buffers and images are beneath it
   bool follow_links = false;     // whether they may be symbolic links that lead out of it
   std::vector<ExtensionUse> extensions;
+  std::vector<Ignored> property_notes;  // of check_custom_properties()
   tinygltf::Model model;
   std::vector<std::vector<unsigned char>>
       images;                           // Model::images in buffers or data URIs, not decoded; empty for those in files

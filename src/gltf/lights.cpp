@@ -132,7 +132,6 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
   const auto exponent =
       first(exponent_in(document, node.extras, placed.label), exponent_in(document, of_light, light_label));
   const auto power = first(power_in(document, node.extras, placed.label), power_in(document, of_light, light_label));
-  const auto unit = first(unit_in(document, node.extras, placed.label), unit_in(document, of_light, light_label));
 
   FileEmitter result;
   if (light != nullptr) {
@@ -140,7 +139,7 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
     if (!emitter) return std::nullopt;
     result.emitter = *emitter;
   } else if (!exponent) {
-    if (power)
+    if (power && node.mesh < 0)  // with a mesh: check_custom_properties()
       ignored.push_back({"'power' of " + placed.label +
                              ": the node has neither a light nor 'lambert_exponent' and is no emitter. Give it one of "
                              "them, or remove 'power'.",
@@ -152,6 +151,8 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
                          "(and 'unit', \"lm\" or \"W\"), or give it a light.");
   }
   result.emitter.name = node.name.empty() ? placed.label : node.name;
+  // Read only here: nodes that emit nothing may have a 'unit' of another program.
+  const auto unit = first(unit_in(document, node.extras, placed.label), unit_in(document, of_light, light_label));
   result.quantity = unit.value_or(Quantity::photometric);
   if (power) result.emitter.power = *power;
   // This replaces the shape; the power is kept.

@@ -11,6 +11,7 @@
 #include "base/message.hpp"
 #include "base/read_file.hpp"
 #include "base/wide.hpp"
+#include "gltf/custom_properties.hpp"
 #include "gltf/decompress.hpp"
 #include "gltf/extensions.hpp"
 #include "gltf/external_files.hpp"
@@ -191,9 +192,11 @@ Document load_document(const std::filesystem::path& path, bool follow_links) {
   document.extensions = extensions_in(json);
   check_required_extensions(document);
   ExternalFiles files;
-  const bool readable = make_readable(json);
-  const bool external = files.take(json, document);
-  if (readable || external) replace_json(bytes, binary, text, json.dump());
+  bool changed = make_readable(json);
+  changed = files.take(json, document) || changed;
+  bool completed = false;
+  document.property_notes = check_custom_properties(document, json, completed);
+  if (changed || completed) replace_json(bytes, binary, text, json.dump());
   parse(document, bytes, binary, files);
   check_version(document);
   decompress_views(document);

@@ -24,6 +24,7 @@
 #include "room/emission.hpp"
 #include "room/emitter_shape.hpp"
 #include "room/surface_choice.hpp"
+#include "room/surface_pieces.hpp"
 
 namespace lichtmc {
 
@@ -80,6 +81,7 @@ class RoomReader {
     for (Surface& surface : room_.surfaces) surface.reflectance = mean_reflectance(room_, surface);
     note_ignored_materials(*document_, material_uses_, room_.ignored);
     note_extensions(*document_, room_.ignored);
+    room_.ignored.insert(room_.ignored.end(), document_->property_notes.begin(), document_->property_notes.end());
     note_rounded();
     note_file();
     note_overrides();
@@ -228,6 +230,7 @@ class RoomReader {
     emitter.emitter.power = emission.power.value_or(std::numbers::pi * luminance_cd_m2 * surface_area(surface));
     emitter.emitter.shape = std::move(shape);
     emitter.quantity = emission.quantity;
+    if (emission.power) note_pieces(surface, *emission.power, emission.quantity);
     add_emitter(std::move(emitter));
     return true;
   }
@@ -272,6 +275,19 @@ class RoomReader {
              " emits nothing, although its material has the custom property 'power': its emissive texture is black "
              "there.",
          Effect::figures);
+  }
+
+  // Several luminaires in one mesh (in Blender: an Array modifier, or joined objects) share one power.
+  void note_pieces(const Surface& surface, double power, Quantity quantity) {
+    const SurfacePieces pieces = pieces_of(surface);
+    if (pieces.count < 2) return;
+    const std::string unit(power_unit(quantity));
+    const double together = static_cast<double>(pieces.count) * power;
+    room_.ignored.push_back({"The area light " + in_quotes(surface.name) + " has " + std::to_string(pieces.count) +
+                                 " separate pieces, which together have the power " + to_text(power) + " " + unit + ".",
+                             Effect::none,
+                             "Nothing to do if that is the power of all. If each piece has it, set 'power' to " +
+                                 to_text(together) + ", or make each piece an object of its own."});
   }
 
   void add_emitter(FileEmitter emitter) {
