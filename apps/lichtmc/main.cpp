@@ -1,5 +1,6 @@
 // The program lichtmc: reads the command line, runs a command, and turns errors into messages and exit status.
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -103,6 +104,11 @@ int run_program(int argc, char** argv, lichtmc::Communicator* communicator) {
 
 using lichtmc::visible_text;
 
+constexpr const char* no_memory =
+    "The memory was not sufficient. Use larger tiles or fewer threads, free some memory, or split the room.";
+constexpr const char* internal_error =
+    "An internal error occurred. Please report it together with the command and the room file.";
+
 struct Failure {
   std::string message;
   int status = exit_failed;
@@ -119,20 +125,36 @@ Failure current_failure() {
   } catch (const lichtmc::Error& error) {
     return {visible_text(error.what()), exit_failed};
   } catch (const std::bad_alloc&) {
-    return {"The memory was not sufficient. Use larger tiles or fewer threads, free some memory, or split the room.",
-            exit_failed};
+    return {no_memory, exit_failed};
   } catch (const std::filesystem::filesystem_error& error) {
     return {"Cannot use " + visible_text(error.path1().string()) + " (" + error.code().message() +
                 "). Check the path, its permissions and its disk.",
             exit_failed};
   } catch (...) {  // the texts of other exceptions of libraries mean nothing to a user
-    return {"An internal error occurred. Please report it together with the command and the room file.", exit_failed};
+    return {internal_error, exit_failed};
   }
+}
+
+// For an exception that nobody can handle: libraries need memory even where they release some (nlohmann-json in its
+// destructor), and end the program there if it lacks. Takes no memory itself.
+[[noreturn]] void end_at_once() {
+  const char* message = internal_error;
+  if (const std::exception_ptr error = std::current_exception()) {
+    try {
+      std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+      message = no_memory;
+    } catch (...) {
+    }
+  }
+  for (const char* part : {"lichtmc: ", message, "\n"}) std::fputs(part, stderr);
+  std::_Exit(exit_failed);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::set_terminate(end_at_once);
   std::signal(SIGXFSZ, SIG_IGN);  // beyond the limit of file size a write then fails with a message
   lichtmc::app::Console console;
   try {

@@ -1,9 +1,11 @@
 """Bad input gives exit status 2 and one message that names the file and the item in it, and says what to do."""
 import math
 import os
+import resource
+import subprocess
 import unittest
 
-from support import SCENES, ProgramTest, lichtmc, triangle_room
+from support import PROGRAM, SCENES, ProgramTest, lichtmc, triangle_room
 
 CUBE = SCENES / "cube_paper.gltf"
 
@@ -20,6 +22,37 @@ class BadFiles(ProgramTest):
 
     def test_folder_in_place_of_a_file(self):
         self.refused("run", self.folder, says=[str(self.folder)])
+
+    def test_pipes_and_devices_are_refused_at_once(self):
+        pipe = self.folder / "pipe.glb"
+        os.mkfifo(pipe)
+        self.refused("check", pipe, says=["it is a pipe", "allowed: a regular file"])
+        self.refused("run", "/dev/zero", says=["/dev/zero", "it is a device"])
+        room = self.write_gltf(triangle_room())
+        self.refused("run", room, "--receivers", "/dev/zero", says=["/dev/zero", "device"])
+
+    def test_files_outside_the_folder_of_the_room(self):
+        document = triangle_room()
+        document["buffers"][0]["uri"] = "../../../../../../etc/passwd"
+        self.refused("check", self.write_gltf(document), says=["'../../../../../../etc/passwd' of buffer 0", "leads out of the folder"])
+
+    def test_memory_that_is_not_sufficient(self):
+        """The message is lichtmc's own, not that of a library."""
+        document = triangle_room()
+        document["padding"] = [[0] * 10] * 1_000_000
+        room = self.write_gltf(document)
+        limit = 200 << 20
+        done = subprocess.run([PROGRAM, "check", room], capture_output=True, text=True, timeout=60, check=False,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("The memory was not sufficient.", done.stderr)
+        self.assertNotIn("std::", done.stderr)
+
+    def test_without_and_reflectance_of_names_that_do_not_exist(self):
+        room = self.write_gltf(triangle_room())
+        self.refused("check", room, "--without", "flor", says=["'flor' of --without", "'floor'"])
+        self.refused("check", room, "--reflectance", "pant=0.5", says=["no material or surface 'pant'", "'paint'"])
+        self.refused("check", room, "--without", "floor", says=["no triangle with an area"])
 
     def test_truncated_file(self):
         whole = (SCENES / "living_room.glb").read_bytes()
