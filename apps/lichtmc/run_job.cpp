@@ -108,9 +108,13 @@ void write_all(RunJob& job, Result& result, const std::vector<std::string>& prin
   const std::vector<std::string> of_the_run = without(result.warnings, printed);
   result.warnings = of_the_run;
   result.warnings.insert(result.warnings.end(), printed.begin(), printed.end());
-  write_state(result.state, job.folder / "state.h5", job.note);
-  result.state = {};  // frees as much memory as the tiles need
-  write_results(job.room, result, job.folder, job.files);
+  {
+    StepLine line(show);
+    line.update("Writing the results");
+    write_state(result.state, job.folder / "state.h5", job.note);
+    result.state = {};  // frees as much memory as the tiles need
+    write_results(job.room, result, job.folder, job.files);
+  }
   if (job.with_report) {
     StepLine line(show);
     job.report.progress = [&line](std::string_view what) { line.update(what); };
