@@ -2,7 +2,7 @@
 # Tests the readers of rooms and of tables of receivers with malformed files, under the address and undefined-behaviour sanitizers. Requires clang.
 #   tools/fuzz.sh [SECONDS]     default 60, a quarter of it for tables; ends with 1 if a reader fails on a file, with 77
 #                               if clang is missing
-# Seeds are the room files of LICHTMC_ROOMS (../shared/rooms) and scenes/. New inputs that reach new code are kept in build/fuzz/corpus,
+# Seeds are the room files of LICHTMC_ROOMS (../shared/rooms), scenes/ and tests/fuzz/rooms/. New inputs that reach new code are kept in build/fuzz/corpus,
 # files on which a reader fails in build/fuzz.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -16,8 +16,8 @@ cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz --target fuzz_gltf fuzz_receivers
 mkdir -p build/fuzz/corpus build/fuzz/seeds build/fuzz/corpus_receivers
 rooms=${LICHTMC_ROOMS:-../shared/rooms}
-folders=(scenes)
-if [ -d "$rooms" ]; then folders+=("$rooms"); else echo "fuzz.sh: the folder $rooms does not exist; only scenes/ are seeds" >&2; fi
+folders=(scenes tests/fuzz/rooms)
+if [ -d "$rooms" ]; then folders+=("$rooms"); else echo "fuzz.sh: the folder $rooms does not exist; only scenes/ and tests/fuzz/rooms/ are seeds" >&2; fi
 # Only small files: the fuzzer changes single bytes.
 n=0
 while IFS= read -r -d '' file; do
