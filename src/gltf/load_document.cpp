@@ -28,7 +28,8 @@ constexpr const char* export_again = " Export the file again.";
 constexpr std::size_t most_bytes = std::numeric_limits<std::int32_t>::max();
 
 std::string read_bytes(const std::filesystem::path& path, const std::string& file) {
-  std::string bytes = require_regular_file(path, most_bytes, file, "Give the name of a .gltf or .glb file.");
+  std::string bytes = require_regular_file(path, most_bytes, file,
+                                           "Give the name of a .gltf or .glb file; split a room that is larger.");
   if (bytes.empty()) throw InputError(file + ": the file is empty. Give the name of a .gltf or .glb file.");
   return bytes;
 }
@@ -107,8 +108,13 @@ std::vector<std::string> lines_of(const std::string& text) {
 std::string joined(const std::string& text) {
   constexpr std::size_t longest = 200;
   std::string all;
-  for (const std::string& line : lines_of(text))
-    all += (all.empty() ? "" : "; ") + (line.size() > longest ? line.substr(0, longest) + "…" : line);
+  for (std::string line : lines_of(text)) {
+    // "[json.exception.parse_error.101] parse error at line 1": only the second part means something to a user.
+    const std::size_t end = line.find("] ");
+    if (line.compare(0, 16, "[json.exception.") == 0 && end != std::string::npos) line.erase(0, end + 2);
+    if (line.size() > longest) line = line.substr(0, longest) + "…";
+    all += (all.empty() ? "" : "; ") + line;
+  }
   return all.empty() ? "unknown reason" : all;
 }
 
