@@ -235,7 +235,7 @@ std::vector<glm::dvec3> read_colours(const Document& document, int index, const 
     refuse(document, where +
                          " are neither floats nor normalized unsigned bytes or shorts (the types allowed). Export the "
                          "file again, or set the reflectance of the material: custom property 'reflectance', or "
-                         "--reflectance MATERIAL=R.");
+                         "--reflectance NAME=R.");
   const std::size_t components = opacity ? 4 : 3;
   const std::vector<double> values = values_of(document, accessor, components, where);
   std::vector<glm::dvec3> colours(values.size() / components);

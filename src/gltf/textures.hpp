@@ -41,15 +41,14 @@ TextureUse read_texture_use(const Document& document, int texture, int uv_set, c
 // A use of textures, in the words of messages.
 struct TextureRole {
   const char* texture;  // "base colour texture"
-  const char* image;    // "base colour"
   const char* remedy;   // what to do if the image is missing or cannot be read, besides providing it
   double highest;       // values above it, by rounding of a factor, are set to it
 };
 inline constexpr TextureRole reflectance_role{
-    "base colour texture", "base colour",
-    "set the reflectance of the material: custom property 'reflectance', or --reflectance MATERIAL=R.", 1.0};
+    "base colour texture",
+    "set the reflectance of the material: custom property 'reflectance', or --reflectance NAME=R.", 1.0};
 inline constexpr TextureRole emission_role{
-    "emissive texture", "emission",
+    "emissive texture",
     "give the material the custom property 'power': its surfaces then emit this power, uniformly over their area.",
     std::numeric_limits<double>::infinity()};
 
