@@ -86,6 +86,7 @@ void print_tiles(const Result& result) {
             << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of the tiles with hits)" : ")");
   if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " without hits";
   std::cerr << ".\n";
+  if (const std::string left_out = unreached_text(result); !left_out.empty()) std::cerr << left_out << '\n';
   warn_of_missed_target(result.settings, result.walk.stopped_by, result.walk.rms_relative_error,
                         static_cast<double>(result.walk.histories), result.walk.histories_to_target,
                         result.walk.seconds, ", or larger tiles");

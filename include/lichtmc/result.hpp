@@ -44,8 +44,8 @@ struct SurfaceResult {
   double reflectance = 0.0;  // with a reflectance map: its mean over the surface
   double area_m2 = 0.0;
   std::uint64_t tiles = 0;
-  double mean_irradiance = 0.0;  // power / area in W/m² or lx
-  double min_irradiance = 0.0;   // of the tiles
+  double mean_irradiance = 0.0;  // power / (area − unreached area) in W/m² or lx
+  double min_irradiance = 0.0;   // of the tiles that light can reach
   double max_irradiance = 0.0;
   double standard_error = 0.0;  // of the mean
   double power = 0.0;           // incident power in W or lm
@@ -56,6 +56,9 @@ struct SurfaceResult {
   // reflectance maps it is counted photon by photon, and adds up to Balance::absorbed. NaN (unknown) for a surface with
   // a reflectance map in backward walks.
   double absorbed = std::numeric_limits<double>::quiet_NaN();
+  // m², part of the area that no light can reach, by the shape of the room: outer faces of thick walls, undersides of
+  // slabs. The means and the lowest irradiance are of the rest.
+  double unreached_area_m2 = 0.0;
 };
 
 // One receiver.
@@ -122,7 +125,8 @@ struct Result {
   Balance balance;
   double incident = 0.0;                 // incident power of all tiles in W or lm
   double incident_standard_error = 0.0;  // NaN if unknown (too few histories)
-  std::uint64_t tiles_without_hits = 0;  // tiles of irradiance 0
+  std::uint64_t tiles_without_hits = 0;  // tiles of irradiance 0 that light can reach
+  std::uint64_t unreached_tiles = 0;     // tiles whose point no light can reach, see SurfaceResult::unreached_area_m2
 
   std::vector<TileResult> tiles;        // as Tiling::tiles; empty if only receivers were measured
   std::vector<SurfaceResult> surfaces;  // as Tiling::maps
@@ -137,5 +141,8 @@ struct Result {
 
 // Whether the direct light of tiles was computed separately: TileResult::direct is a number.
 bool direct_is_apart(const Result& result);
+
+// What the means leave out: "12.4 m² of 5 surfaces cannot be reached by light …"; empty if light can reach all.
+std::string unreached_text(const Result& result);
 
 }  // namespace lichtmc

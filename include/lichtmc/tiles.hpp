@@ -47,8 +47,9 @@ struct Tile {
   std::uint32_t map = 0;  // index into Tiling::maps
   std::uint32_t column = 0;
   std::uint32_t row = 0;
-  glm::dvec3 point{0.0};  // m, a point of the surface in this tile: the cell's centre if the surface covers it
-  double area_m2 = 0.0;   // of the surface in this cell, > 0
+  std::uint32_t triangle = 0;  // of the surface, on which `point` lies
+  glm::dvec3 point{0.0};       // m, a point of the surface in this tile: the cell's centre if the surface covers it
+  double area_m2 = 0.0;        // of the surface in this cell, > 0
 };
 
 struct Tiling {

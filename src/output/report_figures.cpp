@@ -87,10 +87,12 @@ std::string surfaces_section(const ReportContent& content) {
             number_cell(s.max_irradiance) + number_cell(s.power) + number_cell(100.0 * s.behind_share) +
             count_cell(s.tiles) + "</tr>\n";
   }
+  const std::string left_out = unreached_text(result);
   std::string html = heading("Surfaces");
   html += text_element("p",
                        "Click a heading to sort. Lowest and highest are values of single tiles and include their "
-                       "statistical errors. tiles.csv contains all tiles.",
+                       "statistical errors. tiles.csv contains all tiles." +
+                           (left_out.empty() ? left_out : ' ' + left_out),
                        " class=\"muted\"");
   html += element("div",
                   element("table",

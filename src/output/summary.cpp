@@ -25,6 +25,7 @@ Json surfaces_of(const Result& result, const ResultFiles& written) {
                {"material", s.material},
                {"reflectance", number(s.reflectance)},
                {"area", number(s.area_m2)},
+               {"unreached_area", number(s.unreached_area_m2)},
                {"tiles", s.tiles},
                {"columns", map.columns},
                {"rows", map.rows},
@@ -110,6 +111,7 @@ Json units_of(const Result& result) {
           {"gain_db", "dB"},
           {"fov", "degrees"},
           {"area", "m^2"},
+          {"unreached_area", "m^2"},
           {"x", "m"},
           {"y", "m"},
           {"z", "m"},
@@ -206,6 +208,7 @@ void add_details(const Room& room, const Result& result, const ResultFiles& file
   summary["tile_edge_m"] = result.settings.tile_edge_m;
   summary["tiles_count"] = result.tiles.size();
   summary["tiles_without_hits"] = result.tiles_without_hits;
+  summary["unreached_tiles"] = result.unreached_tiles;
   summary["max_bounces"] = result.settings.max_bounces ? Json(*result.settings.max_bounces) : Json(nullptr);
   summary["retraced"] = result.walk.retraced;
   summary["lost_histories"] = result.lost_histories;

@@ -76,13 +76,14 @@ std::string surfaces_csv(const Result& result) {
       "name,material,reflectance,area,tiles,mean_irradiance,min_irradiance,max_irradiance,standard_error,power,behind_"
       "share,hits,unit";
   if (direct_is_apart(result)) table += parts;
-  table += ",absorbed\n";
+  table += ",absorbed,unreached_area\n";
   const std::string unit(irradiance_unit(result.quantity));
   for (const SurfaceResult& s : result.surfaces) {
     append_row(table, csv_field(s.name), csv_field(s.material), to_text(s.reflectance), to_text(s.area_m2),
                std::to_string(s.tiles), to_text(s.mean_irradiance), to_text(s.min_irradiance),
                to_text(s.max_irradiance), to_text(s.standard_error), to_text(s.power), to_text(s.behind_share),
-               std::to_string(s.hits), unit_and_parts(unit, s.mean_irradiance, s.mean_direct), to_text(s.absorbed));
+               std::to_string(s.hits), unit_and_parts(unit, s.mean_irradiance, s.mean_direct), to_text(s.absorbed),
+               to_text(s.unreached_area_m2));
   }
   return table;
 }

@@ -17,9 +17,10 @@ namespace lichtmc {
 // separately. Numbers have enough digits to give the same doubles when read.
 void write_tiles_csv(const Result& result, const Sink& sink);
 
-// name,material,reflectance,area,tiles,mean_irradiance,min_irradiance,max_irradiance,standard_error,power,behind_share,hits,unit[,direct,indirect]
+// name,material,reflectance,area,tiles,mean_irradiance,min_irradiance,max_irradiance,standard_error,power,behind_share,hits,unit[,direct,indirect],absorbed,unreached_area
 // One row per tile map: a surface, or the back of a two-sided surface. standard_error is that of the mean irradiance;
-// direct and indirect are means too.
+// direct and indirect are means too. absorbed: W or lm. unreached_area: m² that light cannot reach; means and the lowest
+// irradiance are of the rest.
 std::string surfaces_csv(const Result& result);
 
 // photon,flight,x,y,z,surface,weight,event

@@ -141,9 +141,11 @@ void TileMapBuilder::add(std::size_t triangle, double area_m2, const std::array<
     draft.at_centre = weights.x >= on_triangle && weights.y >= on_triangle && weights.z >= on_triangle;
     if (draft.at_centre) {
       draft.tile.point = point_on(triangle, weights);
+      draft.tile.triangle = static_cast<std::uint32_t>(triangle);
     } else if (piece_m2 > draft.largest_piece_m2) {
       draft.largest_piece_m2 = piece_m2;
       draft.tile.point = point_on(triangle, piece.centroid);
+      draft.tile.triangle = static_cast<std::uint32_t>(triangle);
     }
   }
 }

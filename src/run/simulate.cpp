@@ -22,6 +22,7 @@
 #include "run/settings_check.hpp"
 #include "run/stop_watch.hpp"
 #include "run/tiles_forward.hpp"
+#include "run/unreached_tiles.hpp"
 #include "run/warnings.hpp"
 #include "walk/non_absorbing_enclosure.hpp"
 #include "walk/scene.hpp"
@@ -199,6 +200,7 @@ class Run {
     result_.lost_histories = measured.lost_histories;
     result_.tiles_without_hits = static_cast<std::uint64_t>(std::count_if(
         result_.tiles.begin(), result_.tiles.end(), [](const TileResult& tile) { return !(tile.irradiance > 0.0); }));
+    leave_out_unreached(room_, UnreachedSides(room_, result_.tiling, *scene_), result_);
   }
 
   // If the run is stopped before the receivers have a result, the result of the tiles is kept.

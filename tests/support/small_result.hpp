@@ -57,8 +57,8 @@ inline Tiling make_small_tiling() {
   back.chart_reason = "it has no UVs";
   back.tile_of_cell = {5};
   tiling.maps.push_back(back);
-  for (std::uint32_t i = 0; i < 5; ++i) tiling.tiles.push_back({0, i % 3, i / 3, {0.1 * i, -0.2, 1.0 / 3.0}, 0.01});
-  tiling.tiles.push_back({1, 0, 0, {1e-7, 2e20, 0.0}, 0.5});
+  for (std::uint32_t i = 0; i < 5; ++i) tiling.tiles.push_back({0, i % 3, i / 3, 0, {0.1 * i, -0.2, 1.0 / 3.0}, 0.01});
+  tiling.tiles.push_back({1, 0, 0, 0, {1e-7, 2e20, 0.0}, 0.5});
   return tiling;
 }
 

@@ -111,9 +111,9 @@ TEST_CASE("surfaces.csv has the documented columns and quotes where necessary") 
   REQUIRE(rows.size() == 3);
   CHECK(rows[0] ==
         "name,material,reflectance,area,tiles,mean_irradiance,min_irradiance,max_irradiance,standard_error,power,"
-        "behind_share,hits,unit,absorbed");
-  CHECK(rows[1] == "\"a \"\"b\"\", c/d\",\"grey, \"\"warm\"\"\",0.6,0.05,5,0.4,0,1,0.01,0.02,0,407,lx,0.008");
-  CHECK(rows[2] == "lamp.back,,0.1,0.5,1,0.2,0.2,0.2,nan,0.1,1,105,lx,nan");
+        "behind_share,hits,unit,absorbed,unreached_area");
+  CHECK(rows[1] == "\"a \"\"b\"\", c/d\",\"grey, \"\"warm\"\"\",0.6,0.05,5,0.4,0,1,0.01,0.02,0,407,lx,0.008,0");
+  CHECK(rows[2] == "lamp.back,,0.1,0.5,1,0.2,0.2,0.2,nan,0.1,1,105,lx,nan,0");
 }
 
 TEST_CASE("a CSV field is quoted only if necessary") {

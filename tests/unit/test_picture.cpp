@@ -29,7 +29,7 @@ Result result_of(const std::vector<double>& irradiances) {
   Result result;
   result.tiling.maps.emplace_back();
   for (const double irradiance : irradiances) {
-    result.tiling.tiles.push_back({0, 0, 0, glm::dvec3(0.0), 1.0});
+    result.tiling.tiles.push_back({0, 0, 0, 0, glm::dvec3(0.0), 1.0});
     TileResult tile;
     tile.irradiance = irradiance;
     result.tiles.push_back(tile);

@@ -36,7 +36,8 @@ void check_balance(const Result& result) {
   for (const SurfaceResult& surface : result.surfaces) {
     if (surface.hits == 0) continue;
     absorbed += (1.0 - surface.reflectance) * surface.power;
-    variance += std::pow((1.0 - surface.reflectance) * surface.standard_error * surface.area_m2, 2);
+    const double lit_m2 = surface.area_m2 - surface.unreached_area_m2;
+    variance += std::pow((1.0 - surface.reflectance) * surface.standard_error * lit_m2, 2);
   }
   // Impacts times 1 − ρ are another estimate of the absorbed power; the surfaces' errors are correlated, so their sum
   // in quadrature is a guide: three times the limit for one figure.
