@@ -105,6 +105,7 @@ std::vector<std::string> without(std::vector<std::string> warnings, const std::v
 
 void write_all(RunJob& job, Result& result, const std::vector<std::string>& printed, ProgressLine::Show show) {
   hold_folder(job);
+  hold_folder(job);
   const std::vector<std::string> of_the_run = without(result.warnings, printed);
   result.warnings = of_the_run;
   result.warnings.insert(result.warnings.end(), printed.begin(), printed.end());

@@ -86,10 +86,11 @@ void add_receivers(Room& room, const RunOptions& options, std::vector<std::strin
   if (options.grid_spacing && !options.grid)
     throw InputError("--grid-spacing is given without --grid. Give --grid the height of the grid, for example 0.85.");
   if (!options.grid) return;
-  const std::vector<Receiver> more =
-      receiver_grid(room, parse_number(*options.grid, "--grid"),
-                    parse_number(options.grid_spacing.value_or("0.5"), "--grid-spacing"));
-  room.receivers.insert(room.receivers.end(), more.begin(), more.end());
+  const double height = parse_number(*options.grid, "--grid");
+  const ReceiverGrid grid =
+      lay_receiver_grid(room, height, parse_number(options.grid_spacing.value_or("0.5"), "--grid-spacing"));
+  notes.push_back(description_of(grid, height));
+  room.receivers.insert(room.receivers.end(), grid.receivers.begin(), grid.receivers.end());
 }
 
 // "A:B", histories A to B − 1.

@@ -25,7 +25,7 @@ enum class Severity {
 
 // One finding. `topic` is a stable word for programs: "size", "up-axis", "emitters", "receivers",
 // "not-modelled", "open-edges", "openings", "behind", "duplicates", "zero-area", "reflectance", "texture-coordinates",
-// "tiles", "shape", "trapped-light", "room".
+// "tiles", "shape", "trapped-light", "emitter-light", "room".
 struct Finding {
   Severity severity = Severity::note;
   std::string topic;
@@ -63,6 +63,20 @@ struct Opening {
   std::string from;       // the surface where that flight began; empty: an emitter
 };
 
+// Where the light of an emitter is absorbed: shares of its power, 0 … 1, from some photons that are followed with the
+// reflectances of the room.
+struct EmitterFacts {
+  std::string name;
+  double near_m = 0.0;          // m
+  double absorbed_near = 0.0;   // no farther than near_m from where it started
+  double about_m = 0.0;         // m
+  double absorbed_about = 0.0;  // no farther than about_m
+  double level_m = 0.0;         // m
+  double absorbed_level = 0.0;  // no more than level_m above or below
+  double first_behind = 0.0;    // first meets the back of a face
+  std::string first_surface;    // the surface that most of it meets first; empty: none
+};
+
 struct Inspection {
   glm::dvec3 low{0.0};  // m, bounding box of all surfaces
   glm::dvec3 high{0.0};
@@ -77,10 +91,13 @@ struct Inspection {
 
   // Flights of photons that are never absorbed, from the emitters of the room; if the room cannot be simulated, from an
   // isotropic emitter at `inside`.
-  glm::dvec3 inside{0.0};  // m, a point inside the room, enclosed by surfaces
+  glm::dvec3 inside{0.0};      // m, a point inside the room, enclosed by surfaces
+  bool inside_is_sure = true;  // false: the geometry does not tell what is inside; then there are no flights without
+                               // emitters of the room's own
   std::uint64_t flights = 0;
   std::uint64_t flights_that_left = 0;
-  std::vector<Opening> openings;  // in descending order of `share`
+  std::vector<Opening> openings;       // in descending order of `share`
+  std::vector<EmitterFacts> emitters;  // those with at least 64 of the 32 768 photons; empty without own emitters
 
   std::uint64_t tiles = 0;       // 0 if they need more memory than there is: a fault
   double memory_bytes = 0.0;     // estimate for the tiles of a run with two threads

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/message.hpp"
 #include "inspect/topics.hpp"
 
 namespace lichtmc {
@@ -13,10 +14,10 @@ using Topic = void (*)(const Room&, Inspection&);
 // Those with the greatest influence on the figures first: findings of one severity appear in this order, and a run
 // repeats the first of them.
 constexpr std::array topics{
-    Topic{find_size},         find_up_axis,    find_emitters,    find_seen_from_behind,
-    find_not_modelled,        find_duplicates, find_openings,    find_reflectances,
-    find_open_edges,          find_receivers,  find_area_lights, find_zero_area,
-    find_texture_coordinates, find_tiles,      find_shape,
+    Topic{find_size},  find_up_axis,     find_emitters,  find_emitter_light,       find_seen_from_behind,
+    find_not_modelled, find_duplicates,  find_openings,  find_reflectances,        find_open_edges,
+    find_receivers,    find_area_lights, find_zero_area, find_texture_coordinates, find_tiles,
+    find_shape,
 };
 
 }  // namespace
@@ -34,11 +35,15 @@ void add_fault(const std::string& message, const std::string& topic, std::vector
                       two_parts ? message.substr(end + 2) : "Correct this."});
 }
 
-void add_non_absorbing_enclosure(std::vector<Finding>& findings) {
+void add_non_absorbing_enclosure(const std::string& emitter, const std::string& surface,
+                                 std::vector<Finding>& findings) {
   findings.push_back(
-      {Severity::fault, "trapped-light", "Light is enclosed by surfaces with reflectance 1: nothing absorbs it.",
+      {Severity::fault, "trapped-light",
+       (emitter.empty() ? std::string("Light") : "The light of emitter " + in_quotes(emitter)) +
+           " is enclosed by surfaces with reflectance 1, among them " + in_quotes(surface) + ": nothing absorbs it.",
        "Set reflectances below 1, for example with --max-reflectance 0.9; or limit the number of flights "
-       "with --estimator weight --max-bounces N."});
+       "with --estimator weight --max-bounces N. If a body about a lamp should let light through, leave it out of the "
+       "room."});
 }
 
 }  // namespace lichtmc

@@ -15,7 +15,8 @@ void add_findings(const Room& room, Inspection& facts);
 // Adds an error message as a fault; what follows its first sentence becomes the advice.
 void add_fault(const std::string& message, const std::string& topic, std::vector<Finding>& findings);
 
-// Adds the fault: light is enclosed by surfaces with reflectance 1.
-void add_non_absorbing_enclosure(std::vector<Finding>& findings);
+// Adds the fault: light is enclosed by surfaces with reflectance 1. emitter: its name, or empty; surface: one of them.
+void add_non_absorbing_enclosure(const std::string& emitter, const std::string& surface,
+                                 std::vector<Finding>& findings);
 
 }  // namespace lichtmc

@@ -9,15 +9,34 @@
 
 namespace lichtmc {
 
+namespace {
+
+// A lamp, in the coordinates that the room has with the other options that are proposed.
+std::string lamp_proposal(const Room& room, const Inspection& facts) {
+  glm::dvec3 place = facts.inside;
+  std::string options;
+  if (facts.suggested_scale != 1.0) options += " --scale " + to_text(facts.suggested_scale);
+  if (facts.probably_z_up) {
+    place = {place.x, place.z, -place.y};
+    options += " --up z";
+  }
+  const std::string light = "--light point:" + coordinates(facts.suggested_scale * place, ",") + ":1000lm";
+  if (options.empty()) return ", for example at a point inside the room: " + light + ".";
+  return ", for example, together with the unit and axis that are proposed below: lichtmc run " + room.source +
+         options + " " + light + ".";
+}
+
+}  // namespace
+
 void find_emitters(const Room& room, Inspection& facts) {
   // Extends the advice of check_room() by a possible position.
   const auto fault = std::find_if(facts.findings.begin(), facts.findings.end(),
                                   [](const Finding& f) { return f.topic == "emitters"; });
   if (room.emitters.empty() && fault != facts.findings.end()) {
-    fault->advice =
-        "Add a point or spot light or an emissive material to the room, or give --light, for example at a point inside "
-        "the room: --light point:" +
-        coordinates(facts.inside, ",") + ":1000lm.";
+    fault->advice = "Add a point or spot light or an emissive material to the room, or give --light" +
+                    (facts.inside_is_sure ? lamp_proposal(room, facts)
+                                          : " with a point inside the room: --light point:X,Y,Z:1000lm. The geometry "
+                                            "does not tell where the inside is.");
   }
   for (const Advised& outside : emitters_outside(room))
     add(facts, Severity::warning, "emitters", outside.what, outside.advice);

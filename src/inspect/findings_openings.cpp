@@ -46,7 +46,12 @@ bool light_leaves(const Inspection& facts) {
 }  // namespace
 
 void find_openings(const Room& /*room*/, Inspection& facts) {
-  if (facts.flights == 0) return;
+  if (facts.flights == 0) {
+    if (!facts.inside_is_sure)
+      add(facts, Severity::note, "openings", "Whether light leaves the room is not known.",
+          "The geometry does not tell where the inside is: add an emitter, and check again.");
+    return;
+  }
   const std::string flights = to_text(facts.flights, "flight") + " of light";
   if (facts.flights_that_left == 0) {
     add(facts, Severity::note, "openings", "None of " + flights + " left the room.",
@@ -85,6 +90,7 @@ void find_shape(const Room& /*room*/, Inspection& facts) {
     add(facts, Severity::note, "shape", "The room is an empty cuboid.", "Nothing to do: impacts have a closed form.");
     return;
   }
+  if (facts.flights == 0 && !facts.inside_is_sure) return;  // `closed` is not known
   const std::string closed =
       facts.closed ? "The room is closed" : "The room is not closed, or not all emitters are inside";
   add(facts, Severity::note, "shape", closed + "; it is " + (facts.convex ? "convex (no shadows)." : "not convex."),

@@ -15,6 +15,7 @@
 #include "room/reflectance.hpp"
 #include "room/room_check.hpp"
 #include "room/welded_mesh.hpp"
+#include "walk/inside.hpp"
 #include "walk/non_absorbing_enclosure.hpp"
 #include "walk/scene.hpp"
 
@@ -97,7 +98,10 @@ Room room_for_probe(const Room& room, bool own_emitters, const glm::dvec3& insid
 }
 
 void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters, Inspection& facts) {
-  facts.inside = find_inside(room, *make_embree_tracer(room, tiling), facts.low, facts.high);
+  const InsidePoint inside = find_inside(room, *make_embree_tracer(room, tiling), facts.low, facts.high);
+  facts.inside = inside.place;
+  facts.inside_is_sure = inside.sure;
+  if (!own_emitters && !inside.sure) return;
   const Room lit = room_for_probe(room, own_emitters, facts.inside);
   const Scene scene(lit, tiling, Engine::embree);
   facts.closed = scene.misses == Misses::retrace;
@@ -105,11 +109,15 @@ void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters, Inspe
   facts.flights = result.flights;
   facts.flights_that_left = result.left;
   facts.openings = result.openings;
+  if (own_emitters) facts.emitters = result.emitters;
   for (std::size_t k = 0; k < facts.surfaces.size(); ++k) {
     if (result.impacts[k] == 0) continue;
     facts.surfaces[k].seen_from_behind = static_cast<double>(result.behind[k]) / static_cast<double>(result.impacts[k]);
   }
-  if (has_non_absorbing_enclosure(scene, 1)) add_non_absorbing_enclosure(facts.findings);
+  if (const auto enclosure = find_non_absorbing_enclosure(scene, 1)) {
+    add_non_absorbing_enclosure(own_emitters ? room.emitters[enclosure->emitter].name : std::string(),
+                                room.surfaces[enclosure->surface].name, facts.findings);
+  }
 }
 
 }  // namespace

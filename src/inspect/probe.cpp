@@ -10,6 +10,7 @@
 #include <glm/matrix.hpp>
 
 #include "chance/stream.hpp"
+#include "inspect/emitter_light.hpp"
 #include "walk/kernel.hpp"
 #include "walk/never_absorbed.hpp"
 
@@ -81,38 +82,16 @@ class EscapedFlights {
   std::array<std::uint64_t, 6> counts_{};
 };
 
-// A triangle of the room by its numbers.
-struct RoomTriangle {
-  std::size_t surface = 0;
-  std::size_t number = 0;
-};
-
-std::vector<RoomTriangle> triangles_of_facets(const Room& room, const Tracer& tracer) {
-  std::vector<RoomTriangle> triangles(tracer.facets().size());
-  for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
-    for (std::size_t n = 0; n < room.surfaces[k].triangles.size(); ++n) triangles[tracer.locate(k, n).facet] = {k, n};
-  }
-  return triangles;
-}
-
-// Where flight i met a triangle of Embree's, whose facets' coordinates are the barycentric ones.
-glm::dvec3 hit_point(const Room& room, const RoomTriangle& triangle, const Rays& rays, std::size_t i) {
-  const Surface& surface = room.surfaces[triangle.surface];
-  const glm::uvec3 corner = surface.triangles[triangle.number];
-  const glm::dvec3 a = surface.positions[corner.x];
-  return a + double{rays.s[i]} * (surface.positions[corner.y] - a) +
-         double{rays.t[i]} * (surface.positions[corner.z] - a);
-}
-
-}  // namespace
-
-namespace {
-
 // Goal: impacts on surfaces, flights that escape.
 class ProbeGoal : public GoalBase {
  public:
   ProbeGoal(const Room& room, const Scene& scene, const Stream& stream, const glm::dvec3& low, const glm::dvec3& high)
-      : scene_(scene), stream_(stream), escaped_(room, *scene.tracer, low, high), from_(batch_histories) {
+      : room_(room),
+        scene_(scene),
+        stream_(stream),
+        escaped_(room, *scene.tracer, low, high),
+        light_(room, scene, low, high),
+        from_(batch_histories) {
     result_.impacts.resize(room.surfaces.size());
     result_.behind.resize(room.surfaces.size());
   }
@@ -122,6 +101,7 @@ class ProbeGoal : public GoalBase {
     for (std::uint32_t i = 0; i < n; ++i) {
       scene_.launcher->launch(stream_, first_history_ + i, wave.rays, i);
       from_[i] = wave.rays.facet[i];
+      light_.start(i, scene_.launcher->emitter_of(stream_, first_history_ + i));
     }
   }
   void escape(const Wave& wave, std::size_t i) {
@@ -131,6 +111,7 @@ class ProbeGoal : public GoalBase {
   }
   void land(const Wave& wave) {
     result_.flights += wave.rays.size;
+    light_.land(wave);
     for (std::size_t i = 0; i < wave.rays.size; ++i) {
       const std::uint32_t facet = wave.rays.facet[i];
       const std::uint32_t surface = scene_.surface_of[facet];
@@ -139,17 +120,27 @@ class ProbeGoal : public GoalBase {
       from_[wave.photon[i]] = facet;
     }
   }
+  // land() reads the flight that has ended; the next flight does not need it.
+  static void move(Wave& wave, std::size_t from, std::size_t to) {
+    Rays& rays = wave.rays;
+    rays.set_start(to, rays.start(from));
+    rays.set_direction(to, rays.direction(from));
+    rays.length[to] = rays.length[from];
+  }
   [[maybe_unused]] static constexpr bool in_lanes = true;
 
   ProbeResult result() {
+    result_.emitters = light_.facts(room_);
     result_.openings = escaped_.openings(result_.left);
     return result_;
   }
 
  private:
+  const Room& room_;
   const Scene& scene_;
   const Stream& stream_;
   EscapedFlights escaped_;
+  EmitterLight light_;
   std::vector<std::uint32_t> from_;  // facet that a photon left last, or no_facet
   ProbeResult result_;
 };
@@ -165,47 +156,6 @@ ProbeResult probe(const Room& room, const Scene& scene, const glm::dvec3& low, c
     kernel.fly(batch_histories, goal, [] { return false; });
   }
   return goal.result();
-}
-
-glm::dvec3 find_inside(const Room& room, const Tracer& tracer, const glm::dvec3& low, const glm::dvec3& high) {
-  const std::vector<RoomTriangle> triangle_of_facet = triangles_of_facets(room, tracer);
-  constexpr std::uint32_t candidates = 64;
-  constexpr std::uint32_t rays_each = 256;
-  const Stream stream(seed + 1);
-  Rays rays(rays_each);
-  TraceCount count;
-  glm::dvec3 best = 0.5 * (low + high);
-  double best_score = -1.0;
-  const double diagonal = glm::length(high - low);
-  for (std::uint32_t c = 0; c < candidates; ++c) {
-    // The middle first, then places all over.
-    const Words place = stream.draw(c, 0, Purpose::place);
-    const glm::dvec3 share(unit_open(place[0]), unit_open(place[1]), unit_open(place[2]));
-    const glm::dvec3 candidate = c == 0 ? best : low + (high - low) * (0.1 + 0.8 * share);
-    const Start start = tracer.start(candidate, glm::dvec3(0.0));
-    if (start.on_surface) continue;
-    for (std::uint32_t i = 0; i < rays_each; ++i) {
-      const Words words = stream.draw(std::uint64_t{c} * rays_each + i, 0, Purpose::emission);
-      rays.facet[i] = no_facet;
-      rays.set_start(i, start.point);
-      rays.set_direction(
-          i, glm::vec3(tracer.directions() * IsotropicLaw{}.sample(unit_open(words[0]), unit_open(words[1]))));
-    }
-    rays.size = rays_each;
-    tracer.trace(rays, Misses::escape, count);
-    std::uint32_t hits = 0;
-    double view = 0.0;
-    for (std::uint32_t i = 0; i < rays_each; ++i) {
-      if (rays.facet[i] == no_facet) continue;
-      ++hits;
-      view += glm::length(hit_point(room, triangle_of_facet[rays.facet[i]], rays, i) - candidate) / diagonal;
-    }
-    const double score = static_cast<double>(hits) + (hits > 0 ? 0.5 * rays_each * view / hits : 0.0);
-    if (score <= best_score) continue;
-    best_score = score;
-    best = candidate;
-  }
-  return best;
 }
 
 }  // namespace lichtmc

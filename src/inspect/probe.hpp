@@ -18,13 +18,10 @@ struct ProbeResult {
   std::vector<Opening> openings;
   std::vector<std::uint64_t> impacts;  // per surface
   std::vector<std::uint64_t> behind;   // per surface, those that came from behind
+  std::vector<EmitterFacts> emitters;  // as Inspection::emitters
 };
 
 // Follows light from the scene's emitters over some reflections.
 ProbeResult probe(const Room& room, const Scene& scene, const glm::dvec3& low, const glm::dvec3& high);
-
-// A place inside a room, traced by Embree: of some places spread over its bounds the one that is best shut in, with a
-// wide view. Any of them in a room that shuts none in.
-glm::dvec3 find_inside(const Room& room, const Tracer& tracer, const glm::dvec3& low, const glm::dvec3& high);
 
 }  // namespace lichtmc

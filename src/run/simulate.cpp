@@ -75,12 +75,14 @@ void complete(Result& result, const Room& room) {
   result.warnings = warnings_of(room, result);
 }
 
-[[noreturn]] void refuse_non_absorbing_enclosure(const Room& room) {
+[[noreturn]] void refuse_non_absorbing_enclosure(const Room& room, const NonAbsorbingEnclosure& enclosure) {
   throw InputError(
-      "Nothing absorbs the light of an emitter in " + room.source +
-      ": it is enclosed by surfaces of reflectance 1 (allowed: at least one below 1, or an opening), so that the "
-      "irradiance would be infinite. Give materials a reflectance below 1, for example with --max-reflectance 0.9, or "
-      "limit the number of flights with --estimator weight --max-bounces N.");
+      "Nothing absorbs the light of the emitter " + in_quotes(room.emitters[enclosure.emitter].name) + " in " +
+      room.source + ": it is enclosed by surfaces of reflectance 1, among them " +
+      in_quotes(room.surfaces[enclosure.surface].name) +
+      " (allowed: at least one below 1, or an opening), so that the irradiance would be infinite. Give materials a "
+      "reflectance below 1, for example with --max-reflectance 0.9, or limit the number of flights with --estimator "
+      "weight --max-bounces N. If a body about a lamp should let light through, leave it out of the room.");
 }
 
 template <class Walk>
@@ -172,8 +174,10 @@ class Run {
     // If a state is only read, one thread simulates the incomplete last batch.
     const unsigned tallies = record_.only_read() ? 1 : result_.threads;
     check_memory(room_, result_.tiling, settings_, tallies, result_.processes, scene_->has_reflectance_maps());
-    if (!settings_.max_bounces && has_non_absorbing_enclosure(*scene_, settings_.seed))
-      refuse_non_absorbing_enclosure(room_);
+    if (!settings_.max_bounces) {
+      if (const auto enclosure = find_non_absorbing_enclosure(*scene_, settings_.seed))
+        refuse_non_absorbing_enclosure(room_, *enclosure);
+    }
     if (planned_.both() && !receivers_in_state_) check_receiver_rounds(room_, settings_);
   }
 

@@ -105,6 +105,11 @@ void Launcher::launch(const Stream& stream, std::uint64_t history, Rays& rays, s
   }
 }
 
+std::size_t Launcher::emitter_of(const Stream& stream, std::uint64_t history) const {
+  const Words words = stream.draw(history, 0, Purpose::emission);
+  return choose(powers_up_to_, unit_fine(words[2], words[3]));
+}
+
 // Random words of a batch's launches, in the order of the photons in the wave.
 struct Launcher::Launches {
   std::array<std::uint32_t, batch_histories> polar;

@@ -32,6 +32,9 @@ class Launcher {
   // of the histories, counted from `first`, photon i of the wave is; an array of batch_histories.
   void launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays, std::uint32_t* photon) const;
 
+  // The emitter that starts a history, its number in the room.
+  std::size_t emitter_of(const Stream& stream, std::uint64_t history) const;
+
   // Whether no point emitter touches a surface.
   bool all_off_surfaces() const { return all_off_surfaces_; }
 

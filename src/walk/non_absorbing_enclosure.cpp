@@ -42,24 +42,25 @@ class LastingFlight : public GoalBase {
     remain_ = wave.rays.size;
     without_end_ = some_ended ? 0 : without_end_ + remain_;
     if (without_end_ < enough) return;
-    found_ = true;
+    found_ = NonAbsorbingEnclosure{scene_.launcher->emitter_of(stream_, wave.photon[0]),
+                                   scene_.surface_of[wave.rays.facet[0]]};
     wave.rays.size = 0;
   }
 
-  bool found() const { return found_; }
+  std::optional<NonAbsorbingEnclosure> found() const { return found_; }
 
  private:
   const Scene& scene_;
   const Stream& stream_;
   std::size_t remain_ = 0;
   std::uint64_t without_end_ = 0;  // flights since the last end of a photon
-  bool found_ = false;
+  std::optional<NonAbsorbingEnclosure> found_;
 };
 
 }  // namespace
 
-bool has_non_absorbing_enclosure(const Scene& scene, std::uint64_t seed) {
-  if (!scene.reflects_all_somewhere) return false;
+std::optional<NonAbsorbingEnclosure> find_non_absorbing_enclosure(const Scene& scene, std::uint64_t seed) {
+  if (!scene.reflects_all_somewhere) return std::nullopt;
   const Stream stream(seed);
   LastingFlight goal(scene, stream);
   const auto go_on = [] { return false; };

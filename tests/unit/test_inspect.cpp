@@ -187,3 +187,106 @@ TEST_CASE("a run repeats the gravest warnings in a few lines") {
   CHECK_THAT(few[0], ContainsSubstring("power 0"));
   CHECK_THAT(few[2], ContainsSubstring("more warnings: lichtmc check office"));
 }
+
+namespace {
+
+// A square panel of 0.6 m that shines upwards or downwards, with 1000 lm, at this height in the office.
+Room office_with_panel(double height, bool upwards) {
+  Room room = office();
+  Surface panel;
+  panel.name = "panel";
+  const glm::dvec3 x(0.6, 0.0, 0.0);
+  const glm::dvec3 z(0.0, 0.0, 0.6);
+  add_quad(panel, {2.2, height, 1.7}, upwards ? z : x, upwards ? x : z);
+  panel.reflectance = 0.6;
+  room.surfaces.push_back(panel);
+  room.emitters = {surface_emitter(room.surfaces.size() - 1, 1000.0)};
+  room.emitters[0].name = "panel";
+  return room;
+}
+
+// An office with its lamp in a cube of this edge, with the faces outwards.
+Room lamp_in_a_box(double edge, double reflectance) {
+  Room room = office();
+  Surface box = make_box(glm::dvec3(edge));
+  for (glm::dvec3& p : box.positions) p += glm::dvec3(2.5, 2.3, 2.0) - glm::dvec3(0.5 * edge);
+  box.name = "bulb";
+  box.reflectance = reflectance;
+  room.surfaces.push_back(box);
+  room.emitters = {{"lamp", 1000.0, IsotropicEmitter{{2.5, 2.3, 2.0}}}};
+  return room;
+}
+
+}  // namespace
+
+TEST_CASE("an emitter whose light gets nowhere is a warning with its share") {
+  const Inspection up = inspect(office_with_panel(2.59, true));
+  REQUIRE(find(up, "emitter-light", Severity::warning) != nullptr);
+  CHECK_THAT(find(up, "emitter-light", Severity::warning)->text,
+             ContainsSubstring("'panel' lights hardly more than what is next to it") && ContainsSubstring("'ceiling'"));
+  const Inspection boxed = inspect(lamp_in_a_box(0.2, 0.6));
+  REQUIRE(find(boxed, "emitter-light", Severity::warning) != nullptr);
+  CHECK_THAT(find(boxed, "emitter-light", Severity::warning)->text,
+             ContainsSubstring("'lamp' is shut in") && ContainsSubstring("'bulb', on the back of its faces"));
+  // A box of which one side is missing lets out less than a third of the light if it is black, more if it is white.
+  for (const double reflectance : {0.0, 0.8}) {
+    Room room = lamp_in_a_box(0.2, reflectance);
+    auto& triangles = room.surfaces.back().triangles;
+    triangles.erase(triangles.begin(), triangles.begin() + 2);  // below
+    CHECK((find(inspect(room), "emitter-light", Severity::warning) != nullptr) == (reflectance == 0.0));
+  }
+}
+
+TEST_CASE("usual luminaires are no warning: panels, uplights, lamps close to a ceiling") {
+  for (const Room& room : {office_with_panel(2.59, false), office_with_panel(2.3, true), office_with_panel(1.5, true)})
+    CHECK(find(inspect(room), "emitter-light", Severity::warning) == nullptr);
+  Room room = office();
+  room.emitters = {{"bulb under the ceiling", 1000.0, IsotropicEmitter{{2.5, 2.5, 2.0}}}};
+  CHECK(find(inspect(room), "emitter-light", Severity::warning) == nullptr);
+}
+
+TEST_CASE("light that nothing absorbs: the fault names the emitter and the body about it") {
+  const Inspection facts = inspect(lamp_in_a_box(0.2, 1.0));
+  REQUIRE(find(facts, "trapped-light", Severity::fault) != nullptr);
+  CHECK_THAT(find(facts, "trapped-light", Severity::fault)->text,
+             ContainsSubstring("'lamp'") && ContainsSubstring("'bulb'"));
+  CHECK_THROWS_WITH(simulate(lamp_in_a_box(0.2, 1.0)), ContainsSubstring("'lamp'") && ContainsSubstring("'bulb'"));
+}
+
+TEST_CASE("a lamp is proposed in the room, not in its walls or in the ground") {
+  // A room of 4 × 2.5 × 3 m in a house of solid walls, on ground of 40 × 3 × 40 m.
+  const auto box = [](const char* name, const glm::dvec3& corner, const glm::dvec3& size) {
+    Surface surface = make_box(size);
+    for (glm::dvec3& p : surface.positions) p += corner;
+    surface.name = name;
+    return surface;
+  };
+  Room room;
+  room.source = "house";
+  room.surfaces = {box("ground", {-20, -3, -20}, {40, 3, 40}),     box("roof", {-0.5, 2.5, -0.5}, {5, 0.5, 4}),
+                   box("wall x0", {-0.5, 0, -0.5}, {0.5, 2.5, 4}), box("wall x1", {4, 0, -0.5}, {0.5, 2.5, 4}),
+                   box("wall z0", {0, 0, -0.5}, {4, 2.5, 0.5}),    box("wall z1", {0, 0, 3}, {4, 2.5, 0.5})};
+  const Inspection facts = inspect(room);
+  REQUIRE(facts.inside_is_sure);
+  CHECK((facts.inside.x > 0.0 && facts.inside.x < 4.0));
+  CHECK((facts.inside.y > 0.0 && facts.inside.y < 2.5));
+  CHECK((facts.inside.z > 0.0 && facts.inside.z < 3.0));
+  CHECK(facts.flights_that_left == 0);
+  // Nothing encloses a point above a single floor.
+  Room open;
+  open.source = "floor";
+  open.surfaces = {make_floor(4.0, 3.0)};
+  const Inspection unknown = inspect(open);
+  CHECK_FALSE(unknown.inside_is_sure);
+  CHECK_THAT(find(unknown, "emitters", Severity::fault)->advice,
+             ContainsSubstring("does not tell where the inside is"));
+}
+
+TEST_CASE("advice that goes together works together") {
+  // 5 × 2.6 × 4 m in inches, Z up.
+  Room room = make_cuboid(glm::dvec3(5.0, 4.0, 2.6) / 0.0254, uniform_reflectance(0.5));
+  room.source = "inches.glb";
+  const Inspection facts = inspect(room, 10.0);
+  CHECK_THAT(find(facts, "emitters", Severity::fault)->advice,
+             ContainsSubstring("lichtmc run inches.glb --scale 0.0254 --up z --light point:2.5,1.3,-2:1000lm"));
+}
