@@ -67,14 +67,17 @@ struct Opening {
 // reflectances of the room.
 struct EmitterFacts {
   std::string name;
-  double near_m = 0.0;          // m
-  double absorbed_near = 0.0;   // no farther than near_m from where it started
-  double about_m = 0.0;         // m
-  double absorbed_about = 0.0;  // no farther than about_m
-  double level_m = 0.0;         // m
-  double absorbed_level = 0.0;  // no more than level_m above or below
-  double first_behind = 0.0;    // first meets the back of a face
-  std::string first_surface;    // the surface that most of it meets first; empty: none
+  double near_m = 0.0;           // m
+  double absorbed_near = 0.0;    // no farther than near_m from where it started
+  double about_m = 0.0;          // m
+  double absorbed_about = 0.0;   // no farther than about_m
+  double wide_m = 0.0;           // m
+  double absorbed_wide = 0.0;    // no farther than wide_m
+  double absorbed_itself = 0.0;  // by the emitting surface itself, if that is smaller than half of the room
+  double level_m = 0.0;          // m
+  double absorbed_level = 0.0;   // no more than level_m above or below
+  double first_behind = 0.0;     // first meets the back of a face
+  std::string first_surface;     // the surface that most of it meets first; empty: none
 };
 
 struct Inspection {

@@ -35,6 +35,8 @@ class EmitterLight {
     std::uint64_t first_behind = 0;  // first impacts on the back of a face
     double near = 0.0;               // weight absorbed
     double about = 0.0;
+    double wide = 0.0;
+    double itself = 0.0;
     double level = 0.0;
   };
   struct Photon {
@@ -44,14 +46,16 @@ class EmitterLight {
     glm::dvec3 start{0.0};
   };
 
-  void absorb(Photon& photon, const glm::dvec3& end, double reflectance);
+  void absorb(Photon& photon, const glm::dvec3& end, std::uint32_t surface, double reflectance);
 
   const Scene& scene_;
   double near_m_ = 0.0;
   double about_m_ = 0.0;
+  double wide_m_ = 0.0;
   double level_m_ = 0.0;
   std::vector<Photon> photons_;
-  std::vector<Sums> sums_;                                     // of each emitter
+  std::vector<std::uint32_t> own_surface_;  // of each emitter, if it is an area light smaller than half of the room
+  std::vector<Sums> sums_;                  // of each emitter
   std::unordered_map<std::uint64_t, std::uint32_t> first_on_;  // first impacts by emitter and surface
 };
 

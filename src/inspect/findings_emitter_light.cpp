@@ -23,6 +23,12 @@ std::string fate_of(const EmitterFacts& facts) {
                                 ? std::string()
                                 : ", most of it on " + in_quotes(facts.first_surface) +
                                       (facts.first_behind > 0.5 ? ", on the back of its faces" : "");
+  if (facts.absorbed_itself >= all)
+    return "is shut in: " + in_percent(facts.absorbed_itself) +
+           " of its light is absorbed by its own surface, which is " + "closed and shines into itself";
+  if (facts.first_behind >= all && facts.absorbed_wide >= all && facts.absorbed_about < all)
+    return "is shut in: " + in_percent(facts.absorbed_wide) + " of its light is absorbed within " +
+           short_number(facts.wide_m) + " m" + first;
   if (facts.absorbed_about >= all)
     return "is shut in: " + in_percent(facts.absorbed_about) + " of its light is absorbed within " +
            short_number(facts.about_m) + " m" + first;

@@ -36,9 +36,9 @@ class Search {
   Search(const Room& room, const Tracer& tracer, const glm::dvec3& low, const glm::dvec3& high)
       : room_(room), tracer_(tracer), low_(low), high_(high), rays_(fine_rays) {
     // Half a usual room's smallest side is enough distance: a hall is not more inside than an office. In models of
-    // other units, a fifth of the height.
+    // other units, a fifth of the height, which is along y or z.
     constexpr double enough_m = 1.2;
-    enough_ = std::min(enough_m, 0.2 * (high.y - low.y));
+    enough_ = std::min(enough_m, 0.2 * std::min(high.y - low.y, high.z - low.z));
   }
 
   InsidePoint best() {
@@ -151,8 +151,9 @@ class Search {
     const auto tenth = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 10);
     std::nth_element(distances.begin(), tenth, distances.end());
     view.distance = *tenth;
-    // More than enough distance counts a little: of two rooms the larger one.
-    const double spacious = std::min(view.distance, enough_) + 0.1 * std::max(0.0, view.distance - enough_);
+    // More than enough distance counts a little: of two rooms the larger one, but not all of the outside.
+    const double more = std::clamp(view.distance - enough_, 0.0, enough_);
+    const double spacious = std::min(view.distance, enough_) + 0.1 * more;
     view.score = view.enclosed * view.enclosed * (1.0 + 2.0 * view.fronts) * spacious;
     return view;
   }
@@ -189,11 +190,11 @@ class Search {
   }
 
   bool is_sure(const View& chosen, const std::vector<View>& views) const {
-    constexpr double mostly = 0.5;
+    constexpr double mostly = 0.6;
     constexpr double about_as_good = 0.8;
     if (chosen.enclosed < mostly || chosen.distance < 0.05 * enough_) return false;
     return std::none_of(views.begin(), views.end(), [&](const View& other) {
-      return std::abs(other.fronts - chosen.fronts) > mostly && other.score > about_as_good * chosen.score;
+      return std::abs(other.fronts - chosen.fronts) > 0.5 && other.score > about_as_good * chosen.score;
     });
   }
 

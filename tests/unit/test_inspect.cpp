@@ -205,12 +205,19 @@ Room office_with_panel(double height, bool upwards) {
   return room;
 }
 
+// A solid body: its faces look outwards.
+Surface solid(const char* name, const glm::dvec3& corner, const glm::dvec3& size) {
+  Surface body = make_box(size);
+  for (glm::dvec3& p : body.positions) p += corner;
+  for (glm::uvec3& t : body.triangles) std::swap(t.y, t.z);
+  body.name = name;
+  return body;
+}
+
 // An office with its lamp in a cube of this edge, with the faces outwards.
 Room lamp_in_a_box(double edge, double reflectance) {
   Room room = office();
-  Surface box = make_box(glm::dvec3(edge));
-  for (glm::dvec3& p : box.positions) p += glm::dvec3(2.5, 2.3, 2.0) - glm::dvec3(0.5 * edge);
-  box.name = "bulb";
+  Surface box = solid("bulb", glm::dvec3(2.5, 2.3, 2.0) - 0.5 * edge, glm::dvec3(edge));
   box.reflectance = reflectance;
   room.surfaces.push_back(box);
   room.emitters = {{"lamp", 1000.0, IsotropicEmitter{{2.5, 2.3, 2.0}}}};
@@ -228,6 +235,24 @@ TEST_CASE("an emitter whose light gets nowhere is a warning with its share") {
   REQUIRE(find(boxed, "emitter-light", Severity::warning) != nullptr);
   CHECK_THAT(find(boxed, "emitter-light", Severity::warning)->text,
              ContainsSubstring("'lamp' is shut in") && ContainsSubstring("'bulb', on the back of its faces"));
+  // A globe of 2 m in a hall, that shines inwards.
+  Room hall = make_cuboid({20.0, 8.0, 15.0}, uniform_reflectance(0.6));
+  Surface globe = make_sphere(16);
+  for (glm::dvec3& p : globe.positions) p += glm::dvec3(10.0, 5.0, 7.0);
+  for (const bool inwards : {false, true}) {
+    Room lit = hall;
+    if (inwards) {
+      for (glm::uvec3& t : globe.triangles) std::swap(t.y, t.z);
+    }
+    lit.surfaces.push_back(globe);
+    lit.emitters = {surface_emitter(lit.surfaces.size() - 1, 1000.0)};
+    const Inspection facts = inspect(lit);
+    const glm::uvec3 t = globe.triangles[globe.triangles.size() / 2];
+    const glm::dvec3 a = globe.positions[t.x];
+    const bool shines_in =
+        glm::dot(glm::cross(globe.positions[t.y] - a, globe.positions[t.z] - a), a - glm::dvec3(10.0, 5.0, 7.0)) < 0.0;
+    CHECK((find(facts, "emitter-light", Severity::warning) != nullptr) == shines_in);
+  }
   // A box of which one side is missing lets out less than a third of the light if it is black, more if it is white.
   for (const double reflectance : {0.0, 0.8}) {
     Room room = lamp_in_a_box(0.2, reflectance);
@@ -255,17 +280,11 @@ TEST_CASE("light that nothing absorbs: the fault names the emitter and the body 
 
 TEST_CASE("a lamp is proposed in the room, not in its walls or in the ground") {
   // A room of 4 × 2.5 × 3 m in a house of solid walls, on ground of 40 × 3 × 40 m.
-  const auto box = [](const char* name, const glm::dvec3& corner, const glm::dvec3& size) {
-    Surface surface = make_box(size);
-    for (glm::dvec3& p : surface.positions) p += corner;
-    surface.name = name;
-    return surface;
-  };
   Room room;
   room.source = "house";
-  room.surfaces = {box("ground", {-20, -3, -20}, {40, 3, 40}),     box("roof", {-0.5, 2.5, -0.5}, {5, 0.5, 4}),
-                   box("wall x0", {-0.5, 0, -0.5}, {0.5, 2.5, 4}), box("wall x1", {4, 0, -0.5}, {0.5, 2.5, 4}),
-                   box("wall z0", {0, 0, -0.5}, {4, 2.5, 0.5}),    box("wall z1", {0, 0, 3}, {4, 2.5, 0.5})};
+  room.surfaces = {solid("ground", {-20, -3, -20}, {40, 3, 40}),     solid("roof", {-0.5, 2.5, -0.5}, {5, 0.5, 4}),
+                   solid("wall x0", {-0.5, 0, -0.5}, {0.5, 2.5, 4}), solid("wall x1", {4, 0, -0.5}, {0.5, 2.5, 4}),
+                   solid("wall z0", {0, 0, -0.5}, {4, 2.5, 0.5}),    solid("wall z1", {0, 0, 3}, {4, 2.5, 0.5})};
   const Inspection facts = inspect(room);
   REQUIRE(facts.inside_is_sure);
   CHECK((facts.inside.x > 0.0 && facts.inside.x < 4.0));

@@ -131,7 +131,7 @@ TEST_CASE("grid: storeys and podiums have floors of their own, beds have none") 
   CHECK(grid.floors_m[1] == Approx(0.5));
   std::size_t on_podium = 0;
   for (const Receiver& point : grid.receivers) {
-    on_podium += point.position.y == Approx(1.35) ? 1 : 0;
+    on_podium += std::size_t{point.position.y == Approx(1.35)};
     if (point.position.x > 4.0 && point.position.x < 5.0 && point.position.z > 3.0 && point.position.y < 3.0)
       CHECK(point.position.y == Approx(0.85));  // above the bed, from the floor
   }
