@@ -51,7 +51,7 @@ def main():
     for name, options in ROOMS.items():
         room = folder / name
         facts = json.loads(lichtmc("check", "--json", room, *options).stdout)
-        lamp = [] if facts["emitters"] else ["--light", "point:{:.4g},{:.4g},{:.4g}:1000lm".format(*facts["inside"])]
+        lamp = [] if facts["emitters"] else ["--light", "point:{:.3f},{:.3f},{:.3f}:1000lm".format(*facts["inside"])]
         made = [s for s in facts["surfaces"] if "chart" in s]
         area = lambda surfaces: sum(s["area"] for s in surfaces)
         cells = lambda surfaces: sum(s["area"] * s["cells_over_area"] for s in surfaces)

@@ -55,9 +55,11 @@ struct Patch {
 
 }  // namespace
 
-LitRooms::LitRooms(const Scene& scene, ColumnTracer& tracer, double spacing_m) : tracer_(tracer) {
+LitRooms::LitRooms(const Scene& scene, ColumnTracer& tracer) : tracer_(tracer) {
   const glm::dvec3 size = tracer.high() - tracer.low();
-  spacing_ = std::max(std::min(spacing_m, raster_m), std::sqrt(size.x * size.z / most_columns));
+  constexpr double part = 0.05;  // of the shorter side, in small rooms and models
+  spacing_ = std::min(raster_m, part * std::min(size.x, size.z));
+  spacing_ = std::max(spacing_, std::sqrt(size.x * size.z / most_columns));
   make_raster();
   light_gaps(scene);
   leave_out_the_sky();
@@ -309,23 +311,32 @@ void LitRooms::measure_rooms() {
   }
 }
 
+// Squares of lines about the place, from the inside: lines of a square are at least `ring` − 1 spacings away.
 std::size_t LitRooms::nearest_on_floor(std::size_t floor, const glm::dvec2& at, double within_m) const {
-  const auto lines = static_cast<long>(std::ceil(within_m / spacing_));
+  const auto rings = static_cast<long>(std::ceil(within_m / spacing_));
   const std::size_t middle = column_at(at);
   const long x0 = static_cast<long>(middle % columns_);
   const long y0 = static_cast<long>(middle / columns_);
   std::size_t nearest = none;
   double least = within_m;
-  for (long y = std::max(0L, y0 - lines); y <= std::min(static_cast<long>(rows_) - 1, y0 + lines); ++y) {
-    for (long x = std::max(0L, x0 - lines); x <= std::min(static_cast<long>(columns_) - 1, x0 + lines); ++x) {
-      const auto column = static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x);
-      const double distance = glm::length(raster_[column].at - at);
-      if (distance >= least) continue;
-      for (std::size_t g = first_gap_[column]; g < first_gap_[column + 1]; ++g) {
-        if (gaps_[g].floor != floor) continue;
-        least = distance;
-        nearest = g;
-      }
+  const auto test = [&](long x, long y) {
+    if (x < 0 || y < 0 || x >= static_cast<long>(columns_) || y >= static_cast<long>(rows_)) return;
+    const auto column = static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x);
+    const double distance = glm::length(raster_[column].at - at);
+    if (distance >= least) return;
+    for (std::size_t g = first_gap_[column]; g < first_gap_[column + 1]; ++g) {
+      if (gaps_[g].floor != floor) continue;
+      least = distance;
+      nearest = g;
+    }
+  };
+  for (long ring = 0; ring <= rings && static_cast<double>(ring - 1) * spacing_ < least; ++ring) {
+    for (long k = -ring; k <= ring; ++k) {
+      test(x0 + k, y0 - ring);
+      if (ring > 0) test(x0 + k, y0 + ring);
+      if (std::abs(k) == ring) continue;
+      test(x0 - ring, y0 + k);
+      test(x0 + ring, y0 + k);
     }
   }
   return nearest;

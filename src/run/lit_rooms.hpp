@@ -42,7 +42,7 @@ struct LitRoom {
 // closed bodies on a floor that are higher than 1.2 m or smaller than 6 m². Higher floors of 6 m² and more are podiums.
 class LitRooms {
  public:
-  LitRooms(const Scene& scene, ColumnTracer& tracer, double spacing_m);
+  LitRooms(const Scene& scene, ColumnTracer& tracer);
 
   const std::vector<LitRoom>& rooms() const { return rooms_; }
   const std::vector<Floor>& floors() const { return floors_; }

@@ -65,7 +65,7 @@ enum class Place { free, on_surface, in_furniture, in_wall, no_floor };
 class GridMaker {
  public:
   GridMaker(const Scene& scene, ColumnTracer& tracer, double height_m, double spacing_m)
-      : tracer_(tracer), lit_(scene, tracer, spacing_m), height_(height_m), spacing_(spacing_m) {}
+      : tracer_(tracer), lit_(scene, tracer), height_(height_m), spacing_(spacing_m) {}
 
   ReceiverGrid make() {
     number_rooms();
@@ -157,6 +157,7 @@ class GridMaker {
       floor_height = gap.low;
       floor_under = true;
     }
+    if (!floor_under && is_over_other_floor(line, room, floor, floor_height)) return false;
     double y = floor_height + height_;
     switch (place_of(line, room, floor_height, floor_under, y)) {
       case Place::no_floor:
@@ -176,6 +177,19 @@ class GridMaker {
     grid_.floors_m.push_back(floor_height);
     grid_.receivers.push_back({name, {line.at.x, y, line.at.y}, {0.0, 1.0, 0.0}, 90.0, 1.0});
     return true;
+  }
+
+  // Whether a podium, say, is the floor at this line: another floor of the room less than a storey higher or lower.
+  bool is_over_other_floor(const Column& line, std::size_t room, std::size_t floor, double floor_height) const {
+    const double storey = 8.0 * lit_.step();
+    return std::any_of(line.gaps.begin(), line.gaps.end(), [&](const Gap& gap) {
+      if (std::abs(gap.low - floor_height) > storey) return false;
+      return std::any_of(floors_of_[room].begin(), floors_of_[room].end(), [&](std::size_t other) {
+        if (other == floor) return false;
+        const std::size_t near = lit_.nearest_on_floor(other, line.at, 2.0 * lit_.spacing());
+        return near != none && std::abs(lit_.gaps()[near].gap.low - gap.low) <= lit_.step();
+      });
+    });
   }
 
   // y: becomes the height of the surface if the point lies on one.
