@@ -342,6 +342,10 @@ std::size_t LitRooms::nearest_on_floor(std::size_t floor, const glm::dvec2& at, 
   return nearest;
 }
 
+double LitRooms::distance(std::size_t gap, const glm::dvec2& at) const {
+  return glm::length(raster_[gaps_[gap].column].at - at);
+}
+
 bool LitRooms::is_between_floors(const glm::dvec2& at, std::size_t room) const {
   const std::size_t middle = column_at(at);
   const auto has_floor = [&](std::size_t column) {

@@ -51,6 +51,8 @@ class LitRooms {
 
   // The gap with this floor closest to (x, z), none if it is farther than `within_m`.
   std::size_t nearest_on_floor(std::size_t floor, const glm::dvec2& at, double within_m) const;
+  // From a gap to (x, z), in m.
+  double distance(std::size_t gap, const glm::dvec2& at) const;
   // Whether light reaches a gap of another line in this room: it is connected with one of the raster nearby.
   bool is_lit(const Column& column, const Gap& gap, std::size_t room) const;
   // Whether floors of a room lie on both sides of a point, along x or z.

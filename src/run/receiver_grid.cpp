@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -142,22 +143,49 @@ class GridMaker {
     return text;
   }
 
+  // A floor at a line.
+  struct FloorHere {
+    double height = 0.0;    // m; beside the line if the line does not meet it
+    double distance = 0.0;  // m, from the line to the nearest one of the raster on this floor
+    bool under = false;     // the line meets it, and light gets there
+    bool covered = false;   // the line meets it below a body
+  };
+
+  std::optional<FloorHere> floor_at(const Column& line, std::size_t room, std::size_t floor) const {
+    constexpr double reach_m = 2.5;  // over furniture, the floor beside it counts
+    const std::size_t near = lit_.nearest_on_floor(floor, line.at, std::max(reach_m, 2.0 * lit_.spacing()));
+    if (near == none) return std::nullopt;
+    const double beside = lit_.gaps()[near].gap.low;
+    FloorHere here{beside, lit_.distance(near, line.at)};
+    double least = lit_.step();
+    for (const Gap& gap : line.gaps) {
+      if (std::abs(gap.low - beside) > least) continue;
+      least = std::abs(gap.low - beside);
+      here.height = gap.low;
+      here.under = here.distance <= 2.0 * lit_.spacing() && lit_.is_lit(line, gap, room);
+      here.covered = !here.under;
+    }
+    return here;
+  }
+
+  // Whether another floor of the room is the one below a line that does not meet this one: a podium, or a nearer floor
+  // less than a storey higher or lower.
+  bool is_over_other_floor(const Column& line, std::size_t room, std::size_t floor, const FloorHere& here) const {
+    const double storey = 8.0 * lit_.step();
+    return std::any_of(floors_of_[room].begin(), floors_of_[room].end(), [&](std::size_t other) {
+      if (other == floor) return false;
+      const std::optional<FloorHere> there = floor_at(line, room, other);
+      return there && std::abs(there->height - here.height) <= storey &&
+             (there->under || there->distance < here.distance);
+    });
+  }
+
   // Whether there is a floor at a line; a point above it that is free becomes a receiver.
   bool add_point(const Column& line, std::size_t room, std::size_t floor, const std::string& name) {
-    constexpr double reach_m = 2.5;  // over furniture, the floor beside it counts
-    const std::size_t near = lit_.nearest_on_floor(floor, line.at, std::max(reach_m, 1.5 * lit_.spacing()));
-    if (near == none) return false;
-    double floor_height = lit_.gaps()[near].gap.low;
-    bool floor_under = false;
-    for (const Gap& gap : line.gaps) {
-      if (std::abs(gap.low - lit_.gaps()[near].gap.low) > lit_.step()) continue;
-      if (floor_under &&
-          std::abs(gap.low - lit_.gaps()[near].gap.low) >= std::abs(floor_height - lit_.gaps()[near].gap.low))
-        continue;
-      floor_height = gap.low;
-      floor_under = true;
-    }
-    if (!floor_under && is_over_other_floor(line, room, floor, floor_height)) return false;
+    const std::optional<FloorHere> here = floor_at(line, room, floor);
+    if (!here || (!here->under && is_over_other_floor(line, room, floor, *here))) return false;
+    const double floor_height = here->height;
+    const bool floor_under = here->under || here->covered;
     double y = floor_height + height_;
     switch (place_of(line, room, floor_height, floor_under, y)) {
       case Place::no_floor:
@@ -177,19 +205,6 @@ class GridMaker {
     grid_.floors_m.push_back(floor_height);
     grid_.receivers.push_back({name, {line.at.x, y, line.at.y}, {0.0, 1.0, 0.0}, 90.0, 1.0});
     return true;
-  }
-
-  // Whether a podium, say, is the floor at this line: another floor of the room less than a storey higher or lower.
-  bool is_over_other_floor(const Column& line, std::size_t room, std::size_t floor, double floor_height) const {
-    const double storey = 8.0 * lit_.step();
-    return std::any_of(line.gaps.begin(), line.gaps.end(), [&](const Gap& gap) {
-      if (std::abs(gap.low - floor_height) > storey) return false;
-      return std::any_of(floors_of_[room].begin(), floors_of_[room].end(), [&](std::size_t other) {
-        if (other == floor) return false;
-        const std::size_t near = lit_.nearest_on_floor(other, line.at, 2.0 * lit_.spacing());
-        return near != none && std::abs(lit_.gaps()[near].gap.low - gap.low) <= lit_.step();
-      });
-    });
   }
 
   // y: becomes the height of the surface if the point lies on one.
