@@ -22,7 +22,7 @@ namespace {
 constexpr std::uint64_t seed = 20231;       // any: the same room is judged the same each time
 constexpr std::uint32_t flights_each = 16;  // of photons and of walks
 constexpr std::uint64_t photon_waves = 8;   // at most: then walks are faster
-constexpr std::size_t most_sides = 512;     // that are examined, the largest first; smaller ones count as reached
+constexpr std::size_t most_sides = 256;     // that are examined, the largest first; smaller ones count as reached
 constexpr std::uint32_t walks_at_a_time = 64;
 constexpr std::uint32_t least_rounds = 4;  // 256 walks from each side
 constexpr std::uint32_t most_rounds = 64;
