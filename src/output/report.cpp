@@ -33,9 +33,10 @@ std::string key_figures(const Room& room, const Result& result) {
   figures += figure(short_number(result.balance.emitted) + " " + std::string(power_unit(result.quantity)),
                     "from " + to_text(room.emitters.size(), "emitter"));
   if (!result.tiles.empty()) {
-    double area = 0.0;
-    for (const SurfaceResult& surface : result.surfaces) area += surface.area_m2;
-    figures += figure(short_number(result.incident / area) + " " + irradiance, "mean over all surfaces");
+    double lit_m2 = 0.0;
+    for (const SurfaceResult& surface : result.surfaces) lit_m2 += surface.area_m2 - surface.unreached_area_m2;
+    figures += figure(short_number(lit_m2 > 0.0 ? result.incident / lit_m2 : 0.0) + " " + irradiance,
+                      unreached_text(result).empty() ? "mean over all surfaces" : "mean over all that light can reach");
     figures += figure("± " + percent(result.walk.rms_relative_error),
                       "standard error of a tile (rms), " + to_text(result.tiles.size(), "tile"));
     figures += figure(short_count(result.walk.histories),
