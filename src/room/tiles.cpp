@@ -67,11 +67,11 @@ double check_cells(const Room& room, const std::vector<Chart>& charts, double ed
   const double exact = edge_m * std::sqrt(total / allowed);
   const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 1.0);
   const double enough = std::ceil(exact / digit * 1.001) * digit;
-  throw InputError("Tiles of " + to_text(edge_m) + " m divide the room into " + to_text(total) + " cells, " +
-                   to_text(most) + " of them on the surface " + in_quotes(room.surfaces[worst].name) + " of " +
+  throw InputError("Tiles of " + rounded(edge_m, 6) + " m divide the room into " + short_number(total) + " cells, " +
+                   short_number(most) + " of them on the surface " + in_quotes(room.surfaces[worst].name) + " of " +
                    short_number(area_m2) + " m^2, " + short_number(most * edge_m * edge_m / area_m2) +
                    " for each tile of that area (allowed: " + to_text(allowed) +
-                   " cells, what memory holds). Give --tile " + to_text(enough) +
+                   " cells, what memory holds). Give --tile " + rounded(enough, 2) +
                    " or more; if the area is wrong, give --scale the length of the file's unit in metres.");
 }
 
