@@ -19,14 +19,19 @@ namespace lichtmc {
 
 namespace {
 
-constexpr std::uint64_t seed = 20231;       // any: the same room is judged the same each time
-constexpr std::uint32_t flights_each = 16;  // of photons and of walks
-constexpr std::uint64_t photon_waves = 8;   // at most: then walks are faster
-constexpr std::size_t most_sides = 256;     // that are examined, the largest first; smaller ones count as reached
+constexpr std::uint64_t seed = 20231;  // any: the same room is judged the same each time
+constexpr std::uint32_t flights_of_photon = 16;
+constexpr std::uint32_t flights_of_walk = 8;  // in closed bodies all of them are flown in vain
+constexpr std::uint64_t photon_waves = 8;     // at most: then walks are faster
+constexpr std::size_t most_sides = 256;       // that are examined, the largest first; smaller ones count as reached
 constexpr std::uint32_t walks_at_a_time = 64;
 constexpr std::uint32_t least_rounds = 4;  // 256 walks from each side
 constexpr std::uint32_t most_rounds = 64;
-constexpr std::uint64_t enough_rays = 500'000;  // after the least rounds
+constexpr std::uint64_t enough_rays = 200'000;  // after the least rounds
+constexpr std::uint32_t enough_lit_walks = 8;   // from a side: then no more are sent from it
+// Of the walks from sides that are judged together, the share that sees light must exceed this: openings of less than
+// some 10⁻⁵ of the area of what encloses a dark space, at each of 8 flights, are cracks between meshes.
+constexpr double least_share = 1e-4;
 constexpr std::uint32_t no_side = 0xFFFFFFFF;
 
 // The side of a patch that the front of each facet belongs to; that of its back is the same XOR 1.
@@ -73,27 +78,41 @@ struct ReflectsPolicy {
   }
 };
 
-// Sides that are judged together (R. Tarjan, Efficiency of a Good But Not Linear Set Union Algorithm, 1975).
+// Sides that are judged together (R. Tarjan, Efficiency of a Good But Not Linear Set Union Algorithm, 1975), and the
+// walks from them.
 class SideSets {
  public:
-  explicit SideSets(std::size_t n) : parent_(n), lit_(n, false) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  explicit SideSets(std::size_t n) : parent_(n), walks_(n), lit_walks_(n) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
 
+  void join(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
+  void count_walk(std::uint32_t k) { ++walks_[k]; }
+  void count_lit_walk(std::uint32_t k) { ++lit_walks_[k]; }
+  bool surely_lit(std::uint32_t k) const { return lit_walks_[k] >= enough_lit_walks; }
+
+  // Of each side, whether light reaches its set.
+  std::vector<bool> lit() {
+    std::vector<double> walks(parent_.size(), 0.0);
+    std::vector<double> lit_walks(parent_.size(), 0.0);
+    for (std::uint32_t k = 0; k < parent_.size(); ++k) {
+      walks[of(k)] += walks_[k];
+      lit_walks[of(k)] += lit_walks_[k];
+    }
+    std::vector<bool> lit;
+    for (std::uint32_t k = 0; k < parent_.size(); ++k) lit.push_back(lit_walks[of(k)] > least_share * walks[of(k)]);
+    return lit;
+  }
+
+ private:
   std::uint32_t of(std::uint32_t k) {
     while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
     return k;
   }
-  void join(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t from = of(a);
-    const std::uint32_t to = of(b);
-    lit_[to] = lit_[to] || lit_[from];
-    parent_[from] = to;
-  }
-  bool lit(std::uint32_t k) { return lit_[of(k)]; }
-  void set_lit(std::uint32_t k) { lit_[of(k)] = true; }
 
- private:
   std::vector<std::uint32_t> parent_;
-  std::vector<bool> lit_;
+  std::vector<std::uint32_t> walks_;
+  std::vector<std::uint32_t> lit_walks_;
 };
 
 // A side of a patch, as origin of walks.
@@ -118,19 +137,23 @@ class DarkWalks : public GoalBase {
         sets_(dark.size()),
         number_of_side_(2 * patches.size(), no_side),
         origin_(batch_histories),
-        last_(batch_histories) {
+        last_(batch_histories),
+        lit_(batch_histories) {
     for (std::uint32_t n = 0; n < dark.size(); ++n) number_of_side_[dark[n].side] = n;
   }
 
   // Photon i of the next wave will start from a dark side.
   void prepare(std::uint32_t i, std::uint32_t origin) { origin_[i] = origin; }
   void begin(std::uint64_t first_history) { first_history_ = first_history; }
-  bool lit(std::uint32_t dark) { return sets_.lit(dark); }
+  bool surely_lit(std::uint32_t dark) const { return sets_.surely_lit(dark); }
+  std::vector<bool> lit() { return sets_.lit(); }
 
   void start(Wave& wave, std::uint32_t n) {
     for (std::uint32_t i = 0; i < n; ++i) {
       const ReferencePoint reference = place(wave.rays, i);
       last_[i] = origin_[i];
+      lit_[i] = false;
+      sets_.count_walk(origin_[i]);
       look_for_light(i, 0, glm::vec3(start_of(reference, *scene_.tracer)), reference);
       const Words words = stream_.draw(first_history_ + i, 0, Purpose::emission);
       const ConeDirection flight =
@@ -191,7 +214,7 @@ class DarkWalks : public GoalBase {
 
   void look_for_light(std::uint32_t photon, std::uint32_t flight, const glm::vec3& start,
                       const ReferencePoint& reference) {
-    if (sets_.lit(origin_[photon])) return;
+    if (lit_[photon]) return;
     for (std::size_t k = 0; k < light_.light_samples_per_point(); ++k) {
       const auto number = static_cast<std::uint32_t>(flight * light_.light_samples_per_point() + k);
       const Words which = stream_.draw(first_history_ + photon, number, Purpose::light);
@@ -204,8 +227,8 @@ class DarkWalks : public GoalBase {
   }
 
   void found(std::uint32_t photon) {
-    sets_.set_lit(origin_[photon]);
-    if (last_[photon] != no_side) sets_.set_lit(last_[photon]);
+    if (!lit_[photon]) sets_.count_lit_walk(origin_[photon]);
+    lit_[photon] = true;
   }
 
   const Room& room_;
@@ -220,16 +243,17 @@ class DarkWalks : public GoalBase {
   // By photon:
   std::vector<std::uint32_t> origin_;
   std::vector<std::uint32_t> last_;  // the dark side that it left last, or no_side
+  std::vector<bool> lit_;            // it has seen light
 };
 
 // Calls use(kernel) with the kernel of a goal for the scene's reflectances.
 template <class Policy, class Goal, class Use>
-void with_kernel(const Scene& scene, const Stream& stream, const Use& use) {
+void with_kernel(const Scene& scene, const Stream& stream, std::uint32_t flights, const Use& use) {
   if (scene.has_reflectance_maps()) {
-    Kernel<Policy, MappedReflectance, Goal> kernel(scene, stream, flights_each);
+    Kernel<Policy, MappedReflectance, Goal> kernel(scene, stream, flights);
     use(kernel);
   } else {
-    Kernel<Policy, SurfaceReflectance, Goal> kernel(scene, stream, flights_each);
+    Kernel<Policy, SurfaceReflectance, Goal> kernel(scene, stream, flights);
     use(kernel);
   }
 }
@@ -270,7 +294,7 @@ class Search {
   void send_photons() {
     const Stream stream(seed);
     SidesHit goal(scene_, stream, side_of_facet_, hit_.size());
-    with_kernel<ReflectsPolicy, SidesHit>(scene_, stream, [&](auto& kernel) {
+    with_kernel<ReflectsPolicy, SidesHit>(scene_, stream, flights_of_photon, [&](auto& kernel) {
       for (std::uint64_t wave = 0; wave < photon_waves; ++wave) {
         goal.begin(wave * batch_histories);
         kernel.fly(batch_histories, goal, [] { return false; });
@@ -310,7 +334,7 @@ class Search {
   std::vector<bool> walk_from(const std::vector<DarkSide>& dark) const {
     const Stream stream(seed, WalkDirection::backward);
     DarkWalks goal(room_, scene_, patches_, side_of_facet_, dark, stream);
-    with_kernel<ReflectsPolicy, DarkWalks>(scene_, stream, [&](auto& kernel) {
+    with_kernel<ReflectsPolicy, DarkWalks>(scene_, stream, flights_of_walk, [&](auto& kernel) {
       std::uint64_t walks = 0;
       std::uint32_t n = 0;
       const auto fly = [&] {
@@ -322,16 +346,14 @@ class Search {
       for (std::uint32_t round = 0; round < most_rounds; ++round) {
         if (round >= least_rounds && goal.traced().rays > enough_rays) break;
         for (std::uint32_t k = 0; k < dark.size(); ++k) {
-          if (goal.lit(k)) continue;
+          if (goal.surely_lit(k)) continue;
           for (std::uint32_t walk = 0; walk < walks_at_a_time; ++walk) goal.prepare(n++, k);
           if (n == batch_histories) fly();
         }
         if (n > 0) fly();
       }
     });
-    std::vector<bool> lit;
-    for (std::uint32_t k = 0; k < dark.size(); ++k) lit.push_back(goal.lit(k));
-    return lit;
+    return goal.lit();
   }
 
   const Room& room_;
