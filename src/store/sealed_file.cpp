@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "base/checksum.hpp"
@@ -59,6 +60,13 @@ std::string seal_of(std::string_view title, std::string_view rest) {
 }
 
 void check_seal(const fs::path& file, std::string_view title) {
+  std::error_code error;
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {  // opening a pipe would wait for ever
+    refuse(
+        file,
+        "it is no state of lichtmc, but a folder, pipe or device (allowed: a file state.h5 that lichtmc has written). "
+        "Give another file, or start a new run.");
+  }
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
     refuse(file, std::string(std::strerror(errno)) +

@@ -30,6 +30,7 @@ class BadFiles(ProgramTest):
         self.refused("run", "/dev/zero", says=["/dev/zero", "it is a device"])
         room = self.write_gltf(triangle_room())
         self.refused("run", room, "--receivers", "/dev/zero", says=["/dev/zero", "device"])
+        self.refused("resume", pipe, says=["pipe.glb", "it is no state of lichtmc, but a folder, pipe or device"])
 
     def test_files_outside_the_folder_of_the_room(self):
         document = triangle_room()
