@@ -251,6 +251,12 @@ void LitRooms::find_floors() {
     const Patch& patch = patches[p];
     is_floor[p] = patch.gaps > 0 && 4 * patch.standing >= patch.gaps && 2 * patch.over_low < patch.gaps ? 1 : 0;
   }
+  std::vector<double> largest(rooms_.size(), 0.0);  // m², of the floors of each room
+  for (std::size_t g = 0; g < gaps_.size(); ++g) {
+    if (patch_of[g] == none || is_floor[patch_of[g]] == 0) continue;
+    double& area = largest[gaps_[g].room];
+    area = std::max(area, static_cast<double>(patches[patch_of[g]].gaps) * spacing_ * spacing_);
+  }
   for (std::size_t g = 0; g < gaps_.size(); ++g) {
     if (patch_of[g] == none || is_floor[patch_of[g]] == 0) continue;
     Patch& high = patches[patch_of[g]];
@@ -262,7 +268,7 @@ void LitRooms::find_floors() {
         const Patch& low = patches[patch_of[h]];
         if (rise <= 0.0 || overlap(gaps_[g].gap, gaps_[h].gap) <= 0.0 || high.gaps >= low.gaps) continue;
         const double area = static_cast<double>(high.gaps) * spacing_ * spacing_;
-        const double least = std::min(podium_area_m2, 0.25 * static_cast<double>(low.gaps) * spacing_ * spacing_);
+        const double least = std::min(podium_area_m2, 0.25 * largest[gaps_[g].room]);
         if (rise > podium_height || area < least) high.furniture = true;
       }
     });

@@ -39,7 +39,8 @@ struct LitRoom {
 //
 // A floor is the lower end of such a gap where a person could stand (1.9 m, in small models half of the greatest
 // height) somewhere on it, except the tops of furniture: of what has a gap below that is too low to stand in, and of
-// closed bodies on a floor that are higher than 1.2 m or smaller than 6 m². Higher floors of 6 m² and more are podiums.
+// closed bodies on a floor that are higher than 1.2 m or smaller than 6 m² (a quarter of the largest floor, if that is
+// less). The others are podiums.
 class LitRooms {
  public:
   LitRooms(const Scene& scene, ColumnTracer& tracer);

@@ -105,6 +105,7 @@ class Run(ProgramTest):
         self.assertEqual(list(rows[0])[:13], "receiver,name,x,y,z,nx,ny,nz,irradiance,direct,indirect,standard_error,gain".split(","))
         self.assertEqual([r["name"] for r in rows[:3]], ["desk, left", "receiver_1", "grid_0_0"])
         self.assertEqual(len(rows), 2 + 16)
+        self.assertIn("Note: 16 receivers of the grid 0.1 m above the floor at y = 0 m.", said)
         self.assertEqual(len(summary["receivers"]), 18)
         for row, one in zip(rows, summary["receivers"]):
             self.assertEqual(float(row["irradiance"]), one["irradiance"])
@@ -199,6 +200,20 @@ class Run(ProgramTest):
         _, summary, _, said = self.run_room("--photons", "2000")
         self.assertEqual(summary["warnings"], [])
         self.assertNotIn("Warning", said)
+
+    def test_the_warnings_of_check_are_repeated(self):
+        room = self.folder / "inches.glb"
+        self.assertEqual(lichtmc("cuboid", "--size", 197, 102, 157, "--walls", "0.97", "--light", "point:98,80,78:2e7lm", "-o", room).returncode, 0)
+        out = self.folder / "out"
+        for quiet in ([], ["--quiet"]):
+            done = lichtmc("run", room, "-o", out, "--photons", "2000", "--tile", "20", "--no-report", *quiet)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            warnings = [line for line in done.stderr.splitlines() if line.startswith("Warning: ")]
+            self.assertEqual(len(warnings), 2, done.stderr)
+            self.assertIn("--scale 0.0254", warnings[0])
+            self.assertIn("more than 95 %", warnings[1])
+            summary = json.loads((out / "summary.json").read_text())
+            self.assertEqual(["Warning: " + warning for warning in summary["warnings"]], warnings)
 
     def test_quiet(self):
         done = lichtmc("run", CUBE, "-o", self.folder / "out", "--photons", "2000", "--quiet", "--no-report")
