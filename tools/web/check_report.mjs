@@ -143,6 +143,22 @@ async function checkScheme(tally, page, name, scheme) {
   tally.check(`${name}: ${scheme} scheme`, fits && contrast >= 4.5, `contrast ${contrast.toFixed(1)}`);
 }
 
+// On paper nothing is wider than the page: A4 less the margins of report.css, at 96 pixels per inch.
+async function checkPrint(tally, page, name) {
+  await page.emulateMedia({ media: 'print' });
+  const before = page.viewportSize();
+  for (const [orientation, millimetres] of [['portrait', 210 - 26], ['landscape', 297 - 26]]) {
+    const width = Math.floor((millimetres / 25.4) * 96);
+    await page.setViewportSize({ width, height: before.height });
+    const cut = await page.evaluate((right) => [...document.querySelectorAll('main *')]
+      .filter((element) => element.getBoundingClientRect().right > right + 1 && !element.closest('svg'))
+      .map((element) => element.tagName + (element.id ? `#${element.id}` : '')), width);
+    tally.check(`${name}: nothing is cut in ${orientation}`, cut.length === 0, cut.slice(0, 5).join(', '));
+  }
+  await page.setViewportSize(before);
+  await page.emulateMedia({ media: 'screen' });
+}
+
 const [folder, ...results] = process.argv.slice(2);
 const tally = new Tally();
 const { interpolateViridis, interpolateInferno } = await load(folder, 'd3-scale-chromatic/src/index.js');
@@ -174,6 +190,7 @@ for (const name of results) {
   await page.screenshot({ path: `${name}/report_dark.png` });
   await checkScheme(tally, page, name, 'light');
   await page.screenshot({ path: `${name}/report_light.png`, fullPage: true });
+  await checkPrint(tally, page, name);
   const pdf = await page.pdf({ path: `${name}/report.pdf`, format: 'A4', printBackground: true });
   tally.check(`${name}: prints`, pdf.length > 20000, `${pdf.length} bytes`);
   tally.check(`${name}: no complaint in the console`, complaints.length === 0, complaints.join('; '));
