@@ -76,7 +76,7 @@ using LitSides = std::vector<std::vector<SideLight>>;  // [surface][triangle]
 
 // The view of a room.
 enum class View {
-  corner,  // oblique from above, from the direction that shows the largest lit area
+  corner,  // oblique from above, from the direction that shows the largest lit area; see Picture for what can differ
   above,   // plan view: +x to the right, +z downwards, to scale
 };
 
@@ -87,7 +87,10 @@ struct Picture {
   // covered share of the pixel.
   std::vector<glm::vec4> colour;
   std::vector<float> irradiance;  // W/m² or lx, mean over the surfaces in the pixel; NaN without a surface
-  glm::dmat4 to_pixel{1.0};       // point (m, 1) → (x, y, ·, w): pixel x/w from the left, y/w from the top
+  glm::dmat4 to_pixel{1.0};  // point (m, 1) → (x, y, ·, w): pixel x/w from the left, y/w from the top; w > 0 in front
+  // Rooms of which a view from outside shows too little are cut open at a height, or drawn from inside (View::corner).
+  std::optional<double> cut_y_m;  // what lies above is not drawn
+  bool from_inside = false;
 };
 
 // The oblique view of a whole room, for other drawings: Picture::to_pixel of such a picture.
@@ -122,7 +125,7 @@ struct Isoline {
 };
 
 // A plan of a large coplanar part of a surface, to scale: walls from their lit side, floors and ceilings from above (+x
-// to the right, +z downwards). For a curved surface: its tile map, by column and row.
+// to the right, +z downwards). For a curved surface: its tile map, by column and row, if that has few, large parts.
 struct SurfacePlan {
   std::size_t map = 0;     // index into Tiling::maps
   bool flat = true;        // false: a tile map; then the three vectors are 0
@@ -139,10 +142,16 @@ struct SurfacePlan {
   std::string why_no_isolines;  // a sentence, if there are none
 };
 
-// Plans of the parts with at least 2 % of the room's surface area each, the largest first, at most `max_plans`.
+struct SurfacePlans {
+  std::vector<SurfacePlan> plans;
+  std::vector<std::string> left_out;  // sentences: which large surfaces have no plan, and why
+};
+
+// Plans of the parts with at least 2 % of the room's surface area each, the largest first, at most `max_plans`. No plan:
+// parts with the bottom colour of the scale nearly everywhere; curved surfaces in many or small parts, and bodies of
+// small flat parts, of which the tile map shows what nobody can find in the room.
 // `longer_side`: in pixels, 16 … 4096; throws InputError otherwise.
-std::vector<SurfacePlan> draw_plans(const Room& room, const Result& result, const LitSides& lit,
-                                    const ColourScale& scale, std::size_t max_plans = 12,
-                                    std::size_t longer_side = 640);
+SurfacePlans draw_plans(const Room& room, const Result& result, const LitSides& lit, const ColourScale& scale,
+                        std::size_t max_plans = 12, std::size_t longer_side = 640);
 
 }  // namespace lichtmc

@@ -23,6 +23,7 @@ struct ReportContent {
   std::string above_picture;
   std::string paths_picture;
   std::vector<SurfacePlan> plans;
+  std::vector<std::string> without_plan;  // sentences: which large surfaces have no plan, and why
   std::vector<std::string> plan_pictures;
   std::string lit_room;  // room_lit.glb
 };

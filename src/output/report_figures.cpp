@@ -57,7 +57,8 @@ std::string shares_svg(const std::vector<Share>& shares, double emitted, const s
   for (std::size_t k = 0; k < shares.size(); ++k) {
     const double y = 44.0 + row * static_cast<double>(k);
     const double width = bar_width * std::clamp(shares[k].power / emitted, 0.0, 1.0);
-    svg += svg_text(names_end - 8.0, y + 16.0, shares[k].name, " text-anchor=\"end\"");
+    svg +=
+        svg_text(names_end - 8.0, y + 16.0, shortened(shares[k].name, 13.0, names_end - 16.0), " text-anchor=\"end\"");
     svg += "<rect x=\"" + fixed(names_end) + "\" y=\"" + fixed(y + 3.0) + "\" width=\"" + fixed(width) +
            "\" height=\"18\" fill=\"" + shares[k].colour + "\"/>\n";
     svg += svg_text(names_end + width + 8.0, y + 16.0,
@@ -102,15 +103,18 @@ std::string surfaces_section(const ReportContent& content) {
                               element("tbody", rows),
                           " class=\"sortable\" id=\"surfaces\""),
                   " class=\"scroll\"");
+  html += heading("Plans of the surfaces");
+  std::string note =
+      content.plans.empty()
+          ? "There are no plans: no flat part of a surface has 2 % of the total surface area and shows "
+            "differences."
+          : "Walls are shown from their lit side, floors and ceilings from above. The largest flat parts "
+            "with at least 2 % of the total surface area are shown.";
+  for (const std::string& sentence : content.without_plan) note += " " + sentence;
+  html += text_element("p", note, " class=\"muted\"");
   if (content.plans.empty()) return html;
   std::string figures;
   for (std::size_t k = 0; k < content.plans.size(); ++k) figures += plan_figure(content, k);
-  html += heading("Plans of the surfaces");
-  html +=
-      text_element("p",
-                   "Walls are shown from their lit side, floors and ceilings from above. The largest flat parts with "
-                   "at least 2 % of the total surface area are shown.",
-                   " class=\"muted\"");
   return html + element("div", figures, " class=\"plans\"");
 }
 

@@ -1,6 +1,7 @@
 #include "output/svg.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 
 #include "base/utf8.hpp"
@@ -18,7 +19,75 @@ constexpr std::string_view style =
     "@media screen and (prefers-color-scheme:dark){.lichtmc .ink{fill:#ececec}.lichtmc .muted{fill:#a8a8a8}"
     ".lichtmc .paper{fill:#1a1b1e}.lichtmc .rule{stroke:#3a3c40}.lichtmc .frame{stroke:#888}}</style>\n";
 
+constexpr double title_size = 17.0;
+
+// Advance of a character as a part of the font size; at least that of DejaVu Sans, measured. Characters beyond ASCII
+// count as full squares, as Chinese ones are.
+double advance_of(char c) {
+  constexpr std::string_view narrow = " ijlI.,:;'|!/\\()[]{}-fr\"`t";
+  constexpr std::string_view wide = "mwMW@%+=<>#~^&";
+  if (static_cast<unsigned char>(c) >= 0x80) return 1.0;
+  if (narrow.find(c) != std::string_view::npos) return c == 'i' || c == 'j' || c == 'l' || c == 'I' ? 0.3 : 0.47;
+  if (wide.find(c) != std::string_view::npos) return 1.0;
+  return c >= 'A' && c <= 'Z' ? 0.79 : 0.64;
+}
+
+bool continues_character(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;  // of UTF-8
+}
+
+std::vector<std::string_view> characters_of(std::string_view text) {
+  std::vector<std::string_view> characters;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = at + 1;
+    while (end < text.size() && continues_character(text[end])) ++end;
+    characters.push_back(text.substr(at, end - at));
+    at = end;
+  }
+  return characters;
+}
+
 }  // namespace
+
+double text_width(std::string_view text, double font_size) {
+  double width = 0.0;
+  for (const char c : text) width += continues_character(c) ? 0.0 : advance_of(c);
+  return font_size * width;
+}
+
+std::string shortened(std::string_view any_text, double font_size, double width) {
+  const std::string text = visible_text(any_text);
+  if (text_width(text, font_size) <= width) return text;
+  const std::vector<std::string_view> characters = characters_of(text);
+  std::string begin;
+  std::string end;
+  double left = width - font_size;  // after the "…"
+  for (std::size_t k = 0, first = 0, last = characters.size(); first < last; ++k) {
+    const std::string_view next = k % 2 == 0 ? characters[first++] : characters[--last];
+    left -= text_width(next, font_size);
+    if (left < 0.0) break;
+    if (k % 2 == 0)
+      begin += next;
+    else
+      end.insert(0, next);
+  }
+  return begin + "…" + end;
+}
+
+std::vector<std::string> text_lines(std::string_view text, double font_size, double width) {
+  std::vector<std::string> lines{""};
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word = shortened(text.substr(at, end - at), font_size, width);
+    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
+    if (text_width(longer, font_size) <= width || lines.back().empty())
+      lines.back() = longer;
+    else
+      lines.push_back(word);
+    at = end + 1;
+  }
+  return lines;
+}
 
 std::string escaped(std::string_view text) {
   std::string out;
@@ -72,7 +141,8 @@ std::string svg_head(double width, double height, std::string_view title, double
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"lichtmc\" viewBox=\"0 0 " + fixed(width) + " " +
          fixed(height) + "\" font-family=\"sans-serif\" font-size=\"13\">\n" + std::string(style) +
          "<rect width=\"100%\" height=\"100%\" class=\"paper\"/>\n" +
-         svg_text(title_x, 28.0, title, " font-size=\"17\"");
+         svg_text(title_x, 28.0, shortened(title, title_size, width - 2.0 * title_x),
+                  " font-size=\"" + fixed(title_size) + "\"");
 }
 
 }  // namespace lichtmc

@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lichtmc {
 
@@ -20,7 +21,17 @@ std::string fixed(double value);
 std::string svg_text(double x, double y, std::string_view text, std::string_view more = "");
 std::string svg_line(double x1, double y1, double x2, double y2, std::string_view attributes);
 
-// The start of the root element: size in units, style, background and title.
+// The greatest width, in units, that the text takes in a common sans-serif font (DejaVu Sans and Verdana are the
+// widest).
+double text_width(std::string_view text, double font_size);
+
+// The text as visible_text() writes it, or its beginning, "…" and its end if it is wider than `width`.
+std::string shortened(std::string_view text, double font_size, double width);
+
+// The text in lines that are not wider than `width`, broken at blanks; longer words are shortened. Not empty.
+std::vector<std::string> text_lines(std::string_view text, double font_size, double width);
+
+// The start of the root element: size in units, style, background and title, shortened if it is too long.
 std::string svg_head(double width, double height, std::string_view title, double title_x = 0.0);
 
 }  // namespace lichtmc

@@ -87,7 +87,9 @@ class ReportWriter {
     content_.above_picture = all[1].svg;
 
     announce("Drawing plans of the surfaces");
-    content_.plans = draw_plans(*room_, *result_, painter.lit_sides(), content_.scale);
+    SurfacePlans plans = draw_plans(*room_, *result_, painter.lit_sides(), content_.scale);
+    content_.plans = std::move(plans.plans);
+    content_.without_plan = std::move(plans.left_out);
     const std::vector<std::string> names = plan_names(*result_, content_.plans);
     // Encoding takes longer than drawing: one thread per plan, at most 12.
     std::vector<std::future<Drawn>> drawings;

@@ -1,7 +1,6 @@
 #include "view/camera.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -12,36 +11,35 @@ namespace lichtmc {
 
 namespace {
 
-constexpr double elevation = 40.0 * std::numbers::pi / 180.0;   // above the horizon: shows floor and walls alike
+constexpr double corner_elevation = 40.0 * std::numbers::pi / 180.0;  // above the horizon: shows floor and walls alike
+constexpr double inside_elevation = 12.0 * std::numbers::pi / 180.0;  // of the line of sight: floors matter most
+constexpr double half_field_inside = 45.0 * std::numbers::pi / 180.0;
 constexpr double half_field = 14.0 * std::numbers::pi / 180.0;  // of view, along the longer side: little distortion
 constexpr double margin = 0.02;                                 // of the picture, on each side
 
-std::array<glm::dvec3, 8> corners_of(const Bounds& box) {
-  std::array<glm::dvec3, 8> corners;
-  for (std::size_t k = 0; k < 8; ++k) {
-    corners[k] = {(k & 1U) != 0 ? box.high.x : box.low.x, (k & 2U) != 0 ? box.high.y : box.low.y,
-                  (k & 4U) != 0 ? box.high.z : box.low.z};
-  }
-  return corners;
-}
-
 }  // namespace
 
-Camera Camera::from_corner(const Bounds& box, double azimuth, std::size_t width, std::size_t height) {
+void Camera::look(double azimuth, double elevation) {
+  forward_ = -glm::dvec3(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                         std::cos(azimuth) * std::cos(elevation));
+  right_ = {std::cos(azimuth), 0.0, -std::sin(azimuth)};
+  down_ = glm::cross(forward_, right_);
+}
+
+Camera Camera::from_corner(const std::vector<glm::dvec3>& points, double azimuth, std::size_t width,
+                           std::size_t height) {
   Camera camera;
-  const glm::dvec3 back(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-                        std::cos(azimuth) * std::cos(elevation));
-  camera.forward_ = -back;
-  camera.right_ = {std::cos(azimuth), 0.0, -std::sin(azimuth)};
-  camera.down_ = glm::cross(camera.forward_, camera.right_);
+  camera.look(azimuth, corner_elevation);
   const auto w = static_cast<double>(width);
   const auto h = static_cast<double>(height);
   camera.scale_ = 0.5 * std::max(w, h) / std::tan(half_field);
   camera.middle_x_ = 0.5 * w;
   camera.middle_y_ = 0.5 * h;
 
-  // Moves the eye backwards until all corners are in view, and sideways and upwards until the picture is centred. Each
+  // Moves the eye backwards until all points are in view, and sideways and upwards until the picture is centred. Each
   // step halves the remaining error, because the distance is large compared with the box.
+  Bounds box;
+  for (const glm::dvec3& point : points) box.add(point);
   const glm::dvec3 centre = 0.5 * (box.low + box.high);
   const double size = std::max(glm::length(box.high - box.low), std::numeric_limits<double>::min());
   double distance = size / std::tan(half_field);
@@ -50,7 +48,7 @@ Camera Camera::from_corner(const Bounds& box, double azimuth, std::size_t width,
     camera.eye_ = centre - distance * camera.forward_ + shift.x * camera.right_ + shift.y * camera.down_;
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high = -low;
-    for (const glm::dvec3& corner : corners_of(box)) {
+    for (const glm::dvec3& corner : points) {
       const glm::dvec4 at = camera.to_pixel() * glm::dvec4(corner, 1.0);
       const glm::dvec2 place((at.x / at.w - 0.5 * w) / w, (at.y / at.w - 0.5 * h) / h);
       low = glm::min(low, place);
@@ -78,10 +76,36 @@ Camera Camera::from_above(const Bounds& box, std::size_t width, std::size_t heig
   return camera;
 }
 
+Camera Camera::from_inside(const glm::dvec3& eye, double azimuth, std::size_t width, std::size_t height) {
+  Camera camera;
+  camera.look(azimuth, inside_elevation);
+  camera.eye_ = eye;
+  camera.scale_ = 0.5 * static_cast<double>(std::max(width, height)) / std::tan(half_field_inside);
+  camera.middle_x_ = 0.5 * static_cast<double>(width);
+  camera.middle_y_ = 0.5 * static_cast<double>(height);
+  return camera;
+}
+
 Ray Camera::ray(double x, double y) const {
   const glm::dvec3 aside = (x - middle_x_) / scale_ * right_ + (y - middle_y_) / scale_ * down_;
-  if (!perspective_) return {eye_ + aside, forward_};
-  return {eye_, glm::normalize(forward_ + aside)};
+  Ray ray{eye_, forward_};
+  if (perspective_)
+    ray.direction = glm::normalize(forward_ + aside);
+  else
+    ray.start += aside;
+  if (cut_y_ && ray.start.y > *cut_y_ && ray.direction.y < 0.0)
+    ray.start += (ray.start.y - *cut_y_) / -ray.direction.y * ray.direction;
+  return ray;
+}
+
+double Camera::pixel_area(double x, double y, double distance_m) const {
+  if (!perspective_) return 1.0 / (scale_ * scale_);
+  // Solid angle: on the plane at a distance of 1 m a pixel has the area 1/scale², at the distance s from the eye and
+  // inclined by the cosine 1/s.
+  const glm::dvec3 aside = (x - middle_x_) / scale_ * right_ + (y - middle_y_) / scale_ * down_;
+  const double s = glm::length(forward_ + aside);
+  const double distance = distance_m + glm::length(ray(x, y).start - eye_);
+  return distance * distance / (scale_ * scale_ * s * s * s);
 }
 
 glm::dmat4 Camera::to_pixel() const {

@@ -17,7 +17,9 @@
 #include "run/stop_watch.hpp"
 #include "view/camera.hpp"
 #include "view/colours.hpp"
+#include "view/eye.hpp"
 #include "view/lit_sides.hpp"
+#include "view/viewpoint.hpp"
 #include "walk/scene.hpp"
 #include "walk/wave.hpp"
 
@@ -27,18 +29,8 @@ namespace {
 
 constexpr std::size_t samples = 3;      // rays per pixel, along each side
 constexpr std::size_t band = 16;        // rows of pixels that a thread draws at a time
-constexpr std::size_t wave = 1024;      // rays traced together
-constexpr int max_layers = 256;         // transparent sides along a ray; after that it ends without a hit
 constexpr double crease_cosine = 0.94;  // cos 20°: a larger angle between neighbouring normals is an edge
 constexpr float line_opacity = 0.62F;
-
-// The first visible impact of a ray from the eye.
-struct VisibleHit {
-  std::uint32_t facet = no_facet;
-  std::uint32_t tile = no_tile;
-  float depth = 0.0F;  // along the ray, in the tracer's coordinates
-  glm::vec3 normal{0.0F};
-};
 
 // Whether two neighbouring rays have an edge between them: another surface, another normal, or a step in depth.
 bool is_edge(const VisibleHit& a, const VisibleHit& b, const std::vector<Facet>& facets, float reach) {
@@ -57,138 +49,16 @@ struct RoomPainter::Impl {
         result(&the_result),
         threads(the_threads > 0 ? the_threads : std::max(1U, std::thread::hardware_concurrency())),
         scene(the_room, the_result.tiling, Engine::embree),
-        lit(find_lit_sides(the_room, scene)) {
-    for (const std::vector<SideLight>& surface : lit) {
-      for (const SideLight& side : surface) {
-        opaque.push_back(side.front ? 1 : 0);
-        opaque.push_back(side.back ? 1 : 0);
-      }
-    }
-    for (std::size_t s = 0; s < room->surfaces.size(); ++s) {
-      const Surface& surface = room->surfaces[s];
-      for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
-        if (!lit[s][n].front && !lit[s][n].back) continue;
-        for (int k = 0; k < 3; ++k) box.add(surface.positions[surface.triangles[n][k]]);
-      }
-    }
-  }
-
-  // Traces rays to the first visible side.
-  class Eye;
-
-  Camera camera_for(View view, std::size_t width, std::size_t height) const;
-  double visible_area(const Camera& camera, std::size_t width, std::size_t height) const;
+        lit(find_lit_sides(the_room, scene)),
+        viewpoints(the_room, the_result, scene, lit) {}
 
   const Room* room;
   const Result* result;
   unsigned threads;
   Scene scene;
   LitSides lit;
-  std::vector<std::uint8_t> opaque;  // 1: lit and therefore visible; index: 2 · facet + behind
-  Bounds box;                        // of all lit triangles
+  Viewpoints viewpoints;
 };
-
-class RoomPainter::Impl::Eye {
- public:
-  explicit Eye(const Impl& impl)
-      : impl_(&impl), rays_(wave), ray_(wave), travelled_(wave), tile_(wave), map_(wave), surface_(wave) {}
-
-  // Traces n ≤ `wave` rays: hits[k] for ray_of(k).
-  template <class RayOf>
-  void trace(std::size_t n, const RayOf& ray_of, VisibleHit* hits) {
-    const Tracer& tracer = *impl_->scene.tracer;
-    for (std::size_t i = 0; i < n; ++i) {
-      const Ray ray = ray_of(i);
-      rays_.set_start(i, glm::vec3(tracer.tracer_point(ray.start)));
-      rays_.set_direction(i, glm::vec3(tracer.directions() * ray.direction));
-      rays_.facet[i] = no_facet;
-      ray_[i] = i;
-      travelled_[i] = 0.0F;
-      hits[i] = VisibleHit{};
-    }
-    rays_.size = n;
-    TraceCount count;
-    for (int layer = 0; layer < max_layers && rays_.size > 0; ++layer) {
-      tracer.trace(rays_, Misses::escape, count);
-      keep_unfinished(hits);
-      tracer.depart(rays_);
-    }
-  }
-
- private:
-  // Stores the hits of rays on visible sides and removes these rays; the others continue behind the transparent side.
-  void keep_unfinished(VisibleHit* hits) {
-    const std::size_t n = rays_.size;
-    hit_ = rays_.facet;
-    for (std::size_t i = 0; i < whole_lanes(n); ++i) {
-      if (i >= n || rays_.facet[i] == no_facet) rays_.facet[i] = 0;
-    }
-    impl_->scene.tile_of_each(rays_, tile_.data(), map_.data(), surface_.data());
-    const std::vector<Facet>& facets = impl_->scene.tracer->facets();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (hit_[i] == no_facet) continue;
-      travelled_[i] += rays_.length[i];
-      const std::uint32_t behind = rays_.behind[i];
-      if (impl_->opaque[2 * std::size_t{hit_[i]} + behind] != 0) {
-        hits[ray_[i]] = {hit_[i], tile_[i], travelled_[i], facets[hit_[i]].normal};
-        continue;
-      }
-      rays_.move_landing(i, kept);
-      rays_.behind[kept] = 1 - behind;
-      rays_.set_direction(kept, rays_.direction(i));
-      ray_[kept] = ray_[i];
-      travelled_[kept] = travelled_[i];
-      ++kept;
-    }
-    rays_.size = kept;
-  }
-
-  const Impl* impl_;
-  Rays rays_;
-  std::vector<std::uint32_t> hit_;
-  std::vector<std::size_t> ray_;  // number of the ray in each lane
-  std::vector<float> travelled_;
-  std::vector<std::uint32_t> tile_, map_, surface_;
-};
-
-// Area in m² of the tiles in a coarse picture.
-double RoomPainter::Impl::visible_area(const Camera& camera, std::size_t width, std::size_t height) const {
-  std::vector<bool> seen(result->tiling.tiles.size());
-  double area = 0.0;
-  Eye eye(*this);
-  std::vector<VisibleHit> row(width);
-  for (std::size_t y = 0; y < height; ++y) {
-    eye.trace(
-        width, [&](std::size_t x) { return camera.ray(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5); },
-        row.data());
-    for (const VisibleHit& hit : row) {
-      if (hit.tile == no_tile || seen[hit.tile]) continue;
-      seen[hit.tile] = true;
-      area += result->tiling.tiles[hit.tile].area_m2;
-    }
-  }
-  return area;
-}
-
-Camera RoomPainter::Impl::camera_for(View view, std::size_t width, std::size_t height) const {
-  if (view == View::above) return Camera::from_above(box, width, height);
-  // The one of eight directions that shows the largest lit area. Most walls are parallel to the axes: none of the
-  // directions is parallel to such a wall.
-  constexpr std::size_t coarse_width = 144;
-  const std::size_t coarse_height = std::max<std::size_t>(1, coarse_width * height / width);
-  double best_area = -1.0;
-  double best_azimuth = 0.0;
-  for (int k = 0; k < 8; ++k) {
-    const double azimuth = (0.25 * k + (k % 2 == 0 ? 0.16 : 0.09)) * std::numbers::pi;
-    const double area =
-        visible_area(Camera::from_corner(box, azimuth, coarse_width, coarse_height), coarse_width, coarse_height);
-    if (area <= 1.02 * best_area) continue;  // among nearly equal areas, the first
-    best_area = area;
-    best_azimuth = azimuth;
-  }
-  return Camera::from_corner(box, best_azimuth, width, height);
-}
 
 namespace {
 
@@ -199,19 +69,18 @@ class Band {
     hits_.resize(columns() * pixel_rows_ * samples);
     line_.resize(hits_.size());
     middles_.resize(pixel_columns_ * pixel_rows_);
-    wave_hits_.resize(wave);
+    wave_hits_.resize(Eye::max_rays);
   }
   std::size_t columns() const { return pixel_columns_ * samples; }
 
   // Traces one ray per pixel; if the hits of a pixel and its neighbours differ, all rays of the pixel.
-  template <class Eye>
   void trace(Eye& eye, const Camera& camera, double first_row) {
     std::vector<std::size_t> all(middles_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    for (std::size_t first = 0; first < all.size(); first += wave) {
+    for (std::size_t first = 0; first < all.size(); first += Eye::max_rays) {
       eye.trace(
-          std::min(wave, all.size() - first), [&](std::size_t i) { return middle_ray(camera, first + i, first_row); },
-          &middles_[first]);
+          std::min(Eye::max_rays, all.size() - first),
+          [&](std::size_t i) { return middle_ray(camera, first + i, first_row); }, &middles_[first]);
     }
     std::vector<std::size_t> fine;  // samples
     for (std::size_t pixel = 0; pixel < middles_.size(); ++pixel) {
@@ -222,8 +91,8 @@ class Band {
         if (!even) fine.push_back(at);
       }
     }
-    for (std::size_t first = 0; first < fine.size(); first += wave) {
-      const std::size_t n = std::min(wave, fine.size() - first);
+    for (std::size_t first = 0; first < fine.size(); first += Eye::max_rays) {
+      const std::size_t n = std::min(Eye::max_rays, fine.size() - first);
       eye.trace(
           n, [&](std::size_t i) { return sample_ray(camera, fine[first + i], first_row); }, wave_hits_.data());
       for (std::size_t i = 0; i < n; ++i) hits_[fine[first + i]] = wave_hits_[i];
@@ -336,8 +205,13 @@ RoomPainter::RoomPainter(const Room& room, const Result& result, unsigned thread
 RoomPainter::~RoomPainter() = default;
 
 glm::dmat4 view_onto(const Room& room, std::size_t width, std::size_t height) {
-  constexpr double azimuth = 0.16 * std::numbers::pi;  // the first candidate of camera_for()
-  return Camera::from_corner(bounds_of(room), azimuth, width, height).to_pixel();
+  constexpr double azimuth = 0.16 * std::numbers::pi;
+  const Bounds box = bounds_of(room);
+  std::vector<glm::dvec3> corners;
+  for (int k = 0; k < 8; ++k)
+    corners.emplace_back((k & 1) != 0 ? box.high.x : box.low.x, (k & 2) != 0 ? box.high.y : box.low.y,
+                         (k & 4) != 0 ? box.high.z : box.low.z);
+  return Camera::from_corner(corners, azimuth, width, height).to_pixel();
 }
 
 const LitSides& RoomPainter::lit_sides() const {
@@ -348,13 +222,15 @@ Picture RoomPainter::draw(View view, const ColourScale& scale, std::size_t width
   check_size(width);
   check_size(height);
   const Impl& impl = *impl_;
-  const Camera camera = impl.camera_for(view, width, height);
+  const Viewpoint viewpoint = impl.viewpoints.choose(view, width, height);
   Picture picture;
   picture.width = width;
   picture.height = height;
   picture.colour.resize(width * height);
   picture.irradiance.resize(width * height, std::numeric_limits<float>::quiet_NaN());
-  picture.to_pixel = camera.to_pixel();
+  picture.to_pixel = viewpoint.camera.to_pixel();
+  picture.from_inside = viewpoint.inside;
+  picture.cut_y_m = viewpoint.cut_y_m;
   const std::vector<Facet>& facets = impl.scene.tracer->facets();
   constexpr float reach = 0.02F;  // a step in depth by a hundredth of the room is an edge
 
@@ -362,10 +238,10 @@ Picture RoomPainter::draw(View view, const ColourScale& scale, std::size_t width
   std::atomic<std::size_t> next{0};
   StopWatch watch(std::nullopt, {});
   watch.run_on_threads(impl.threads, [&](unsigned) {
-    Impl::Eye eye(impl);
+    Eye eye(impl.scene, impl.lit);
     Band own(width, band);
     for (std::size_t b = next++; b < bands && !watch.should_stop(); b = next++) {
-      own.trace(eye, camera, static_cast<double>(b * band));
+      own.trace(eye, viewpoint.camera, static_cast<double>(b * band));
       own.find_lines(facets, reach);
       finish_rows(own, *impl.result, scale, b * band, std::min(band, height - b * band), picture);
     }

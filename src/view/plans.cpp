@@ -13,6 +13,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/message.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/picture.hpp"
 #include "room/nearest_tile.hpp"
@@ -332,20 +333,62 @@ void PlanDrawer::add_isolines(SurfacePlan& plan) const {
   if (plan.isolines.empty()) plan.why_no_isolines = "No isolines: nearly uniform.";
 }
 
+// Whether a plan has the bottom colour of the scale nearly everywhere, so that it shows nothing.
+bool is_dark(const SurfacePlan& plan, const ColourScale& scale) {
+  constexpr double dark = 0.05;  // of the scale: colours that are hardly distinguishable
+  constexpr double nearly_all = 0.99;
+  double shown = 0.0;
+  double dim = 0.0;
+  for (const float irradiance : plan.picture.irradiance) {
+    if (std::isnan(irradiance)) continue;
+    shown += 1.0;
+    dim += scale.share(double{irradiance}) < dark ? 1.0 : 0.0;
+  }
+  return dim >= nearly_all * shown;
+}
+
+// A sentence with the names of some tile maps; none without maps.
+void add_sentence(std::vector<std::string>& sentences, const std::string& beginning, std::vector<std::size_t> maps,
+                  const Result& result) {
+  constexpr std::size_t max_names = 5;
+  std::sort(maps.begin(), maps.end());
+  maps.erase(std::unique(maps.begin(), maps.end()), maps.end());
+  if (maps.empty()) return;
+  std::string names;
+  for (std::size_t k = 0; k < std::min(maps.size(), max_names); ++k)
+    names += (k > 0 ? ", " : "") + result.tiling.maps[maps[k]].name;
+  if (maps.size() > max_names) names += " and " + to_text(maps.size() - max_names, "other");
+  sentences.push_back(beginning + names + ".");
+}
+
 }  // namespace
 
-std::vector<SurfacePlan> draw_plans(const Room& room, const Result& result, const LitSides& lit,
-                                    const ColourScale& scale, std::size_t max_plans, std::size_t longer_side) {
+SurfacePlans draw_plans(const Room& room, const Result& result, const LitSides& lit, const ColourScale& scale,
+                        std::size_t max_plans, std::size_t longer_side) {
   if (longer_side < 16 || longer_side > 4096)
     throw InputError("The longer side of a plan is " + std::to_string(longer_side) +
                      " pixels (allowed: 16 to 4096). Choose another size.");
-  std::vector<SurfacePlan> plans;
+  SurfacePlans drawn;
   PlanDrawer drawer(room, result, scale, static_cast<double>(longer_side));
-  for (const PlanSubject& subject : plan_subjects(room, result, lit)) {
-    if (plans.size() == max_plans) break;
-    plans.push_back(drawer.draw(subject));
+  PlanSubjects found = plan_subjects(room, result, lit);
+  std::vector<std::size_t> dark;
+  std::vector<std::size_t> further;
+  for (const PlanSubject& subject : found.subjects) {
+    if (drawn.plans.size() == max_plans) {
+      further.push_back(subject.map);
+      continue;
+    }
+    SurfacePlan plan = drawer.draw(subject);
+    if (is_dark(plan, scale))
+      dark.push_back(subject.map);
+    else
+      drawn.plans.push_back(std::move(plan));
   }
-  return plans;
+  add_sentence(drawn.left_out, "Plans would have the lowest colour nearly everywhere of parts of: ", dark, result);
+  add_sentence(drawn.left_out, "In many or small parts, therefore without a plan: ", found.small_parts, result);
+  add_sentence(drawn.left_out,
+               "There are more than " + to_text(max_plans, "plan") + "; not shown are parts of: ", further, result);
+  return drawn;
 }
 
 }  // namespace lichtmc

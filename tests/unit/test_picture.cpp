@@ -164,7 +164,8 @@ TEST_CASE("plans: every wall of a cube has one, to scale, with each tile in its 
   const Room room = unit_cube(0.5, paper_emitter());
   const Result result = simulate_cube(room);
   const RoomPainter painter(room, result, 1);
-  const std::vector<SurfacePlan> plans = draw_plans(room, result, painter.lit_sides(), choose_scale(result), 12, 120);
+  const std::vector<SurfacePlan> plans =
+      draw_plans(room, result, painter.lit_sides(), choose_scale(result), 12, 120).plans;
   REQUIRE(plans.size() == 6);
   for (const SurfacePlan& plan : plans) {
     INFO(result.tiling.maps[plan.map].name);
