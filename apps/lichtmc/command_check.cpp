@@ -98,8 +98,8 @@ void print_facts(const Room& room, const Inspection& facts) {
   std::cout << row("Size", four_digits(size.x) + " x " + four_digits(size.y) + " x " + four_digits(size.z) +
                                " m (x, height y, z), from " + point(facts.low) + " to " + point(facts.high));
   std::cout << row("Meshes", std::to_string(facts.triangles) + " triangles in " +
-                                 std::to_string(facts.surfaces.size()) + " surfaces; " + std::to_string(facts.tiles) +
-                                 " tiles");
+                                 std::to_string(facts.surfaces.size()) + " surfaces" +
+                                 (facts.tiles > 0 ? "; " + std::to_string(facts.tiles) + " tiles" : std::string()));
   std::cout << row("Shape", std::string(facts.cuboid ? "empty cuboid, " : "") +
                                 (facts.convex ? "convex, " : "not convex, ") +
                                 (facts.closed ? "closed" : "not closed"));
