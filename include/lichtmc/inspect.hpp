@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "lichtmc/gltf.hpp"
+#include "lichtmc/cover.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/tiles.hpp"
 
@@ -24,7 +25,7 @@ enum class Severity {
 };
 
 // One finding. `topic` is a stable word for programs: "size", "up-axis", "emitters", "receivers",
-// "not-modelled", "open-edges", "openings", "behind", "duplicates", "zero-area", "reflectance", "texture-coordinates",
+// "not-modelled", "open-edges", "openings", "behind", "one-plane", "zero-area", "reflectance", "texture-coordinates",
 // "tiles", "shape", "trapped-light", "emitter-light", "room".
 struct Finding {
   Severity severity = Severity::note;
@@ -106,6 +107,10 @@ struct Inspection {
   double memory_bytes = 0.0;     // estimate for the tiles of a run with two threads
   double suggested_scale = 1.0;  // factor on ReadOptions::scale; 1 if the size is plausible
   bool probably_z_up = false;    // the vertical axis of the file is probably Z
+
+  std::vector<Cover> covers;            // surfaces that cover others in their plane, in the order of these
+  double opposite_m2 = 0.0;             // m² of one-sided faces in one place that look in opposite directions
+  std::uint64_t undecided_flights = 0;  // of `flights`: ended where no rule decides, see Cover
 
   std::vector<SurfaceFacts> surfaces;
   std::vector<Finding> findings;  // faults first, then warnings, then notes

@@ -4,6 +4,7 @@
 #include "lichtmc/communicator.hpp"    // IWYU pragma: export
 #include "lichtmc/compare.hpp"         // IWYU pragma: export
 #include "lichtmc/control.hpp"         // IWYU pragma: export
+#include "lichtmc/cover.hpp"           // IWYU pragma: export
 #include "lichtmc/cuboid.hpp"          // IWYU pragma: export
 #include "lichtmc/emitter_law.hpp"     // IWYU pragma: export
 #include "lichtmc/error.hpp"           // IWYU pragma: export

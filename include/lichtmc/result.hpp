@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lichtmc/cover.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/state.hpp"
@@ -59,6 +60,7 @@ struct SurfaceResult {
   // m², part of the area that no light can reach, by the shape of the room: outer faces of thick walls, undersides of
   // slabs. The means and the lowest irradiance are of the rest.
   double unreached_area_m2 = 0.0;
+  double covered_m2 = 0.0;  // the part of the area that other surfaces in its plane cover, see Cover
 };
 
 // One receiver.
@@ -87,6 +89,7 @@ struct WalkReport {
   std::uint64_t rays = 0;         // flights traced, including those traced again and shadow rays
   std::uint64_t shadow_rays = 0;  // rays that test whether an emitter is visible; none if nothing casts a shadow
   std::uint64_t retraced = 0;     // flights that hit no surface and were traced again by the slower rule
+  std::uint64_t undecided = 0;    // flights that ended where no rule decides between surfaces in one plane, see Cover
   double seconds = 0.0;           // wall-clock time, s, including that of direct light
   double direct_seconds = 0.0;    // part of it for direct light, s
   // Rms of the relative standard errors: of the tiles with an irradiance above 0, weighted by area; or of the receivers
@@ -128,6 +131,7 @@ struct Result {
   std::uint64_t tiles_without_hits = 0;  // tiles of irradiance 0 that light can reach
   std::uint64_t unreached_tiles = 0;     // tiles whose point no light can reach, see SurfaceResult::unreached_area_m2
 
+  std::vector<Cover> covers;            // surfaces that cover others in their plane, in the order of these
   std::vector<TileResult> tiles;        // as Tiling::tiles; empty if only receivers were measured
   std::vector<SurfaceResult> surfaces;  // as Tiling::maps
   Tiling tiling;

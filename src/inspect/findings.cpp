@@ -15,7 +15,7 @@ using Topic = void (*)(const Room&, Inspection&);
 // repeats the first of them.
 constexpr std::array topics{
     Topic{find_size},  find_up_axis,     find_emitters,  find_emitter_light,       find_seen_from_behind,
-    find_not_modelled, find_duplicates,  find_openings,  find_reflectances,        find_open_edges,
+    find_not_modelled, find_faces_in_one_plane,  find_openings,  find_reflectances,        find_open_edges,
     find_receivers,    find_area_lights, find_zero_area, find_texture_coordinates, find_tiles,
     find_shape,
 };

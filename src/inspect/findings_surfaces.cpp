@@ -5,6 +5,7 @@
 #include "base/message.hpp"
 #include "inspect/finding_text.hpp"
 #include "room/emitter_shape.hpp"
+#include "run/cover_warnings.hpp"
 #include "run/warnings.hpp"
 
 namespace lichtmc {
@@ -37,14 +38,22 @@ void find_seen_from_behind(const Room& room, Inspection& facts) {
   }
 }
 
-void find_duplicates(const Room& /*room*/, Inspection& facts) {
-  if (facts.duplicate_triangles == 0) return;
-  add(facts, Severity::warning, "duplicates",
-      to_text(facts.duplicate_triangles, "triangle") + (facts.duplicate_triangles == 1 ? " has" : " have") +
-          " the same corners as another. Rounding decides which of the two a photon hits.",
-      "The tiles of both share the light: remove the copies (in Blender: Merge by Distance on each mesh), especially "
-      "if "
-      "their materials differ.");
+void find_faces_in_one_plane(const Room& room, Inspection& facts) {
+  for (const CoverWarning& covered : covered_emitters(room, facts.covers))
+    add(facts, Severity::warning, "one-plane", covered.what, covered.advice);
+  const auto ties = undecided_covers(room, facts.covers, facts.undecided_flights, facts.flights);
+  for (const CoverWarning& tie : ties) add(facts, Severity::warning, "one-plane", tie.what, tie.advice);
+  constexpr std::size_t most = 5;
+  const std::string covers = text_of_covers(room, facts.covers, most, false);
+  if (!covers.empty()) {
+    add(facts, Severity::note, "one-plane", "Surfaces in the plane of others: " + covers + ".",
+        "Nothing to do: the smaller one lies on top, and covered parts receive no light.");
+  }
+  if (facts.opposite_m2 > 0.0) {
+    add(facts, Severity::note, "one-plane",
+        short_number(facts.opposite_m2) + " m² of faces lie in the place of others that look the opposite way.",
+        "Nothing to do: on each side the face counts that looks to it.");
+  }
 }
 
 void find_zero_area(const Room& /*room*/, Inspection& facts) {

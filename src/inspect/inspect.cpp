@@ -107,6 +107,11 @@ void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters, Inspe
   facts.closed = scene.misses == Misses::retrace;
   const ProbeResult result = probe(lit, scene, facts.low, facts.high);
   facts.flights = result.flights;
+  facts.undecided_flights = result.undecided;
+  if (const FacesInOnePlane* planes = scene.tracer->faces_in_one_plane()) {
+    facts.covers = planes->covers();
+    facts.opposite_m2 = planes->opposite_m2();
+  }
   facts.flights_that_left = result.left;
   facts.openings = result.openings;
   if (own_emitters) facts.emitters = result.emitters;

@@ -131,6 +131,7 @@ class ProbeGoal : public GoalBase {
 
   ProbeResult result() {
     result_.emitters = light_.facts(room_);
+    result_.undecided = traced().undecided;
     result_.openings = escaped_.openings(result_.left);
     return result_;
   }

@@ -33,7 +33,7 @@ void find_shape(const Room& room, Inspection& facts);
 
 // findings_surfaces.cpp
 void find_seen_from_behind(const Room& room, Inspection& facts);
-void find_duplicates(const Room& room, Inspection& facts);
+void find_faces_in_one_plane(const Room& room, Inspection& facts);
 void find_zero_area(const Room& room, Inspection& facts);
 void find_reflectances(const Room& room, Inspection& facts);
 

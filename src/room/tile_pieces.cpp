@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 #include "chance/places.hpp"
 #include "room/clip.hpp"
 #include "room/triangle_shapes.hpp"
@@ -73,8 +75,7 @@ TilePieces::TilePieces(const Room& room, const Tiling& tiling)
   }
 }
 
-SurfacePlace TilePieces::place(std::size_t tile, double u, double v) const {
-  const std::span<const TilePiece> pieces = of(tile);
+SurfacePlace place_on(std::span<const TilePiece> pieces, double u, double v) {
   assert(!pieces.empty());
   const auto found = std::upper_bound(pieces.begin(), pieces.end(), u,
                                       [](double share, const TilePiece& piece) { return share < piece.area_up_to; });
@@ -84,6 +85,42 @@ SurfacePlace TilePieces::place(std::size_t tile, double u, double v) const {
   const glm::dvec2 weights = uniform_on_triangle(std::clamp(within, 0.0, 1.0), v);
   const glm::dvec2& a = chosen->weights[0];
   return {chosen->triangle, a + weights.x * (chosen->weights[1] - a) + weights.y * (chosen->weights[2] - a)};
+}
+
+std::optional<UncoveredPieces> uncovered_pieces(std::span<const TilePiece> pieces, std::size_t surface, bool behind,
+                                                const Room& room, const FacesInOnePlane& planes) {
+  if (std::none_of(pieces.begin(), pieces.end(), [&](const TilePiece& piece) {
+        return planes.may_be_covered(planes.number_of(surface, piece.triangle), behind);
+      }))
+    return std::nullopt;
+  UncoveredPieces part;
+  double whole = 0.0;
+  double sum = 0.0;
+  // Areas in m²: barycentric coordinates times twice the area of the triangle.
+  const auto twice_area = [&](std::uint32_t triangle) {
+    const glm::dvec3 a = point_at(room.surfaces[surface], triangle, {0.0, 0.0});
+    return glm::length(glm::cross(point_at(room.surfaces[surface], triangle, {1.0, 0.0}) - a,
+                                  point_at(room.surfaces[surface], triangle, {0.0, 1.0}) - a));
+  };
+  for (const TilePiece& piece : pieces) {
+    const double scale = 0.5 * twice_area(piece.triangle);
+    const ConvexPolygon all(piece.weights.begin(), piece.weights.end());
+    whole += scale * std::abs(twice_signed_area(all));
+    for (const ConvexPolygon& polygon :
+         planes.uncovered(planes.number_of(surface, piece.triangle), behind, all)) {
+      for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+        const ConvexPolygon triangle{polygon[0], polygon[k], polygon[k + 1]};
+        const double area = scale * std::abs(twice_signed_area(triangle));
+        if (!(area > 0.0)) continue;
+        sum += area;
+        part.pieces.push_back({sum, {polygon[0], polygon[k], polygon[k + 1]}, piece.triangle});
+      }
+    }
+  }
+  for (TilePiece& piece : part.pieces) piece.area_up_to /= sum;
+  if (!part.pieces.empty()) part.pieces.back().area_up_to = 1.0;
+  part.share = sum / whole;
+  return part;
 }
 
 glm::dvec3 point_at(const Surface& surface, std::uint32_t triangle, const glm::dvec2& weights) {

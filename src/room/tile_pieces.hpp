@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@
 
 #include "lichtmc/room.hpp"
 #include "lichtmc/tiles.hpp"
+#include "room/faces_in_one_plane.hpp"
 
 namespace lichtmc {
 
@@ -31,6 +33,10 @@ struct SurfacePlace {
   glm::dvec2 weights{0.0};
 };
 
+// The position on pieces of a surface for u, v in [0, 1), uniform over their area: u selects the piece, both select the
+// position on it. There is at least one piece.
+SurfacePlace place_on(std::span<const TilePiece> pieces, double u, double v);
+
 class TilePieces {
  public:
   TilePieces(const Room& room, const Tiling& tiling);
@@ -40,15 +46,24 @@ class TilePieces {
     return {pieces_.data() + first_[tile], pieces_.data() + first_[tile] + count_[tile]};
   }
 
-  // The position on a tile for u, v in [0, 1), uniform over its area: u selects the piece, both select the position on
-  // it.
-  SurfacePlace place(std::size_t tile, double u, double v) const;
+  // The position on a tile for u, v in [0, 1), uniform over its area.
+  SurfacePlace place(std::size_t tile, double u, double v) const { return place_on(of(tile), u, v); }
 
  private:
   std::vector<TilePiece> pieces_;
   std::vector<std::size_t> first_;    // per tile
   std::vector<std::uint32_t> count_;  // per tile
 };
+
+// The parts of some pieces that no other faces in their plane cover.
+struct UncoveredPieces {
+  std::vector<TilePiece> pieces;  // empty: all is covered
+  double share = 1.0;             // of the area
+};
+
+// None if nothing covers them. behind: seen from the back of the surface.
+std::optional<UncoveredPieces> uncovered_pieces(std::span<const TilePiece> pieces, std::size_t surface, bool behind,
+                                                const Room& room, const FacesInOnePlane& planes);
 
 // The point of a surface at a position.
 glm::dvec3 point_at(const Surface& surface, std::uint32_t triangle, const glm::dvec2& weights);

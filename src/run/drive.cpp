@@ -40,6 +40,7 @@ class Driver {
     report_.rays = counts.traced.rays;
     report_.retraced = counts.traced.retraced;
     report_.shadow_rays = counts.traced.shadow_rays;
+    report_.undecided = counts.traced.undecided;
     return {std::move(work_), std::move(report_)};
   }
 

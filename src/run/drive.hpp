@@ -38,6 +38,7 @@ struct DirectCost {
   void add_to(WalkReport& report) const {
     report.rays += traced.rays;
     report.shadow_rays += traced.shadow_rays;
+    report.undecided += traced.undecided;
     report.direct_seconds = seconds;
   }
 };

@@ -162,6 +162,7 @@ class Run {
     check();
     if (planned_.tiles) measure_tiles();
     if (planned_.receivers) measure_receivers_after_tiles();
+    add_covers();
     complete(result_, room_);
     warn_of_missing();
     result_.checkpoint_seconds = record_.spent();
@@ -221,6 +222,17 @@ class Run {
     } catch (const StoppedTooSoon&) {
       if (!planned_.tiles) throw;
       result_.walk.stopped_by = watch.reason().value_or(StopReason::interrupt);
+    }
+  }
+
+  // Which surfaces cover others in their plane, and the covered areas.
+  void add_covers() {
+    const FacesInOnePlane* planes = scene_->tracer->faces_in_one_plane();
+    if (planes == nullptr) return;
+    result_.covers = planes->covers();
+    for (std::size_t m = 0; m < result_.surfaces.size(); ++m) {
+      const TileMap& map = result_.tiling.maps[m];
+      result_.surfaces[m].covered_m2 = planes->covered_m2(map.surface, map.side == Side::back);
     }
   }
 

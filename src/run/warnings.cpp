@@ -13,6 +13,7 @@
 #include "room/emitter_place.hpp"
 #include "room/emitter_shape.hpp"
 #include "room/reflectance.hpp"
+#include "run/cover_warnings.hpp"
 #include "run/outside.hpp"
 
 namespace lichtmc {
@@ -147,6 +148,12 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result) {
     warnings.push_back(to_text(result.lost_histories, "photon") + " of " + std::to_string(result.walk.histories) +
                        " left a closed room by a numerical error: their power is reported as lost.");
   }
+  for (const CoverWarning& covered : covered_emitters(room, result.covers))
+    warnings.push_back(covered.what + " " + covered.advice);
+  for (const CoverWarning& tie :
+       undecided_covers(room, result.covers, result.walk.undecided + result.receiver_walk.undecided,
+                        result.walk.impacts + result.receiver_walk.impacts))
+    warnings.push_back(tie.what + " " + tie.advice);
   if (reflects_all(room)) {
     if (const auto high = high_reflectances(room)) warnings.push_back(high->what + " " + high->advice);
   }

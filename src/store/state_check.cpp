@@ -88,6 +88,8 @@ void check_walked(const Settings& settings, const Walked& walked, const TraceCou
   }
   if (traced.retraced > traced.rays || traced.shadow_rays > traced.rays - traced.retraced)
     refuse(group + " has " + std::to_string(traced.rays) + " rays, fewer than of some kinds");
+  if (traced.undecided > traced.rays)
+    refuse(group + " has " + std::to_string(traced.rays) + " rays, fewer than ended where no rule decides");
 }
 
 // The estimator is the requested one, unless that is `automatic`. (Receivers may have another: merged parts have the

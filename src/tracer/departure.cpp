@@ -108,6 +108,19 @@ Departure make_departure(const std::array<glm::vec3, 3>& corners, const glm::dve
   return departure;
 }
 
+void raise_step(Departure& departure, double step) {
+  if (!(step > double{departure.step})) return;
+  departure.step = static_cast<float>(step);
+  const glm::dvec3 s(departure.edge_s);
+  const glm::dvec3 t(departure.edge_t);
+  const double twice_area = glm::length(glm::cross(s, t));
+  const std::array<double, 3> side{glm::length(t - s), glm::length(t), glm::length(s)};
+  for (int k = 0; k < 3; ++k) {
+    const double share = std::min(margin_steps * step * side[static_cast<std::size_t>(k)] / twice_area, largest_margin);
+    departure.margin[k] = std::max(departure.margin[k], static_cast<float>(share));
+  }
+}
+
 void depart_from(const std::vector<Departure>& departures, Rays& rays) {
   for (std::size_t i = 0; i < rays.size; ++i) {
     if (rays.facet[i] == no_facet) continue;

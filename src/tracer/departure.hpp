@@ -39,6 +39,10 @@ inline constexpr double step_roundings = 8.0 * 0x1p-24;
 // A facet by its corners and its normal, of length 1; both in the tracer's coordinates.
 Departure make_departure(const std::array<glm::vec3, 3>& corners, const glm::dvec3& normal);
 
+// Enlarges the step of a facet that has others in its plane, and its margin with it: a photon must start off all of
+// them. step: in the tracer's coordinates; a smaller one than before changes nothing.
+void raise_step(Departure& departure, double step);
+
 // As Tracer::depart() and Tracer::scatter(); Rays::facet is an index into `departures`.
 void depart_from(const std::vector<Departure>& departures, Rays& rays);
 void scatter_from(const std::vector<Departure>& departures, Rays& rays, const std::uint32_t* polar,

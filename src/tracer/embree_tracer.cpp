@@ -6,6 +6,9 @@
 //    coordinates of the hit: it lies in the facet's plane, however long the flight was (C. Waechter, N. Binder: A Fast
 //    and Robust Method for Avoiding Self-Intersection. Ray Tracing Gems, 2019, ch. 6).
 //  * A photon leaves a surface by the rule in departure.hpp.
+//
+// Where several triangles lie in one plane, Embree returns any of them. All of them stay in its tree, so that no cut can
+// open a gap; the hit is then moved to the triangle that counts there.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,6 +60,11 @@ class EmbreeTracer final : public Tracer {
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
     set_place(placement_.centre, glm::dmat3(1.0 / placement_.scale));
     load(make_triangles(room, tiling, placement_));
+    auto planes = std::make_shared<const FacesInOnePlane>(room);
+    if (!planes->empty()) {
+      planes_ = std::move(planes);
+      step_off_all_planes();
+    }
     throw_embree_error(device_.get(), "reading the room");
     rtcCommitScene(scene_.get());
     throw_embree_error(device_.get(), "building the tree of the room's triangles");
@@ -81,6 +89,7 @@ class EmbreeTracer final : public Tracer {
       }
     }
     count.rays += rays.size;
+    if (planes_) move_to_counting_faces(rays, count);
   }
 
   void depart(Rays& rays) const override { depart_from(departures_, rays); }
@@ -111,7 +120,11 @@ class EmbreeTracer final : public Tracer {
   bool casts_shadows() const override { return casts_shadows_; }
 
   // Coordinates lie between −1 and 1, and no side is longer than 2√3: the step of the largest possible facet.
-  float step() const override { return static_cast<float>(step_roundings * 5.0); }
+  // Of faces in one plane, all must be behind it.
+  float step() const override {
+    const double gap = planes_ ? placement_.scale * planes_->largest_gap_m() : 0.0;
+    return static_cast<float>(step_roundings * 5.0 + gap);
+  }
 
   double clearance_m(const glm::dvec3& /*normal*/) const override {
     return glm::length(world_vector({double{step()}, 0.0, 0.0}));
@@ -138,6 +151,33 @@ class EmbreeTracer final : public Tracer {
   }
 
   void load(RoomTriangles triangles);
+
+  // A photon that leaves a face starts off all others in its plane: each has a step of its own, and a distance from it
+  // by rounding.
+  void step_off_all_planes() {
+    std::vector<double> steps(departures_.size(), 0.0);
+    for (std::size_t n = 0; n < departures_.size(); ++n) {
+      if (!planes_->has_others(n)) continue;
+      double step = double{departures_[n].step};
+      for (const std::uint32_t other : planes_->others(n)) step = std::max(step, double{departures_[other].step});
+      steps[n] = step + placement_.scale * planes_->gap_m(n);
+    }
+    for (std::size_t n = 0; n < departures_.size(); ++n) raise_step(departures_[n], steps[n]);
+  }
+
+  void move_to_counting_faces(Rays& rays, TraceCount& count) const {
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      if (rays.facet[i] == no_facet || !planes_->has_others(rays.facet[i])) continue;
+      bool undecided = false;
+      const FacePlace place =
+          planes_->counting({rays.facet[i], double{rays.s[i]}, double{rays.t[i]}, rays.behind[i] != 0}, undecided);
+      rays.facet[i] = place.triangle;
+      rays.s[i] = static_cast<float>(place.s);
+      rays.t[i] = static_cast<float>(place.t);
+      rays.behind[i] = place.behind ? 1 : 0;
+      count.undecided += undecided ? 1 : 0;
+    }
+  }
 
   RTCRayHit intersect(EmbreeQuery& query, const glm::vec3& start, const glm::vec3& direction) const {
     RTCRayHit hit{};

@@ -17,6 +17,7 @@
 #include "base/fields.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/tiles.hpp"
+#include "room/faces_in_one_plane.hpp"
 #include "tracer/facet.hpp"
 #include "tracer/rays.hpp"
 
@@ -32,6 +33,8 @@ struct TraceCount {
   std::uint64_t rays = 0;         // all rays, including those traced again and shadow rays
   std::uint64_t retraced = 0;     // rays that were traced again
   std::uint64_t shadow_rays = 0;  // rays that test whether a surface lies between two points
+  // Flights that ended where several faces in one plane have an equal right to count (room/faces_in_one_plane.hpp).
+  std::uint64_t undecided = 0;
 
   void add(const TraceCount& other) { add_fields(*this, other); }
 };
@@ -41,6 +44,7 @@ void visit_fields(const F& f, Things&... counts) {
   f(Field{"rays"}, counts.rays...);
   f(Field{"retraced"}, counts.retraced...);
   f(Field{"shadow_rays"}, counts.shadow_rays...);
+  f(Field{"undecided"}, counts.undecided...);
 }
 
 // Where the photons of a point emitter start.
@@ -65,7 +69,8 @@ class Tracer {
  public:
   virtual ~Tracer() = default;
 
-  // Ends every flight of the wave at the first surface that it hits: sets facet, s, t, behind and length.
+  // Ends every flight of the wave at the first surface that it hits: sets facet, s, t, behind and length. Of several
+  // faces in one plane the one that counts is hit.
   virtual void trace(Rays& rays, Misses misses, TraceCount& count) const = 0;
 
   // Sets the start points x, y, z of flights that leave a facet, from facet, s, t and behind. Other flights do not
@@ -108,6 +113,10 @@ class Tracer {
   glm::dvec3 tracer_point(const glm::dvec3& world_m) const { return from_world_ * (world_m - origin_); }
 
   const std::vector<Facet>& facets() const { return facets_; }
+
+  // The faces that have others in their place; null if there are none. Their triangles have the numbers of the facets.
+  const FacesInOnePlane* faces_in_one_plane() const { return planes_.get(); }
+
   // World direction → the tracer's coordinates.
   const glm::dmat3& directions() const { return directions_; }
 
@@ -124,6 +133,7 @@ class Tracer {
 
   std::vector<Facet> facets_;
   glm::dmat3 directions_{1.0};
+  std::shared_ptr<const FacesInOnePlane> planes_;
 
  private:
   glm::dvec3 origin_{0.0};  // m

@@ -58,9 +58,10 @@ class BackwardGoal : public GoalBase {
     for (std::uint32_t i = 0; i < n; ++i) {
       const ReferencePoint reference = origins_->start(origin_[i], sample_[i], ids_[i], stream_, wave.rays, i);
       const Words words = stream_.draw(ids_[i], 0, Purpose::emission);
-      factor_[i] = reference.squared_sine();
+      const double view = reference.squared_sine();
+      factor_[i] = view * origins_->uncovered_share(origin_[i]);
       const ConeDirection flight =
-          sample_cosine_cone(frame_about(reference.normal), factor_[i], unit_open(words[0]), unit_open(words[1]));
+          sample_cosine_cone(frame_about(reference.normal), view, unit_open(words[0]), unit_open(words[1]));
       wave.rays.set_direction(i,
                               glm::vec3(reference.way_out.value_or(scene_->tracer->directions() * flight.direction)));
       found_[i] = 0.0;
@@ -72,6 +73,8 @@ class BackwardGoal : public GoalBase {
   }
   TraceCount& traced() { return count_->traced; }
 
+  // Walks from tiles start on uncovered parts only, except by rounding.
+  void cover(const Wave& wave, std::size_t i) { finish(wave, i); }
   // Escape through an opening counts as absorption by ρ = 0, also if the opening is due to rounding.
   void escape(const Wave& wave, std::size_t i) {
     if constexpr (!Policy::scores_every_impact) found_[i] += direct_[i];
@@ -179,7 +182,8 @@ class BackwardGoal : public GoalBase {
   std::vector<std::uint64_t> sample_;
   std::vector<std::uint64_t> scores_;
   std::vector<double>
-      factor_;  // squared sine of the half angle of the field of view: the fraction of a uniform hemisphere
+      factor_;  // squared sine of the half angle of the field of view (the fraction of a uniform hemisphere), times the
+                // uncovered share of the origin
   // By the position in the wave:
   std::vector<double> found_;               // score so far, W/m² or lx
   std::vector<double> direct_;              // direct irradiance at the surface that was left last

@@ -86,7 +86,7 @@ class BackwardWalk {
 
 // The origins of backward walks. Origins are numbered; walks from one are grouped in rounds of `group`, of which only
 // the sum is recorded, so that the walks of a round may be stratified. start() sets where photon i starts and returns
-// its reference point.
+// its reference point. uncovered_share(): the share of an origin that receives light, from which its walks start.
 class ReceiverOrigins {
  public:
   // receivers: see receiver_points.hpp; they and the tracer must outlive this.
@@ -95,6 +95,7 @@ class ReceiverOrigins {
 
   static constexpr std::uint32_t group = 1;
   std::size_t size() const { return receivers_->size(); }
+  static double uncovered_share(std::uint64_t /*receiver*/) { return 1.0; }
   ReferencePoint start(std::uint64_t receiver, std::uint64_t sample, std::uint64_t id, const Stream& stream, Rays& rays,
                        std::size_t i) const;
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -42,18 +44,24 @@ DirectLight::DirectLight(const Room& room, const Tracer& tracer) : room_(&room),
           points_.emplace_back(point, flux, n);
         },
         [&](const auto& area) {
+          AreaLight light(room, area, emission.of(area), flux, tracer.locate(area.surface, 0).facet,
+                          tracer.faces_in_one_plane());
+          if (!(light.area_m2() > 0.0)) {  // wholly covered
+            fluxes.pop_back();
+            return;
+          }
           areas_of_surface_[area.surface].push_back(areas_.size());
           sources_.push_back({true, areas_.size(), 1.0});
-          areas_.emplace_back(room, area, emission.of(area), flux, tracer.locate(area.surface, 0).facet);
+          areas_.push_back(std::move(light));
         });
   }
   area_shares_.assign(areas_.size(), 1.0);
   few_ = sources_.size() <= few;
-  if (!few_) choose_by_flux(room, fluxes);
+  if (!few_) choose_by_flux(fluxes);
 }
 
-void DirectLight::choose_by_flux(const Room& room, const std::vector<double>& fluxes) {
-  const double sum = total_power(room);
+void DirectLight::choose_by_flux(const std::vector<double>& fluxes) {
+  const double sum = std::accumulate(fluxes.begin(), fluxes.end(), 0.0);
   for (std::size_t k = 0; k < sources_.size(); ++k) {
     sources_[k].share = fluxes[k] / sum;
     if (sources_[k].is_area) area_shares_[sources_[k].index] = sources_[k].share;

@@ -30,7 +30,7 @@ class DirectLight {
   DirectIrradiance irradiance_at(const ReferencePoint& reference, const Stream& stream, std::uint64_t number,
                                  TraceCount& count) const;
 
-  // The emitters with a flux above 0.
+  // The emitters with a flux above 0 that are not wholly covered by other faces in their plane.
   const std::vector<PointLight>& points() const { return points_; }
   const std::vector<AreaLight>& areas() const { return areas_; }
 
@@ -62,7 +62,7 @@ class DirectLight {
     double share = 1.0;     // probability that a light sample chooses it
   };
 
-  void choose_by_flux(const Room& room, const std::vector<double>& fluxes);
+  void choose_by_flux(const std::vector<double>& fluxes);
 
   const Room* room_;
   const Tracer* tracer_;

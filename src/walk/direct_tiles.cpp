@@ -30,7 +30,7 @@ template <class Light, class MayReceive, class Coarse, class IsZero>
 Leaves integrate_face(const TileFaces& faces, std::size_t face, const Light& light, const MayReceive& may_receive,
                       const Coarse& coarse, const IsZero& is_zero, double relative, double absolute) {
   const Surface& surface = faces.surface(face);
-  const std::span<const TilePiece> pieces = faces.pieces().of(faces[face].tile);
+  const std::span<const TilePiece> pieces = faces.pieces(face);
   Leaves leaves;
   for (std::size_t n = 0; n < pieces.size(); ++n) {
     const TilePiece& piece = pieces[n];
@@ -166,7 +166,7 @@ class LitPoints {
   }
   // The reference point at a point of a leaf.
   ReferencePoint reference(const IntegratedTriangle& leaf, const glm::dvec3& point) const {
-    const TilePiece& piece = faces_.pieces().of(faces_[face_].tile)[leaf.part];
+    const TilePiece& piece = faces_.pieces(face_)[leaf.part];
     ReferencePoint result = faces_.reference(face_, {piece.triangle, piece.weights[0]});
     result.point = point;
     return result;
@@ -277,8 +277,11 @@ DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::u
       return faces_->reference(face, faces_->place(face, unit_open(words[0]), unit_open(words[1])));
     };
     constexpr std::uint32_t most = 4096;
-    return sample_area_light(source, *tracer_, random_place, stream_, number, {relative_, relative_ * level_, most},
-                             count);
+    DirectIrradiance result = sample_area_light(source, *tracer_, random_place, stream_, number,
+                                                {relative_, relative_ * level_, most}, count);
+    result.value *= faces_->uncovered_share(face);
+    result.standard_error *= faces_->uncovered_share(face);
+    return result;
   }
   const auto no = [](const Triangle&, int = 0) { return false; };
   const Leaves leaves = integrate_face(

@@ -31,6 +31,7 @@ class GoalBase {
   }
 
   // The steps of a flight, in the order in which the kernel calls them.
+  void cover(const Wave& /*wave*/, std::size_t /*i*/) {}   // photon i starts on a covered part of a surface: it ends
   void escape(const Wave& /*wave*/, std::size_t /*i*/) {}  // photon i hit no surface
   void split(Wave& /*wave*/) {}        // after the flight: photons may be split into several, or removed from the end
   void land(Wave& /*wave*/) {}         // all photons have landed
@@ -75,6 +76,7 @@ concept WalkGoal = std::derived_from<Goal, GoalBase> && requires(Goal goal, Wave
   { goal.traced() } -> std::same_as<TraceCount&>;
   { goal.ends() } -> std::same_as<Ends&>;
   { goal.number_histories(wave) } -> std::same_as<void>;
+  { goal.cover(wave, i) } -> std::same_as<void>;
   { goal.escape(wave, i) } -> std::same_as<void>;
   { goal.split(wave) } -> std::same_as<void>;
   { goal.land(wave) } -> std::same_as<void>;

@@ -79,7 +79,28 @@ class Kernel {
       wave_.weight[i] = 1.0;
     }
     goal.start(wave_, n);
+    if (scene_->tracer->faces_in_one_plane() != nullptr) remove_covered(goal);
     scene_->tracer->depart(wave_.rays);
+  }
+
+  // A photon that starts on a covered part of an area light ends there.
+  void remove_covered(Goal& goal) {
+    const FacesInOnePlane& planes = *scene_->tracer->faces_in_one_plane();
+    Rays& rays = wave_.rays;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      const bool on_surface = rays.facet[i] != no_facet;
+      if (on_surface && !planes.counts({rays.facet[i], double{rays.s[i]}, double{rays.t[i]}, rays.behind[i] != 0})) {
+        goal.cover(wave_, i);
+        continue;
+      }
+      if (kept != i) {
+        rays.set_start(kept, rays.start(i));
+        rays.set_direction(kept, rays.direction(i));
+      }
+      keep(i, kept, goal);
+    }
+    rays.size = kept;
   }
 
   // A photon that hits no surface has left through an opening; in a closed room it is lost by rounding.

@@ -106,7 +106,7 @@ LightSample PointLight::sample_light(const ReferencePoint& reference) const {
 }
 
 AreaLight::AreaLight(const Room& room, const SurfaceEmitter& emitter, std::optional<SurfaceEmission> emission,
-                     double flux, std::uint32_t first_facet)
+                     double flux, std::uint32_t first_facet, const FacesInOnePlane* planes)
     : surface_(&room.surfaces[emitter.surface]),
       surface_number_(emitter.surface),
       flux_(flux),
@@ -114,6 +114,7 @@ AreaLight::AreaLight(const Room& room, const SurfaceEmitter& emitter, std::optio
       law_(emitter.law()),
       first_facet_(first_facet),
       emission_(std::move(emission)) {
+  if (planes != nullptr) leave_out_covered(room, *planes);
   std::vector<double> areas;
   low_ = glm::dvec3(std::numeric_limits<double>::infinity());
   high_ = -low_;
@@ -128,6 +129,21 @@ AreaLight::AreaLight(const Room& room, const SurfaceEmitter& emitter, std::optio
     }
   }
   areas_up_to_ = cumulative(areas);
+}
+
+// The light is uniform over the whole surface, or follows its map: uncovered parts keep their exitance.
+void AreaLight::leave_out_covered(const Room& room, const FacesInOnePlane& planes) {
+  auto part = planes.uncovered_front(room, surface_number_);
+  if (!part) return;
+  if (emission_) {
+    planes_ = &planes;
+    return;
+  }
+  uncovered_ = std::make_shared<const Surface>(std::move(*part));
+  surface_ = uncovered_.get();
+  const double whole_m2 = area_m2_;
+  area_m2_ = surface_area(*surface_);
+  flux_ *= area_m2_ / whole_m2;
 }
 
 bool AreaLight::reaches_above_horizon(const ReferencePoint& reference) const {
@@ -204,6 +220,9 @@ LightSample AreaLight::sample_light(const ReferencePoint& reference, double u, d
   const EmissionPlace place = emission_ ? place_by_map(*emission_, u, v, w)
                                         : EmissionPlace{triangles_[choose(areas_up_to_, u)], uniform_on_triangle(v, w)};
   const std::size_t triangle = place.triangle;
+  if (planes_ != nullptr &&
+      !planes_->counts({static_cast<std::uint32_t>(first_facet_ + triangle), place.weights.x, place.weights.y, false}))
+    return {};
   const glm::dvec3 target = point_of_triangle(corner_of(*surface_, triangle, 0), corner_of(*surface_, triangle, 1),
                                               corner_of(*surface_, triangle, 2), place.weights);
   const glm::dvec3 segment = target - reference.point;

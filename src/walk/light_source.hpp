@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -61,9 +62,10 @@ class AreaLight {
  public:
   // emission: of the emitter, none if it is uniform; flux: in W or lm; first_facet: the tracer's facet of the surface's
   // first triangle; with an emission map the facets of a surface must be its triangles in their order, with s and t to
-  // the second and third corner. The room must outlive the light.
+  // the second and third corner. planes: faces in one plane, or null; covered parts of the emitter give no light. The
+  // room must outlive the light.
   AreaLight(const Room& room, const SurfaceEmitter& emitter, std::optional<SurfaceEmission> emission, double flux,
-            std::uint32_t first_facet);
+            std::uint32_t first_facet, const FacesInOnePlane* planes);
 
   // The sample at a point chosen by u, v, w (in [0, 1)) with a density proportional to the exitance: relative/area. Its
   // mean is the irradiance by the emitter, without shadows.
@@ -97,6 +99,7 @@ class AreaLight {
   // A bound of it.
   double highest_exitance() const { return emission_ ? emission_->highest() : 1.0; }
   std::size_t surface() const { return surface_number_; }
+  // Of the uncovered parts; with an emission map of the whole surface.
   double area_m2() const { return area_m2_; }
   // Radiance of a Lambertian emitter of the same exitance, W/(m² sr) or cd/m².
   double mean_radiance() const;
@@ -104,6 +107,10 @@ class AreaLight {
  private:
   std::optional<double> front_hit(std::size_t triangle, const glm::dvec3& point, const glm::dvec3& direction) const;
 
+  void leave_out_covered(const Room& room, const FacesInOnePlane& planes);
+
+  std::shared_ptr<const Surface> uncovered_;   // the surface's uncovered parts, if something covers it
+  const FacesInOnePlane* planes_ = nullptr;  // with an emission map: if something covers the surface
   const Surface* surface_;
   std::size_t surface_number_;
   double flux_;

@@ -48,6 +48,7 @@ class PathGoal : public GoalBase {
   }
   Misses misses() const { return scene_->misses; }
 
+  void cover(const Wave& wave, std::size_t i) { paths_[wave.photon[i]].end = PathEnd::absorbed; }
   void escape(const Wave& wave, std::size_t i) {
     PhotonPath& path = paths_[wave.photon[i]];
     if (scene_->misses == Misses::retrace) {

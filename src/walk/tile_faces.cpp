@@ -1,5 +1,8 @@
 #include "walk/tile_faces.hpp"
 
+#include <optional>
+#include <utility>
+
 #include <glm/geometric.hpp>
 
 #include "room/triangle_shapes.hpp"
@@ -37,6 +40,19 @@ TileFaces::TileFaces(const Room& room, const Tiling& tiling, const Tracer& trace
     if (front) faces_.push_back({number, false});
     if (back) faces_.push_back({number, true});
   }
+  if (tracer.faces_in_one_plane() != nullptr) find_uncovered(*tracer.faces_in_one_plane());
+}
+
+void TileFaces::find_uncovered(const FacesInOnePlane& planes) {
+  std::vector<TileFace> kept;
+  for (std::size_t face = 0; face < faces_.size(); ++face) {
+    std::optional<UncoveredPieces> part =
+        uncovered_pieces(pieces_.of(faces_[face].tile), surface_number(face), faces_[face].behind, *room_, planes);
+    if (part && part->pieces.empty()) continue;
+    kept.push_back(faces_[face]);
+    uncovered_.push_back(part ? std::move(*part) : UncoveredPieces{});
+  }
+  faces_ = std::move(kept);
 }
 
 ReferencePoint TileFaces::reference(std::size_t face, const SurfacePlace& place) const {

@@ -48,6 +48,13 @@ class TileGoal : public GoalBase {
   TraceCount& traced() { return tally_->counts().traced; }
   Ends& ends() { return tally_->counts().ends; }
 
+  // The light of a covered part of an area light is absorbed between it and the face that covers it: at its first
+  // impact.
+  void cover(const Wave& wave, std::size_t i) {
+    const std::uint32_t photons = histories_of(wave.photon[i]);
+    tally_->counts().impacts += photons;
+    ends().absorbed += static_cast<int128>(Policy::units(wave.weight[i])) * photons;
+  }
   void escape(const Wave& wave, std::size_t i) {
     const std::uint32_t photons = flight_ == 0 ? histories_of(wave.photon[i]) : 1;
     const int128 units = static_cast<int128>(Policy::units(wave.weight[i])) * photons;

@@ -105,7 +105,7 @@ class Check(CheckTest):
         document["scenes"][0]["nodes"].append(len(document["nodes"]) - 1)
         facts, found = self.findings(self.write_gltf(document))
         self.assertEqual(facts["duplicate_triangles"], 2)
-        self.assertEqual(found["duplicates"]["severity"], "warning")
+        self.assertEqual(found["one-plane"]["severity"], "warning")
 
     def test_wrong_options(self):
         self.refused("check", SCENES / "cube_paper.gltf", "--tile", "-1", says=["tile edge", "-1"])

@@ -82,10 +82,12 @@ TEST_CASE("fields are added one by one, lists element by element") {
   a.hits = {7, 8};
   b.tiles[1].sum = 4;
   b.traced.shadow_rays = 6;
+  b.traced.undecided = 13;
   a.add(b);
   CHECK(a.histories == 3072);
   CHECK(a.ends.lost == 2);
   CHECK(a.hits == std::vector<std::uint64_t>{7, 8});
   CHECK(a.tiles[1].sum == 4);
   CHECK(a.traced.shadow_rays == 6);
+  CHECK(a.traced.undecided == 13);
 }
