@@ -53,7 +53,11 @@ class TileGoal : public GoalBase {
   void cover(const Wave& wave, std::size_t i) {
     const std::uint32_t photons = histories_of(wave.photon[i]);
     tally_->counts().impacts += photons;
-    ends().absorbed += static_cast<int128>(Policy::units(wave.weight[i])) * photons;
+    const int128 units = static_cast<int128>(Policy::units(wave.weight[i])) * photons;
+    ends().absorbed += units;
+    if (!scene_->has_reflectance_maps()) return;
+    const SurfaceOptics& at = scene_->surfaces[scene_->surface_of[wave.rays.facet[i]]];
+    tally_->absorb(at.map, units);  // area lights emit from their fronts
   }
   void escape(const Wave& wave, std::size_t i) {
     const std::uint32_t photons = flight_ == 0 ? histories_of(wave.photon[i]) : 1;
