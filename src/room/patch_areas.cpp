@@ -47,6 +47,7 @@ class Patches {
 
   // Joins all faces that are connected to this one.
   void grow_from(std::uint32_t start) {
+    if (visited_[start]) return;
     std::vector<std::uint32_t> open{start};
     visited_[start] = true;
     const auto reach = [&](std::uint32_t face) {

@@ -333,7 +333,7 @@ TEST_CASE("one plane: uncovered parts of a face and its covered part fill it") {
   const Room room = room_of({sheet("floor", 0, 0, 4, 4), sheet("rug", 0.9, 1.1, 2, 1.5, Faces::up, 12)});
   const FacesInOnePlane planes(room);
   double area = 0.0;
-  for (const std::size_t triangle : {0, 1}) {
+  for (const std::size_t triangle : {std::size_t{0}, std::size_t{1}}) {
     for (const ConvexPolygon& part : planes.uncovered(triangle, false, {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}))
       area += 8.0 * std::abs(twice_signed_area(part));
   }
