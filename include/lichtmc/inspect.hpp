@@ -109,7 +109,7 @@ struct Inspection {
   bool probably_z_up = false;    // the vertical axis of the file is probably Z
 
   std::vector<Cover> covers;            // surfaces that cover others in their plane, in the order of these
-  double opposite_m2 = 0.0;             // m² of one-sided faces in one place that look in opposite directions
+  std::vector<Cover> opposites;         // pairs of one-sided surfaces that look in opposite directions in one place
   std::uint64_t undecided_flights = 0;  // of `flights`: ended where no rule decides, see Cover
 
   std::vector<SurfaceFacts> surfaces;

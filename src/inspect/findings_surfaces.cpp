@@ -49,9 +49,13 @@ void find_faces_in_one_plane(const Room& room, Inspection& facts) {
     add(facts, Severity::note, "one-plane", "Surfaces in the plane of others: " + covers + ".",
         "Nothing to do: the smaller one lies on top, and covered parts receive no light.");
   }
-  if (facts.opposite_m2 > 0.0) {
-    add(facts, Severity::note, "one-plane",
-        short_number(facts.opposite_m2) + " m² of faces lie in the place of others that look the opposite way.",
+  Names pairs;
+  for (const Cover& pair : facts.opposites) {
+    pairs.add(in_quotes(room.surfaces[pair.over].name) + " and " + in_quotes(room.surfaces[pair.under].name) + " (" +
+              short_number(pair.area_m2) + " m²)");
+  }
+  if (pairs.count() > 0) {
+    add(facts, Severity::note, "one-plane", "Faces back to back in one place: " + pairs.text() + ".",
         "Nothing to do: on each side the face counts that looks to it.");
   }
 }

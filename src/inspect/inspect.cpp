@@ -110,7 +110,7 @@ void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters, Inspe
   facts.undecided_flights = result.undecided;
   if (const FacesInOnePlane* planes = scene.tracer->faces_in_one_plane()) {
     facts.covers = planes->covers();
-    facts.opposite_m2 = planes->opposite_m2();
+    facts.opposites = planes->opposites();
   }
   facts.flights_that_left = result.left;
   facts.openings = result.openings;

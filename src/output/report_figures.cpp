@@ -74,6 +74,24 @@ ChartSeries series_of(const std::string& name, const std::vector<ConvergencePoin
   return series;
 }
 
+// "'floor' 3 m² of 20 m²", the largest first.
+std::string covered_text(const Result& result) {
+  std::vector<const SurfaceResult*> covered;
+  for (const SurfaceResult& s : result.surfaces) {
+    if (s.covered_m2 > 0.0) covered.push_back(&s);
+  }
+  std::stable_sort(covered.begin(), covered.end(),
+                   [](const SurfaceResult* a, const SurfaceResult* b) { return a->covered_m2 > b->covered_m2; });
+  constexpr std::size_t most = 10;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most, covered.size()); ++k) {
+    text += (k > 0 ? ", " : "") + in_quotes(covered[k]->name) + " " + short_number(covered[k]->covered_m2) + " m² of " +
+            short_number(covered[k]->area_m2) + " m²";
+  }
+  if (covered.size() > most) text += " and " + to_text(covered.size() - most, "more surface");
+  return text;
+}
+
 }  // namespace
 
 std::string surfaces_section(const ReportContent& content) {
@@ -95,6 +113,10 @@ std::string surfaces_section(const ReportContent& content) {
                        "statistical errors. tiles.csv contains all tiles." +
                            (left_out.empty() ? left_out : ' ' + left_out),
                        " class=\"muted\"");
+  if (const std::string covered = covered_text(result); !covered.empty()) {
+    html += text_element("p", "Other surfaces in the same plane cover a part of these, which receives nothing and lowers "
+                              "their means: " + covered + ".");
+  }
   html += element("div",
                   element("table",
                           table_head({"surface", "material", "reflectance", "area, m²", "mean, " + irradiance,

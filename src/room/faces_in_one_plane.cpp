@@ -112,14 +112,18 @@ void FacesInOnePlane::rank(const RoomFaces& all, const BoxTree& tree) {
       // The smallest key counts.
       const auto key = [&](const Face& one) {
         const bool back = !(glm::dot(one.normal, direction) > 0.0);
-        return std::tuple(back && !one.both_sides, orders.at(one.triangle), back, one.triangle);
+        const PatchOrder& order = orders.at(one.triangle);
+        return std::tuple(back && !one.both_sides, order.area, back, order.patch, order.surface, one.triangle);
+      };
+      const auto same_right = [](const auto& a, const auto& b) {
+        const auto rule = [](const auto& k) { return std::tuple(std::get<0>(k), std::get<1>(k), std::get<2>(k)); };
+        return rule(a) == rule(b) && (std::get<3>(a) != std::get<3>(b) || std::get<4>(a) == std::get<4>(b));
       };
       const auto own = key(face);
       OneSide& side = face.sides[behind ? 1 : 0];
       for (const std::uint32_t other : face.others) {
         const auto theirs = key(face_of(other));
-        const bool tied = std::get<0>(theirs) == std::get<0>(own) && std::get<1>(theirs) == std::get<1>(own) &&
-                          std::get<2>(theirs) == std::get<2>(own);
+        const bool tied = same_right(theirs, own);
         if (tied) side.ties.push_back(other);
         if (theirs < own) side.rivals.push_back({other, tied, !std::get<0>(theirs)});
       }
@@ -137,6 +141,7 @@ void FacesInOnePlane::rank(const RoomFaces& all, const BoxTree& tree) {
 // The covered areas.
 void FacesInOnePlane::measure(const RoomFaces& all) {
   std::map<std::tuple<std::size_t, std::size_t, bool>, Cover> found;
+  std::map<std::pair<std::size_t, std::size_t>, Cover> back_to_back;
   const ConvexPolygon whole{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
   for (const Face& face : faces_) {
     const std::size_t under = all[face.triangle].surface;
@@ -149,7 +154,11 @@ void FacesInOnePlane::measure(const RoomFaces& all) {
         // The back of a one-sided face is covered by definition where something faces that side: it is counted once,
         // by the face with the larger number.
         if (behind && !face.both_sides) {
-          if (rival.facing && rival.triangle < face.triangle) opposite_m2_ += area;
+          if (!rival.facing || rival.triangle > face.triangle) return;
+          Cover& pair = back_to_back[{under, all[rival.triangle].surface}];
+          pair.over = all[rival.triangle].surface;
+          pair.under = under;
+          pair.area_m2 += area;
           return;
         }
         const std::size_t over = all[rival.triangle].surface;
@@ -165,6 +174,7 @@ void FacesInOnePlane::measure(const RoomFaces& all) {
     }
   }
   for (const auto& [which, cover] : found) covers_.push_back(cover);
+  for (const auto& [which, pair] : back_to_back) opposites_.push_back(pair);
 }
 
 bool FacesInOnePlane::may_be_covered(std::size_t triangle, bool behind) const {

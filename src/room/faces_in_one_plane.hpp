@@ -84,8 +84,8 @@ class FacesInOnePlane {
   double covered_m2(std::size_t surface, bool behind) const;
   // A surface reduced to the parts of its front that are uncovered, if some part of it is covered; else none.
   std::optional<Surface> uncovered_front(const Room& room, std::size_t surface) const;
-  // The area on which one-sided faces look in opposite directions, each counting on its own side.
-  double opposite_m2() const { return opposite_m2_; }
+  // One-sided surfaces that look in opposite directions in one place, each counting on its own side: pairs in any order.
+  const std::vector<Cover>& opposites() const { return opposites_; }
 
  private:
   static constexpr std::uint32_t none = 0xFFFFFFFF;
@@ -135,10 +135,10 @@ class FacesInOnePlane {
   std::vector<std::uint32_t> number_;  // of each triangle of the room: index into faces_, or none
   std::vector<Face> faces_;            // those with others in their place
   std::vector<Cover> covers_;
+  std::vector<Cover> opposites_;
   std::vector<std::array<double, 2>> covered_m2_;  // of each surface: front, back
   double in_plane_tolerance_ = 0.0;                // m
   double largest_gap_m_ = 0.0;
-  double opposite_m2_ = 0.0;
 };
 
 }  // namespace lichtmc

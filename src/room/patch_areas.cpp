@@ -32,6 +32,7 @@ struct End {
   double from = 0.0;  // m along the edge
   double to = 0.0;
   bool beyond = false;  // on the other side than the face whose edge it is
+  bool whole = false;   // its edge is the whole edge, with the same corners
   std::uint32_t face = 0;
 };
 
@@ -79,10 +80,13 @@ class Patches {
     for (const std::uint32_t face : reached_) {
       area_of_surface_[of_surface_.of(face)] += faces_[face].area_m2;
       area_of_whole_[whole_.of(face)] += faces_[face].area_m2;
+      std::uint32_t& first = first_of_whole_.try_emplace(whole_.of(face), face).first->second;
+      first = std::min(first, face);
     }
   }
   double area_of_surface(std::uint32_t face) { return area_of_surface_[of_surface_.of(face)]; }
   double area_of_whole(std::uint32_t face) { return area_of_whole_[whole_.of(face)]; }
+  std::uint32_t first_of_whole(std::uint32_t face) { return first_of_whole_[whole_.of(face)]; }
 
  private:
   const MeshLinks& links(std::uint32_t surface) {
@@ -108,7 +112,8 @@ class Patches {
     return found;
   }
 
-  // The faces of other surfaces that continue this one beyond an edge: one alone on either side.
+  // The faces of other surfaces that continue this one beyond an edge: one alone on either side, or else one alone with
+  // the same corners.
   std::vector<std::uint32_t> across(std::uint32_t face, std::size_t edge) {
     const auto corners = faces_.corners(face);
     const glm::dvec3 a = corners[edge];
@@ -123,7 +128,18 @@ class Patches {
     tree_.for_each_meeting(box, [&](std::uint32_t other) {
       if (other != face && same_patch(face, other)) add_ends(other, a, along, outwards, length, ends);
     });
-    return alone(ends);
+    const std::vector<std::uint32_t> found = alone(ends);
+    return found.empty() ? alone_with_same_corners(ends) : found;
+  }
+
+  static std::vector<std::uint32_t> alone_with_same_corners(const std::vector<End>& ends) {
+    std::vector<std::uint32_t> found;
+    for (const End& end : ends) {
+      if (!end.whole) continue;
+      if (!end.beyond) return {};
+      found.push_back(end.face);
+    }
+    return found.size() == 1 ? found : std::vector<std::uint32_t>{};
   }
 
   // The direction in the face's plane that leads out of it over an edge.
@@ -145,7 +161,9 @@ class Patches {
       if (!(high - low > tolerance) || !on_line(from, to, along, outwards, low, high)) continue;
       if (!in_surface(other, edge).empty()) continue;
       const double third = glm::dot(corners[(edge + 2) % 3] - a, outwards);
-      ends.push_back({low, high, third > 0.0, other});
+      const auto same = [&](const glm::dvec3& p, double place) { return glm::length(p - place * along) <= tolerance; };
+      const bool whole = (same(from, 0.0) && same(to, length)) || (same(from, length) && same(to, 0.0));
+      ends.push_back({low, high, third > 0.0, whole, other});
     }
   }
 
@@ -204,6 +222,7 @@ class Patches {
   Sets whole_;
   std::unordered_map<std::uint32_t, double> area_of_surface_;
   std::unordered_map<std::uint32_t, double> area_of_whole_;
+  std::unordered_map<std::uint32_t, std::uint32_t> first_of_whole_;  // the smallest number of its faces
 };
 
 // Numbers for areas, in ascending order; an area that differs from the next smaller one by rounding has its number.
@@ -237,7 +256,7 @@ std::unordered_map<std::uint32_t, PatchOrder> patch_orders(const RoomFaces& face
   const std::vector<std::uint32_t> by_whole = classes(whole, faces.in_plane_tolerance());
   const std::vector<std::uint32_t> by_surface = classes(of_surface, faces.in_plane_tolerance());
   std::unordered_map<std::uint32_t, PatchOrder> orders;
-  for (std::size_t n = 0; n < of.size(); ++n) orders[of[n]] = {by_whole[n], by_surface[n]};
+  for (std::size_t n = 0; n < of.size(); ++n) orders[of[n]] = {by_whole[n], patches.first_of_whole(of[n]), by_surface[n]};
   return orders;
 }
 

@@ -160,7 +160,9 @@ TEST_CASE("one plane: opposite faces count on their own sides") {
     CHECK(counting_at(room, planes, 0.3, 1.4, false) == "below");
     CHECK(area_under(room, planes, "rug", "floor") == Approx(2.0).epsilon(1e-12));
     CHECK(planes.covers().size() == 1);
-    CHECK(planes.opposite_m2() > 15.99);
+    double back_to_back = 0.0;
+    for (const Cover& pair : planes.opposites()) back_to_back += pair.area_m2;
+    CHECK(back_to_back == Approx(16.0).epsilon(1e-9));
   }
   SECTION("two-sided of equal size: the front decides") {
     Surface below = sheet("below", 0, 0, 4, 4, Faces::down);
@@ -228,6 +230,14 @@ TEST_CASE("one plane: a floor of small surfaces is one patch") {
     covered += cover.area_m2;
   }
   CHECK(covered == Approx(rug).epsilon(1e-9));
+}
+
+TEST_CASE("one plane: in place of one tile of a floor another cannot be decided") {
+  std::vector<Surface> surfaces;
+  for (int i = 0; i < 4; ++i) surfaces.push_back(sheet("tile", i, 0, 1, 1));
+  surfaces.push_back(sheet("other", 1, 0, 1, 1));
+  const Room room = room_of(surfaces);
+  CHECK(undecided_area(FacesInOnePlane(room)) == Approx(1.0).epsilon(1e-9));
 }
 
 TEST_CASE("one plane: a poster that touches the wall above stays on its own wall") {
