@@ -11,8 +11,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "lichtmc/gltf.hpp"
 #include "lichtmc/cover.hpp"
+#include "lichtmc/gltf.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/tiles.hpp"
 

@@ -114,8 +114,10 @@ std::string surfaces_section(const ReportContent& content) {
                            (left_out.empty() ? left_out : ' ' + left_out),
                        " class=\"muted\"");
   if (const std::string covered = covered_text(result); !covered.empty()) {
-    html += text_element("p", "Other surfaces in the same plane cover a part of these, which receives nothing and lowers "
-                              "their means: " + covered + ".");
+    html += text_element("p",
+                         "Other surfaces in the same plane cover a part of these, which receives nothing and lowers "
+                         "their means: " +
+                             covered + ".");
   }
   html += element("div",
                   element("table",

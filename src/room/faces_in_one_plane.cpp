@@ -123,13 +123,13 @@ void FacesInOnePlane::rank(const RoomFaces& all, const BoxTree& tree) {
       OneSide& side = face.sides[behind ? 1 : 0];
       for (const std::uint32_t other : face.others) {
         const auto theirs = key(face_of(other));
-        const bool tied = same_right(theirs, own);
+        // Two faces of one surface reflect alike, and their light counts for the same surface.
+        const bool tied = same_right(theirs, own) && all[other].surface != all[face.triangle].surface;
         if (tied) side.ties.push_back(other);
         if (theirs < own) side.rivals.push_back({other, tied, !std::get<0>(theirs)});
       }
-      std::sort(side.rivals.begin(), side.rivals.end(), [&](const Rival& a, const Rival& b) {
-        return key(face_of(a.triangle)) < key(face_of(b.triangle));
-      });
+      std::sort(side.rivals.begin(), side.rivals.end(),
+                [&](const Rival& a, const Rival& b) { return key(face_of(a.triangle)) < key(face_of(b.triangle)); });
       if (side.rivals.size() <= few) continue;
       std::vector<Bounds> boxes;
       for (const Rival& rival : side.rivals) boxes.push_back(all.box(rival.triangle));
@@ -322,8 +322,9 @@ std::vector<ConvexPolygon> FacesInOnePlane::uncovered(std::size_t triangle, bool
     std::iota(by.begin(), by.end(), std::uint32_t{0});
   }
   std::vector<ConvexPolygon> parts;
-  divide(face, side, polygon, by, 0, [](const Rival&, const ConvexPolygon&) {},
-         [&](const ConvexPolygon& part) { parts.push_back(part); });
+  divide(
+      face, side, polygon, by, 0, [](const Rival&, const ConvexPolygon&) {},
+      [&](const ConvexPolygon& part) { parts.push_back(part); });
   return parts;
 }
 

@@ -8,7 +8,8 @@
 //     front, two-sided ones always. If none does, all count, as for a single face that is hit on its back.
 //  2. Of these, the one with the smallest patch lies on top (patch_areas.hpp). It alone receives, reflects and emits on
 //     this side; the others are covered.
-//  3. Of equal patches, those count that turn their front to this side. If there are several, no rule decides: the first
+//  3. Of equal patches, those count that turn their front to this side. If there are several, no rule decides: the
+//  first
 //     in the order of the room counts, and a warning says so.
 //
 // It is found once, before any walk. Rooms without such faces pay nothing afterwards.
@@ -55,7 +56,9 @@ class FacesInOnePlane {
   bool empty() const { return faces_.empty(); }
 
   // The number of a surface's triangle.
-  std::size_t number_of(std::size_t surface, std::size_t triangle) const { return first_of_surface_[surface] + triangle; }
+  std::size_t number_of(std::size_t surface, std::size_t triangle) const {
+    return first_of_surface_[surface] + triangle;
+  }
 
   // Whether a triangle has others in its place.
   bool has_others(std::size_t triangle) const { return number_[triangle] != none; }
@@ -84,7 +87,8 @@ class FacesInOnePlane {
   double covered_m2(std::size_t surface, bool behind) const;
   // A surface reduced to the parts of its front that are uncovered, if some part of it is covered; else none.
   std::optional<Surface> uncovered_front(const Room& room, std::size_t surface) const;
-  // One-sided surfaces that look in opposite directions in one place, each counting on its own side: pairs in any order.
+  // One-sided surfaces that look in opposite directions in one place, each counting on its own side: pairs in any
+  // order.
   const std::vector<Cover>& opposites() const { return opposites_; }
 
  private:

@@ -256,7 +256,8 @@ std::unordered_map<std::uint32_t, PatchOrder> patch_orders(const RoomFaces& face
   const std::vector<std::uint32_t> by_whole = classes(whole, faces.in_plane_tolerance());
   const std::vector<std::uint32_t> by_surface = classes(of_surface, faces.in_plane_tolerance());
   std::unordered_map<std::uint32_t, PatchOrder> orders;
-  for (std::size_t n = 0; n < of.size(); ++n) orders[of[n]] = {by_whole[n], patches.first_of_whole(of[n]), by_surface[n]};
+  for (std::size_t n = 0; n < of.size(); ++n)
+    orders[of[n]] = {by_whole[n], patches.first_of_whole(of[n]), by_surface[n]};
   return orders;
 }
 

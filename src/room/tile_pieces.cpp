@@ -106,8 +106,7 @@ std::optional<UncoveredPieces> uncovered_pieces(std::span<const TilePiece> piece
     const double scale = 0.5 * twice_area(piece.triangle);
     const ConvexPolygon all(piece.weights.begin(), piece.weights.end());
     whole += scale * std::abs(twice_signed_area(all));
-    for (const ConvexPolygon& polygon :
-         planes.uncovered(planes.number_of(surface, piece.triangle), behind, all)) {
+    for (const ConvexPolygon& polygon : planes.uncovered(planes.number_of(surface, piece.triangle), behind, all)) {
       for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
         const ConvexPolygon triangle{polygon[0], polygon[k], polygon[k + 1]};
         const double area = scale * std::abs(twice_signed_area(triangle));

@@ -59,7 +59,7 @@ std::vector<CoverWarning> covered_emitters(const Room& room, const std::vector<C
   std::vector<CoverWarning> warnings;
   for (const Emitter& emitter : room.emitters) {
     const std::optional<std::size_t> number = emitting_surface(emitter);
-    if (!number || emitter.power == 0.0) continue;
+    if (!number || *number >= room.surfaces.size() || emitter.power == 0.0) continue;
     double area = 0.0;
     std::vector<Cover> over_it;
     for (const Cover& cover : covers) {
@@ -70,10 +70,9 @@ std::vector<CoverWarning> covered_emitters(const Room& room, const std::vector<C
     const double share = area / surface_area(room.surfaces[*number]);
     if (!(share > noticeable)) continue;
     warnings.push_back(
-        {percent(share) + " of the area light " + in_quotes(emitter.name) +
-             " is covered by surfaces in its plane: " + text_of_covers(room, over_it, 3, false) + ". " +
-             short_number(share * emitter.power) + " " + std::string(power_unit(room.quantity)) +
-             " of its light are absorbed there.",
+        {percent(share) + " of the area light " + in_quotes(emitter.name) + " is covered by surfaces in its plane: " +
+             text_of_covers(room, over_it, 3, false) + ". " + short_number(share * emitter.power) + " " +
+             std::string(power_unit(room.quantity)) + " of its light are absorbed there.",
          "If this light should reach the room, move the emissive surface a millimetre in front of the others."});
   }
   return warnings;
@@ -83,12 +82,13 @@ std::vector<CoverWarning> undecided_covers(const Room& room, const std::vector<C
                                            std::uint64_t impacts) {
   if (undecided == 0) return {};
   const double share = static_cast<double>(undecided) / static_cast<double>(std::max(undecided, impacts));
-  return {{"Surfaces lie in one place, have the same area and face the same way, so that no rule decides which of them "
-           "light meets: " +
-               text_of_covers(room, covers, 3, true) + ". The first in the file counts, the other receives nothing; " +
-               percent(share) + " of all impacts are there.",
-           "Remove one of the two (in Blender: Merge by Distance), or move the one that should be seen by a "
-           "millimetre."}};
+  return {
+      {"Surfaces lie in one place, have the same area and face the same way, so that no rule decides which of them "
+       "light meets: " +
+           text_of_covers(room, covers, 3, true) + ". The first in the file counts, the other receives nothing; " +
+           percent(share) + " of all impacts are there.",
+       "Remove one of the two (in Blender: Merge by Distance), or move the one that should be seen by a "
+       "millimetre."}};
 }
 
 }  // namespace lichtmc

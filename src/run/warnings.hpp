@@ -26,7 +26,8 @@ std::vector<Advised> receivers_outside(const Room& room);
 std::optional<Advised> high_reflectances(const Room& room);
 
 // Emitters outside the room; receivers outside, if they are measured; no impacts at all; residual power of truncated
-// walks; lost photons; covered area lights; surfaces between which no rule decides; materials of reflectance 1. One or two sentences each, with what to do.
+// walks; lost photons; covered area lights; surfaces between which no rule decides; materials of reflectance 1. One or
+// two sentences each, with what to do.
 std::vector<std::string> warnings_of(const Room& room, const Result& result);
 
 }  // namespace lichtmc

@@ -7,8 +7,8 @@
 //    and Robust Method for Avoiding Self-Intersection. Ray Tracing Gems, 2019, ch. 6).
 //  * A photon leaves a surface by the rule in departure.hpp.
 //
-// Where several triangles lie in one plane, Embree returns any of them. All of them stay in its tree, so that no cut can
-// open a gap; the hit is then moved to the triangle that counts there.
+// Where several triangles lie in one plane, Embree returns any of them. All of them stay in its tree, so that no cut
+// can open a gap; the hit is then moved to the triangle that counts there.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -181,9 +181,8 @@ class BackwardGoal : public GoalBase {
   std::vector<std::uint64_t> origin_;
   std::vector<std::uint64_t> sample_;
   std::vector<std::uint64_t> scores_;
-  std::vector<double>
-      factor_;  // squared sine of the half angle of the field of view (the fraction of a uniform hemisphere), times the
-                // uncovered share of the origin
+  std::vector<double> factor_;  // squared sine of the half angle of the field of view (the fraction of a uniform
+                                // hemisphere), times the uncovered share of the origin
   // By the position in the wave:
   std::vector<double> found_;               // score so far, W/m² or lx
   std::vector<double> direct_;              // direct irradiance at the surface that was left last

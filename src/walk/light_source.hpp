@@ -109,8 +109,8 @@ class AreaLight {
 
   void leave_out_covered(const Room& room, const FacesInOnePlane& planes);
 
-  std::shared_ptr<const Surface> uncovered_;   // the surface's uncovered parts, if something covers it
-  const FacesInOnePlane* planes_ = nullptr;  // with an emission map: if something covers the surface
+  std::shared_ptr<const Surface> uncovered_;  // the surface's uncovered parts, if something covers it
+  const FacesInOnePlane* planes_ = nullptr;   // with an emission map: if something covers the surface
   const Surface* surface_;
   std::size_t surface_number_;
   double flux_;

@@ -63,7 +63,8 @@ class TileFaces {
   const Room* room_;
   const Tiling* tiling_;
   TilePieces pieces_;
-  std::vector<UncoveredPieces> uncovered_;  // of each face, without pieces if nothing covers it; empty if the room has no faces in one plane
+  std::vector<UncoveredPieces>
+      uncovered_;  // of each face, without pieces if nothing covers it; empty if the room has no faces in one plane
   std::vector<TileFace> faces_;
   std::vector<std::vector<glm::dvec3>> normals_;      // per surface and triangle
   std::vector<std::vector<TriangleOnFacet>> facets_;  // per surface and triangle

@@ -127,7 +127,8 @@ TEST_CASE("copies and triangles without area are counted") {
   CHECK(facts.duplicate_triangles == 2);
   CHECK(facts.triangles_without_area == 7);
   REQUIRE(find(facts, "one-plane", Severity::warning) != nullptr);
-  CHECK_THAT(find(facts, "one-plane", Severity::warning)->text, ContainsSubstring("'floor' covers 20 m² of 'floor again'"));
+  CHECK_THAT(find(facts, "one-plane", Severity::warning)->text,
+             ContainsSubstring("'floor' covers 20 m² of 'floor again'"));
   CHECK(find(facts, "zero-area", Severity::note) != nullptr);
   CHECK(facts.closed);  // the copy blocks light once
 }

@@ -26,8 +26,8 @@ Surface rectangle(const std::string& name, const glm::dvec3& corner, const glm::
   return surface;
 }
 
-// A dark rug on the floor, a bright paper that lies partly on the rug, a poster on the wall, and a luminous panel in the
-// ceiling; all of them `off` in front of the surfaces below them.
+// A dark rug on the floor, a bright paper that lies partly on the rug, a poster on the wall, and a luminous panel in
+// the ceiling; all of them `off` in front of the surfaces below them.
 Room room_with_things(double off) {
   Room room = make_cuboid({5.0, 2.6, 4.0}, uniform_reflectance(0.7));
   room.surfaces.push_back(rectangle("rug", {1, off, 1}, {0, 0, 1.5}, {2, 0, 0}, 0.1));
@@ -170,8 +170,8 @@ TEST_CASE("one plane: the covered part of an area light does not light the room,
     for (const SurfaceResult& surface : covered.surfaces) {
       const SurfaceResult& other = surface_named(expected, surface.name);
       if (!(other.power > 0.0)) continue;
-      figures.push_back({surface.power, surface.standard_error * surface.area_m2, other.power,
-                         other.standard_error * other.area_m2});
+      figures.push_back(
+          {surface.power, surface.standard_error * surface.area_m2, other.power, other.standard_error * other.area_m2});
     }
     check("half a panel, " + method, compare(figures));
     REQUIRE(covered.warnings.size() == 1);
