@@ -14,9 +14,21 @@ using Topic = void (*)(const Room&, Inspection&);
 // Those with the greatest influence on the figures first: findings of one severity appear in this order, and a run
 // repeats the first of them.
 constexpr std::array topics{
-    Topic{find_size},  find_up_axis,     find_emitters,  find_emitter_light,       find_seen_from_behind,
-    find_not_modelled, find_faces_in_one_plane,  find_openings,  find_reflectances,        find_open_edges,
-    find_receivers,    find_area_lights, find_zero_area, find_texture_coordinates, find_tiles,
+    Topic{find_size},
+    find_up_axis,
+    find_emitters,
+    find_emitter_light,
+    find_seen_from_behind,
+    find_not_modelled,
+    find_faces_in_one_plane,
+    find_openings,
+    find_reflectances,
+    find_open_edges,
+    find_receivers,
+    find_area_lights,
+    find_zero_area,
+    find_texture_coordinates,
+    find_tiles,
     find_shape,
 };
 

@@ -43,7 +43,7 @@ RoomFaces::RoomFaces(const Room& room) : room_(&room) {
     first_.push_back(faces_.size());
     const std::vector<TriangleShape> shapes = triangle_shapes(room.surfaces[k]);
     for (std::uint32_t n = 0; n < shapes.size(); ++n) {
-      RoomFace face{shapes[n].normal, shapes[n].thickness_m, shapes[n].area_m2, k, n, 3};
+      PlaneFace face{shapes[n].normal, shapes[n].thickness_m, shapes[n].area_m2, k, n, 3};
       for (std::uint32_t axis = 0; axis < 3; ++axis) {
         if (std::abs(face.normal[static_cast<int>(axis)]) > along_axis) face.along = axis;
       }
@@ -74,7 +74,7 @@ Bounds RoomFaces::box(std::size_t n) const {
 // of the two. Of faces parallel to two axes only the coordinate along the third one is rounded: by float_noise of the
 // coordinate itself in files (a translation far from the origin counts as exact, as in NearPlane), and by the tracer's
 // step.
-double RoomFaces::plane_tolerance(const RoomFace& a, const RoomFace& b, const glm::dvec3& point) const {
+double RoomFaces::plane_tolerance(const PlaneFace& a, const PlaneFace& b, const glm::dvec3& point) const {
   if (a.along == 3 || a.along != b.along) return in_plane_;
   const int k = static_cast<int>(a.along);
   const double of_file = float_noise * std::min(extent_, std::abs(point[k]));

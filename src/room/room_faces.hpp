@@ -15,7 +15,7 @@
 namespace lichtmc {
 
 // A triangle of the room. Triangles are numbered through the room, surface by surface.
-struct RoomFace {
+struct PlaneFace {
   glm::dvec3 normal{0.0};    // towards the front, length 1
   double thickness_m = 0.0;  // the smallest of its heights; 0: too thin to have a plane
   double area_m2 = 0.0;
@@ -32,7 +32,7 @@ class RoomFaces {
   explicit RoomFaces(const Room& room);
 
   std::size_t size() const { return faces_.size(); }
-  const RoomFace& operator[](std::size_t n) const { return faces_[n]; }
+  const PlaneFace& operator[](std::size_t n) const { return faces_[n]; }
   std::size_t first_of(std::size_t surface) const { return first_[surface]; }
   const Room& room() const { return *room_; }
   Corners corners(std::size_t n) const;
@@ -53,10 +53,10 @@ class RoomFaces {
   bool overlap(std::size_t a, std::size_t b) const;
 
  private:
-  double plane_tolerance(const RoomFace& a, const RoomFace& b, const glm::dvec3& point) const;
+  double plane_tolerance(const PlaneFace& a, const PlaneFace& b, const glm::dvec3& point) const;
 
   const Room* room_;
-  std::vector<RoomFace> faces_;
+  std::vector<PlaneFace> faces_;
   std::vector<std::size_t> first_;  // of each surface
   glm::dvec3 centre_{0.0};          // of the room
   double extent_ = 0.0;             // of the room, m: the largest edge of its box

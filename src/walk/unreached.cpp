@@ -154,7 +154,12 @@ class DarkWalks : public GoalBase {
       last_[i] = origin_[i];
       lit_[i] = false;
       sets_.count_walk(origin_[i]);
-      look_for_light(i, 0, glm::vec3(start_of(reference, *scene_.tracer)), reference);
+      // Places that another face in their plane covers are dark.
+      const FacesInOnePlane* planes = scene_.tracer->faces_in_one_plane();
+      const FacePlace place_here{wave.rays.facet[i], double{wave.rays.s[i]}, double{wave.rays.t[i]},
+                                 wave.rays.behind[i] != 0};
+      if (planes == nullptr || planes->counts(place_here))
+        look_for_light(i, 0, glm::vec3(start_of(reference, *scene_.tracer)), reference);
       const Words words = stream_.draw(first_history_ + i, 0, Purpose::emission);
       const ConeDirection flight =
           sample_cosine_cone(frame_about(reference.normal), 1.0, unit_open(words[0]), unit_open(words[1]));
