@@ -298,7 +298,7 @@ TEST_CASE("too many cells are refused before memory is allocated") {
   small.name = "small";
   Surface large = make_box({1000.0, 500.0, 800.0});
   const Room room = room_of({small, large});
-  CHECK_THROWS_WITH(make_tiling(room, 1e-3), ContainsSubstring("on the surface 'box' of 3.4e+06 m^2, 1 for each tile"));
+  CHECK_THROWS_WITH(make_tiling(room, 1e-3), ContainsSubstring("on the surface 'box' of 3400000 m^2, 1 for each tile"));
   CHECK_THROWS_WITH(make_tiling(room, 1e-3), ContainsSubstring("memory holds"));
   // Numbers of cells beyond the range of integers and doubles.
   for (const double edge : {1e-9, 1e-300, std::numeric_limits<double>::denorm_min()}) {
