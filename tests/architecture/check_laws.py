@@ -25,6 +25,7 @@ TREATS_ALL = r"\b(visit_shape|law_of|emitting_surface|PointShape|EmitterLaw|ligh
 ONLY_CREATE = {
     "src/gltf/lights.cpp": "creates the emitters that a file describes",
     "src/inspect/inspect.cpp": "creates an isotropic emitter to test a room without emitters",
+    "src/run/receiver_grid.cpp": "creates an isotropic emitter to find the rooms of a building without emitters",
     "apps/lichtmc/light_spec.cpp": "creates the emitters of --light",
     "apps/lichtmc_bench/main.cpp": "creates emitters of benchmark rooms",
     "apps/lichtmc_bench/rooms.cpp": "creates emitters of benchmark rooms",

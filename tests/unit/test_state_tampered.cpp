@@ -320,5 +320,7 @@ TEST_CASE("if any number of a state is changed, it is refused or results are com
       ++refused;
     }
   }
-  CHECK(refused > 1000);
+  // About half of the changes are found; the others are to scores, which may have any value within their bounds. The
+  // numbers are drawn with fixed seeds, so that this count changes with the fields of a state only.
+  CHECK(refused > 900);
 }
