@@ -34,11 +34,23 @@ EXCEPTIONS = {
 # The same for keys of single runs.
 EXCEPTIONS_OF_RUNS = {
     # 0.1.0 counted the rays of direct light at receivers once per session or part; now once, as in one run.
-    "resumed": {"rays", "shadow_rays"},
     "merged": {"rays", "shadow_rays"},
+    # Since 0.2.0 tiles that no light can reach (here the outer side of the two-sided wall) are not among those without
+    # hits.
+    "two_sided_collision": {"tiles_without_hits"},
+    "two_sided_absorption": {"tiles_without_hits"},
+    "resumed": {"rays", "shadow_rays", "tiles_without_hits"},
+    "two_ranks": {"tiles_without_hits"},
 }
 # Figures that were added to what is written for a surface: left out if the base does not have them.
-ADDED_TO_SURFACES = {"absorbed": "the power that a surface absorbs, since 0.2.0"}
+ADDED_TO_SURFACES = {
+    "absorbed": "the power that a surface absorbs, since 0.2.0",
+    "unreached_area": "the area that no light can reach, since 0.2.0",
+    "unreached_tiles": "the tiles of it, since 0.2.0",
+    "covered_area": "the area that other surfaces in one plane cover, since 0.2.0",
+}
+# Figures of summary.json that a base may not have.
+ADDED = {"unreached_tiles", "tile_images"}
 # Keys of summary.json that hold times or follow from one: two runs of one program differ in them.
 TIMES = {"seconds", "impacts_per_second", "figure_of_merit", "checkpoint_seconds"}
 
@@ -167,15 +179,15 @@ RUNS = {
     "cube_target": ("cube_paper.gltf", "--target-error 3%"),
     "cube_auto": ("cube_paper.gltf", "--photons 1000000 --estimator auto"),
     "cube_auto_target": ("cube_paper.gltf", "--target-error 2% --estimator auto --tile 0.05"),
-    "living_auto_target": ("living_room.glb", "--target-error 14% --estimator auto --tile 0.5 --grid 0.85"),
+    "living_auto_target": ("living_room.glb", "--target-error 14% --estimator auto --tile 0.5 --receivers POINTS"),
     "cube_grid": ("cube_paper.gltf", "--photons 300000 --grid 0.4 --grid-spacing 0.2 --estimator weight"),
     "l_room_collision": ("l_room.gltf", "--photons 200000"),
     "l_room_grid": ("l_room.gltf", "--photons 100000 --grid 0.5 --only backward --estimator absorption"),
     "sphere_weight": ("integrating_sphere.glb", "--photons 60000 --estimator weight"),
     "living_collision": ("living_room.glb", "--photons 200000 --tile 0.25"),
-    "living_auto": ("living_room.glb", "--photons 400000 --estimator auto --tile 0.5 --grid 0.85"),
+    "living_auto": ("living_room.glb", "--photons 400000 --estimator auto --tile 0.5 --receivers POINTS"),
     "living_analytic": ("living_room.glb", "--photons 50000 --direct analytic --tile 1"),
-    "living_receivers": ("living_room.glb", "--only backward --target-error 3% --grid 0.85"),
+    "living_receivers": ("living_room.glb", "--only backward --target-error 3% --receivers POINTS"),
     "living_tiles_backward_auto": ("living_room.glb", "--photons 100000 --tiles backward --tile 2 --estimator auto"),
     "textured_collision": ("textured", "--photons 100000"),
     "textured_weight": ("textured", "--photons 100000 --estimator weight"),
@@ -196,6 +208,8 @@ RUNS = {
     "two_ranks": ("two_sided", "--photons 100000 --tile 0.3 --target-error 20%"),
     "paths": ("living_room.glb", ""),
 }
+# Receivers in living_room, 0.85 m over the floor: POINTS in the list above. The points of --grid depend on the version.
+POINTS = "x,y,z,nx,ny,nz\n" + "".join(f"{0.3 + 0.5 * k},0.85,{0.3 + 0.5 * j},0,1,0\n" for k in range(9) for j in range(7))
 COMPARED = ("tiles.csv", "surfaces.csv", "receivers.csv")
 
 
@@ -280,7 +294,8 @@ def differences(base, new, run):
     if (base / "summary.json").exists():
         a, b = (numbers_of(json.loads((folder / "summary.json").read_text()), run) for folder in (base, new))
         a["surfaces"], b["surfaces"] = (without(summary["surfaces"], added) for summary in (a, b))
-        for key in sorted(a.keys() | b.keys()):
+        a["units"], b["units"] = (without(summary["units"], added) for summary in (a, b))
+        for key in sorted((a.keys() | b.keys()) - (ADDED - a.keys())):
             if key not in a or key not in b or a[key] != b[key]:
                 yield f"summary.json: {key} is {a.get(key)!r:.200} and {b.get(key)!r:.200}"
 
@@ -303,9 +318,12 @@ def main():
     fresh.mkdir(parents=True)
     for room, make in MADE.items():
         make().write(rooms / f"{room}.glb")
+    points = rooms / "points.csv"
+    points.write_text(POINTS)
     failed = 0
     for name in names:
         room, options = RUNS[name]
+        options = options.replace("POINTS", str(points))
         file = rooms / f"{room}.glb" if room in MADE else SCENES / room
         if not (results / name / "done").exists():
             shutil.rmtree(results / name, ignore_errors=True)
