@@ -98,7 +98,8 @@ void print_receivers(const Result& result) {
   std::cerr << result.receiver_results.size() << (result.receiver_results.size() == 1 ? " receiver, " : " receivers, ")
             << short_count(histories) << " backward histories in " << four_digits(backward.seconds) << " s ("
             << describe(backward.stopped_by) << "), " << short_count(static_cast<double>(backward.shadow_rays))
-            << " shadow rays; relative standard error " << percent(backward.rms_relative_error) << " (rms).\n";
+            << (backward.shadow_rays == 1 ? " shadow ray; relative" : " shadow rays; relative") << " standard error "
+            << percent(backward.rms_relative_error) << " (rms).\n";
   warn_of_missed_target(result.settings, backward.stopped_by, backward.rms_relative_error, histories,
                         backward.histories_to_target, backward.seconds, "");
 }

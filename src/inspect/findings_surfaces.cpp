@@ -20,10 +20,11 @@ void find_seen_from_behind(const Room& room, Inspection& facts) {
   if (away.count() > 0) {
     add(facts, Severity::note, "behind",
         to_text(away.count(), "surface") + " of " + std::to_string(facts.surfaces.size()) +
-            " receive most of their light on the back face: " + away.text() + ".",
+            (away.count() == 1 ? " receives most of its light on the back face: "
+                               : " receive most of their light on the back face: ") +
+            away.text() + ".",
         "Nothing to do: the side that is hit reflects. Other renderers may not show these faces; there, recalculate "
-        "the "
-        "normals.");
+        "the normals.");
   }
   for (const Emitter& emitter : room.emitters) {
     const std::optional<std::size_t> number = emitting_surface(emitter);

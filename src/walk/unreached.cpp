@@ -321,7 +321,10 @@ class Search {
       return patches_.area_m2(a / 2) > patches_.area_m2(b / 2);
     });
     // Both sides of a patch, or none.
-    if (sides.size() > most_sides) sides.resize(most_sides - (sides[most_sides - 1] / 2 == sides[most_sides] / 2));
+    if (sides.size() > most_sides) {
+      const std::ptrdiff_t kept = most_sides - (sides[most_sides - 1] / 2 == sides[most_sides] / 2 ? 1 : 0);
+      sides.erase(sides.begin() + kept, sides.end());
+    }
     if (sides.empty()) return {};
     std::vector<std::vector<RoomFace>> faces = patches_.triangles();
     std::vector<std::vector<TriangleShape>> shapes(room_.surfaces.size());
