@@ -45,7 +45,8 @@ glm::dvec3 colour_in(const Document& document, const tinygltf::Value& object, co
   glm::dvec3 colour(0.0);
   bool valid = value.IsArray() && value.ArrayLen() >= 3;
   for (int k = 0; valid && k < 3; ++k) {
-    const tinygltf::Value& channel = value.Get(k);
+    // Value::Get(index) takes other types in other releases of the parser.
+    const tinygltf::Value& channel = value.Get<tinygltf::Value::Array>()[static_cast<std::size_t>(k)];
     valid = channel.IsNumber() && channel.GetNumberAsDouble() >= 0.0 && std::isfinite(channel.GetNumberAsDouble());
     if (valid) colour[k] = channel.GetNumberAsDouble();
   }

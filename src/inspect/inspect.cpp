@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "inspect/findings.hpp"
 #include "inspect/guesses.hpp"
@@ -98,20 +99,20 @@ Room room_for_probe(const Room& room, bool own_emitters, const glm::dvec3& insid
 }
 
 void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters, Inspection& facts) {
-  const InsidePoint inside = find_inside(room, *make_embree_tracer(room, tiling), facts.low, facts.high);
+  const auto planes = std::make_shared<const FacesInOnePlane>(room);
+  const InsidePoint inside =
+      find_inside(room, *make_embree_tracer(room, tiling, Edges::robust, planes), facts.low, facts.high);
   facts.inside = inside.place;
   facts.inside_is_sure = inside.sure;
   if (!own_emitters && !inside.sure) return;
   const Room lit = room_for_probe(room, own_emitters, facts.inside);
-  const Scene scene(lit, tiling, Engine::embree);
+  const Scene scene(lit, tiling, Engine::embree, planes);
   facts.closed = scene.misses == Misses::retrace;
   const ProbeResult result = probe(lit, scene, facts.low, facts.high);
   facts.flights = result.flights;
   facts.undecided_flights = result.undecided;
-  if (const FacesInOnePlane* planes = scene.tracer->faces_in_one_plane()) {
-    facts.covers = planes->covers();
-    facts.opposites = planes->opposites();
-  }
+  facts.covers = planes->covers();
+  facts.opposites = planes->opposites();
   facts.flights_that_left = result.left;
   facts.openings = result.openings;
   if (own_emitters) facts.emitters = result.emitters;

@@ -52,7 +52,8 @@ void throw_embree_error(RTCDevice device, const std::string& what) {
 
 class EmbreeTracer final : public Tracer {
  public:
-  EmbreeTracer(const Room& room, const Tiling& tiling, Edges edges) : room_(&room), placement_(placement_of(room)) {
+  EmbreeTracer(const Room& room, const Tiling& tiling, Edges edges, std::shared_ptr<const FacesInOnePlane> planes)
+      : room_(&room), placement_(placement_of(room)) {
     if (!device_) throw_embree_error(nullptr, "starting");
     scene_ = {rtcNewScene(device_.get()), &rtcReleaseScene};
     if (edges == Edges::robust) rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
@@ -60,11 +61,12 @@ class EmbreeTracer final : public Tracer {
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
     set_place(placement_.centre, glm::dmat3(1.0 / placement_.scale));
     load(make_triangles(room, tiling, placement_));
-    auto planes = std::make_shared<const FacesInOnePlane>(room);
+    if (planes == nullptr) planes = std::make_shared<const FacesInOnePlane>(room);
     if (!planes->empty()) {
       planes_ = std::move(planes);
       step_off_all_planes();
     }
+    groups_ = FacetGroups(departures_);
     throw_embree_error(device_.get(), "reading the room");
     rtcCommitScene(scene_.get());
     throw_embree_error(device_.get(), "building the tree of the room's triangles");
@@ -99,7 +101,7 @@ class EmbreeTracer final : public Tracer {
   }
 
   Start start(const glm::dvec3& world_point_m, const glm::dvec3& axis) const override {
-    return start_at(world_point_m, axis, *room_, placement_, departures_);
+    return start_at(world_point_m, axis, *room_, placement_, departures_, groups_);
   }
 
   bool is_blocked(const glm::vec3& start, const glm::vec3& segment, TraceCount& count) const override {
@@ -267,6 +269,7 @@ class EmbreeTracer final : public Tracer {
   bool casts_shadows_ = true;
   std::vector<std::size_t> first_facet_;  // of each surface
   std::vector<Departure> departures_;
+  FacetGroups groups_;  // of the departures
 };
 
 // Embree has its own copy of vertices and corners, so they are not kept.
@@ -289,8 +292,9 @@ void EmbreeTracer::load(RoomTriangles triangles) {
 
 }  // namespace
 
-std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling, Edges edges) {
-  return std::make_unique<EmbreeTracer>(room, tiling, edges);
+std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling, Edges edges,
+                                           std::shared_ptr<const FacesInOnePlane> planes) {
+  return std::make_unique<EmbreeTracer>(room, tiling, edges, std::move(planes));
 }
 
 }  // namespace lichtmc

@@ -151,7 +151,9 @@ enum class Edges {
   fast,    // a ray may pass, once in many millions of flights
 };
 
-// Embree, for any room, which must outlive it. Throws RuntimeError if Embree fails.
-std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling, Edges edges = Edges::robust);
+// Embree, for any room, which must outlive it. planes: of the room's surfaces, if they have been found before; else
+// they are found here. Throws RuntimeError if Embree fails.
+std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling, Edges edges = Edges::robust,
+                                           std::shared_ptr<const FacesInOnePlane> planes = nullptr);
 
 }  // namespace lichtmc

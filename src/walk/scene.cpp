@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -53,7 +54,8 @@ std::uint32_t tiles_between(const TileMap& front, const TileMap& back) {
   return *used - front.tile_of_cell[static_cast<std::size_t>(used - back.tile_of_cell.begin())];
 }
 
-std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engine requested, Engine& chosen) {
+std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engine requested, Engine& chosen,
+                                    std::shared_ptr<const FacesInOnePlane> planes) {
   std::string why_not;
   if (requested == Engine::automatic || requested == Engine::cuboid) {
     chosen = Engine::cuboid;
@@ -64,13 +66,14 @@ std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engi
     }
   }
   chosen = requested == Engine::embree_fast ? requested : Engine::embree;
-  return make_embree_tracer(room, tiling, requested == Engine::embree_fast ? Edges::fast : Edges::robust);
+  return make_embree_tracer(room, tiling, requested == Engine::embree_fast ? Edges::fast : Edges::robust,
+                            std::move(planes));
 }
 
 }  // namespace
 
-Scene::Scene(const Room& room, const Tiling& tiling, Engine requested)
-    : tracer(make_tracer(room, tiling, requested, engine)) {
+Scene::Scene(const Room& room, const Tiling& tiling, Engine requested, std::shared_ptr<const FacesInOnePlane> planes)
+    : tracer(make_tracer(room, tiling, requested, engine, std::move(planes))) {
   set_reflectances(room);
   set_tiles(tiling);
   launcher = std::make_unique<Launcher>(room, *tracer);

@@ -71,8 +71,6 @@ class SidesHit : public GoalBase {
 
 // Light goes on wherever something reflects.
 struct ReflectsPolicy {
-  static constexpr bool carries_weight = false;
-
   static bool survive(double reflectance, double /*chance*/, double& /*weight*/, Ends& /*ends*/) {
     return reflectance > 0.0;
   }
