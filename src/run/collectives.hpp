@@ -49,7 +49,7 @@ class Reduction {
   }
   template <HasFields Thing>
   void add(Thing& thing) {
-    visit_fields([this](const Field& /*field*/, auto& value) { add(value); }, thing);
+    visit_fields([this](const Field& /*field*/, auto& value) { this->add(value); }, thing);
   }
   // Sends the single numbers.
   void finish();

@@ -62,7 +62,7 @@ class StateChecksum {
   void fields(const Thing& thing) {
     visit_fields(
         [this](const Field& field, const auto& value) {
-          if (field.role != FieldRole::record && field.role != FieldRole::machine) add(value);
+          if (field.role != FieldRole::record && field.role != FieldRole::machine) this->add(value);
         },
         thing);
   }
