@@ -55,9 +55,10 @@ std::string decode_webp(std::string_view file, DecodedImage& image) {
   return end == nullptr ? "the WebP image is damaged" : "";
 }
 
+// Never empty: the library has faults without a text.
 std::string stb_fault() {
   const char* const text = stbi_failure_reason();
-  return text != nullptr ? text : "unknown reason";
+  return text != nullptr && *text != '\0' ? text : "the image is damaged";
 }
 
 std::string decode_png_or_jpeg(std::string_view file, DecodedImage& image) {

@@ -89,7 +89,8 @@ TEST_CASE("receiver tables: without a heading the columns are x,y,z,nx,ny,nz and
 
 TEST_CASE("receiver tables: separators, and decimal commas where commas do not separate") {
   for (const std::string& name : {""s, ";a,b c"s}) {
-    only("x;y;z;nx;ny;nz" + (name.empty() ? ""s : ";name"s) + "\r\n1,5;0,85;2;0;1,0;0" + name + "\r\n");
+    const std::string heading = name.empty() ? "x;y;z;nx;ny;nz" : "x;y;z;nx;ny;nz;name";
+    only(heading + "\r\n1,5;0,85;2;0;1,0;0" + name + "\r\n");
     only("1,5;0,85;2,0;0,0;1,0;0,0" + name);
     only("1.5;0.85;2;0;1;0" + name);
   }
