@@ -139,6 +139,16 @@ TEST_CASE("an image that is missing or cannot be decoded is refused with the mat
   CHECK(!room.surfaces[0].reflectance_map);
 }
 
+// The decoder names the type of an unknown chunk: one that begins with a zero is an empty text.
+TEST_CASE("an image that the decoder refuses without a reason in words is refused") {
+  json document = textured_triangle();
+  std::string png = picture();
+  constexpr std::size_t after_header = 8 + 25;
+  png.insert(after_header, std::string("\0\0\0\0\0ABC\0\0\0\0", 12));
+  document["images"][0]["uri"] = "data:image/png;base64," + base64_of(png.data(), png.size());
+  CHECK_THROWS_AS(read_document(document), InputError);
+}
+
 TEST_CASE("an emissive texture gives the flux and the distribution of an area light") {
   json document = emissive_triangle();
   const Room room = read_document(document);
