@@ -48,6 +48,7 @@ struct SurfaceFacts {
   std::string chart_reason;      // why the engine made the chart
   std::uint64_t tiles = 0;       // of both sides
   double cells_over_area = 1.0;  // area of the chart's cells / area of the surface: 1 if no cell is empty
+  std::uint64_t impacts = 0;     // of the test photons, on either side
   double seen_from_behind = std::numeric_limits<double>::quiet_NaN();  // share of the impacts on the back face, 0 … 1;
                                                                        // NaN without impacts
 };

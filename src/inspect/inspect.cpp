@@ -117,6 +117,7 @@ void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters, Inspe
   facts.openings = result.openings;
   if (own_emitters) facts.emitters = result.emitters;
   for (std::size_t k = 0; k < facts.surfaces.size(); ++k) {
+    facts.surfaces[k].impacts = result.impacts[k];
     if (result.impacts[k] == 0) continue;
     facts.surfaces[k].seen_from_behind = static_cast<double>(result.behind[k]) / static_cast<double>(result.impacts[k]);
   }
