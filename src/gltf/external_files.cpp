@@ -173,6 +173,15 @@ void ExternalFiles::serve(tinygltf::TinyGLTF& parser) {
     return false;
   };
   access.user_data = this;
+  // Later releases of the parser ask for sizes, and keep their own access to files if one of the functions is missing.
+  [](auto& functions) {
+    if constexpr (requires { functions.GetFileSizeInBytes; }) {
+      functions.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& name, void* files) {
+        *size = static_cast<ExternalFiles*>(files)->content_.at(name).size();
+        return true;
+      };
+    }
+  }(access);
   parser.SetFsCallbacks(access);
 }
 
