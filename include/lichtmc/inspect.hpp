@@ -119,9 +119,9 @@ struct Inspection {
   std::size_t count(Severity severity) const;
 };
 
-// Checks a room with tiles of this edge. Traces some 10⁵ rays; takes seconds for rooms of 10⁵ triangles. Throws
-// InputError if its surfaces or reflectance maps are invalid (check_room()) or no triangle has an area. Other reasons
-// why the room cannot be simulated are findings.
+// Checks a room with tiles of this edge. Traces some 10⁵ rays; takes seconds for rooms of 10⁵ triangles, on two threads.
+// Throws InputError if its surfaces or reflectance maps are invalid (check_room()) or no triangle has an area. Other
+// reasons why the room cannot be simulated are findings.
 Inspection inspect(const Room& room, double tile_edge_m = 0.1);
 // The same with the result of make_tiling(room, tile_edge_m): avoids a second copy of the tiles in memory.
 Inspection inspect(const Room& room, const Tiling& tiling, double tile_edge_m);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <memory>
 
@@ -98,8 +99,9 @@ Room room_for_probe(const Room& room, bool own_emitters, const glm::dvec3& insid
   return copy;
 }
 
-void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters, Inspection& facts) {
-  const auto planes = std::make_shared<const FacesInOnePlane>(room);
+using Planes = std::shared_ptr<const FacesInOnePlane>;
+
+void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters, const Planes& planes, Inspection& facts) {
   const InsidePoint inside =
       find_inside(room, *make_embree_tracer(room, tiling, Edges::robust, planes), facts.low, facts.high);
   facts.inside = inside.place;
@@ -165,6 +167,10 @@ Inspection inspect_with(const Room& room, const Tiling* tiling, double tile_edge
     own_emitters = false;
     add_fault(fault.what(), "emitters", facts.findings);
   }
+  // In rooms of many triangles this search takes a fifth of the time, and needs nothing of what follows: a second
+  // thread if there is one.
+  std::future<Planes> planes = std::async(std::launch::async | std::launch::deferred,
+                                          [&room] { return std::make_shared<const FacesInOnePlane>(room); });
   count_triangles(room, facts);
   inspect_mesh(WeldedMesh(room), facts);
   facts.cuboid = recognise_cuboid(room).has_value();
@@ -178,7 +184,7 @@ Inspection inspect_with(const Room& room, const Tiling* tiling, double tile_edge
   } else {
     inspect_tiles(*tiling, tile_edge_m, facts);
   }
-  trace_rays(room, *tiling, own_emitters, facts);
+  trace_rays(room, *tiling, own_emitters, planes.get(), facts);
   add_findings(room, facts);
   std::stable_sort(facts.findings.begin(), facts.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
