@@ -4,33 +4,18 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 
 #include <glm/geometric.hpp>
 
+#include "base/disjoint_sets.hpp"
 #include "base/frame.hpp"
 #include "room/sorted_points.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-// Disjoint sets with path halving.
-class Groups {
- public:
-  explicit Groups(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 // Of rays that test whether a point is inside: with no simple relation to a room's edges.
 const glm::dvec3 first_direction(0.57735, 0.21132, 0.78868);
@@ -66,7 +51,7 @@ std::optional<int> crossings(const std::array<glm::dvec3, 3>& triangle, const gl
 Enclosure::Enclosure(const WeldedMesh& mesh) {
   // Triangles that share an edge form a group; one edge with an odd number of triangles makes the group open.
   const std::vector<WeldedEdge>& edges = mesh.edges();
-  Groups groups(mesh.triangles().size());
+  DisjointSets<std::size_t> groups(mesh.triangles().size());
   std::vector<std::size_t> odd;
   for_each_edge(edges, [&](std::size_t first, std::size_t end) {
     for (std::size_t n = first; n < end; ++n) groups.join(edges[first].triangle, edges[n].triangle);

@@ -8,24 +8,12 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/disjoint_sets.hpp"
 #include "room/mesh_links.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::uint32_t{0}); }
-  std::uint32_t of(std::uint32_t k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 // A face that ends at a part of an edge, on one of its sides.
 struct End {
@@ -78,15 +66,15 @@ class Patches {
 
   void add_up() {
     for (const std::uint32_t face : reached_) {
-      area_of_surface_[of_surface_.of(face)] += faces_[face].area_m2;
-      area_of_whole_[whole_.of(face)] += faces_[face].area_m2;
-      std::uint32_t& first = first_of_whole_.try_emplace(whole_.of(face), face).first->second;
+      area_of_surface_[of_surface_.find(face)] += faces_[face].area_m2;
+      area_of_whole_[whole_.find(face)] += faces_[face].area_m2;
+      std::uint32_t& first = first_of_whole_.try_emplace(whole_.find(face), face).first->second;
       first = std::min(first, face);
     }
   }
-  double area_of_surface(std::uint32_t face) { return area_of_surface_[of_surface_.of(face)]; }
-  double area_of_whole(std::uint32_t face) { return area_of_whole_[whole_.of(face)]; }
-  std::uint32_t first_of_whole(std::uint32_t face) { return first_of_whole_[whole_.of(face)]; }
+  double area_of_surface(std::uint32_t face) { return area_of_surface_[of_surface_.find(face)]; }
+  double area_of_whole(std::uint32_t face) { return area_of_whole_[whole_.find(face)]; }
+  std::uint32_t first_of_whole(std::uint32_t face) { return first_of_whole_[whole_.find(face)]; }
 
  private:
   const MeshLinks& links(std::uint32_t surface) {
@@ -218,8 +206,8 @@ class Patches {
   std::vector<std::unique_ptr<MeshLinks>> links_;  // of the surfaces that were needed
   std::vector<bool> visited_;
   std::vector<std::uint32_t> reached_;
-  Sets of_surface_;
-  Sets whole_;
+  DisjointSets<std::uint32_t> of_surface_;
+  DisjointSets<std::uint32_t> whole_;
   std::unordered_map<std::uint32_t, double> area_of_surface_;
   std::unordered_map<std::uint32_t, double> area_of_whole_;
   std::unordered_map<std::uint32_t, std::uint32_t> first_of_whole_;  // the smallest number of its faces

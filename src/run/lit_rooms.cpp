@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/disjoint_sets.hpp"
 #include "run/flight_points.hpp"
 
 namespace lichtmc {
@@ -24,20 +24,6 @@ constexpr double riser_m = 0.25;
 constexpr double standing_m = 1.9;
 constexpr double podium_height_m = 1.2;
 constexpr double podium_area_m2 = 6.0;
-
-// Disjoint sets with path halving.
-class Sets {
- public:
-  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[std::max(find(a), find(b))] = parent_[std::min(find(a), find(b))]; }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 double overlap(const Gap& a, const Gap& b) {
   return std::min(a.high, b.high) - std::max(a.low, b.low);
@@ -171,7 +157,7 @@ bool LitRooms::connected(const glm::dvec2& a, const Gap& gap_a, const glm::dvec2
 
 // Light spreads from gap to gap; connected gaps are a room.
 void LitRooms::connect() {
-  Sets sets(gaps_.size());
+  DisjointSets<std::size_t> sets(gaps_.size());
   std::vector<std::size_t> front;
   for (std::size_t g = 0; g < gaps_.size(); ++g) {
     if (lit_[g] != 0) front.push_back(g);
@@ -205,7 +191,7 @@ namespace {
 template <class ForNeighbours>
 std::vector<std::size_t> patches_of(const std::vector<LitGap>& gaps, const std::vector<std::size_t>& first_gap,
                                     double step, const ForNeighbours& for_each_neighbour) {
-  Sets sets(gaps.size());
+  DisjointSets<std::size_t> sets(gaps.size());
   for (std::size_t g = 0; g < gaps.size(); ++g) {
     if (gaps[g].room == none) continue;
     for_each_neighbour(gaps[g].column, [&](std::size_t other) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <optional>
 
 #include <glm/geometric.hpp>
 
+#include "base/disjoint_sets.hpp"
 #include "base/frame.hpp"
 #include "chance/choice.hpp"
 #include "chance/places.hpp"
@@ -76,39 +76,32 @@ struct ReflectsPolicy {
   }
 };
 
-// Sides that are judged together (R. Tarjan, Efficiency of a Good But Not Linear Set Union Algorithm, 1975), and the
-// walks from them.
+// Sides that are judged together, and the walks from them.
 class SideSets {
  public:
-  explicit SideSets(std::size_t n) : parent_(n), walks_(n), lit_walks_(n) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
+  explicit SideSets(std::size_t n) : sets_(n), walks_(n), lit_walks_(n) {}
 
-  void join(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
+  void join(std::uint32_t a, std::uint32_t b) { sets_.join(a, b); }
   void count_walk(std::uint32_t k) { ++walks_[k]; }
   void count_lit_walk(std::uint32_t k) { ++lit_walks_[k]; }
   bool surely_lit(std::uint32_t k) const { return lit_walks_[k] >= enough_lit_walks; }
 
   // Of each side, whether light reaches its set.
   std::vector<bool> lit() {
-    std::vector<double> walks(parent_.size(), 0.0);
-    std::vector<double> lit_walks(parent_.size(), 0.0);
-    for (std::uint32_t k = 0; k < parent_.size(); ++k) {
-      walks[of(k)] += walks_[k];
-      lit_walks[of(k)] += lit_walks_[k];
+    std::vector<double> walks(walks_.size(), 0.0);
+    std::vector<double> lit_walks(walks_.size(), 0.0);
+    for (std::uint32_t k = 0; k < walks_.size(); ++k) {
+      walks[sets_.find(k)] += walks_[k];
+      lit_walks[sets_.find(k)] += lit_walks_[k];
     }
     std::vector<bool> lit;
-    for (std::uint32_t k = 0; k < parent_.size(); ++k) lit.push_back(lit_walks[of(k)] > least_share * walks[of(k)]);
+    for (std::uint32_t k = 0; k < walks_.size(); ++k)
+      lit.push_back(lit_walks[sets_.find(k)] > least_share * walks[sets_.find(k)]);
     return lit;
   }
 
  private:
-  std::uint32_t of(std::uint32_t k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-
-  std::vector<std::uint32_t> parent_;
+  DisjointSets<std::uint32_t> sets_;
   std::vector<std::uint32_t> walks_;
   std::vector<std::uint32_t> lit_walks_;
 };
