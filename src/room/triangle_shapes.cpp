@@ -25,6 +25,22 @@ std::vector<TriangleShape> triangle_shapes(const Surface& surface) {
   return shapes;
 }
 
+std::vector<TriangleSample> sample_triangles(const Surface& surface) {
+  constexpr std::size_t samples = 16;
+  std::vector<TriangleSample> result;
+  const std::size_t stride = std::max<std::size_t>(1, surface.triangles.size() / samples);
+  for (std::size_t n = 0; n < surface.triangles.size(); n += stride) {
+    const glm::uvec3 corner = surface.triangles[n];
+    const glm::dvec3 a = surface.positions[corner.x];
+    const glm::dvec3 b = surface.positions[corner.y] - a;
+    const glm::dvec3 c = surface.positions[corner.z] - a;
+    const glm::dvec3 cross = glm::cross(b, c);
+    const double length = glm::length(cross);
+    if (length > 0.0) result.push_back({a + (b + c) / 3.0, cross / length, std::sqrt(length)});
+  }
+  return result;
+}
+
 double largest_extent_m(const Surface& surface) {
   glm::dvec3 low(std::numeric_limits<double>::max());
   glm::dvec3 high(std::numeric_limits<double>::lowest());

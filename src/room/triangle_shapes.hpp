@@ -23,6 +23,16 @@ struct TriangleShape {
 // The shapes of a surface's triangles, in their order.
 std::vector<TriangleShape> triangle_shapes(const Surface& surface);
 
+// A triangle of a surface that stands for its neighbours.
+struct TriangleSample {
+  glm::dvec3 middle{0.0};  // m, its centroid
+  glm::dvec3 normal{0.0};  // towards the front, length 1
+  double size_m = 0.0;     // √ of twice its area
+};
+
+// Some 16 triangles with an area, distributed over a surface: for tests of where it lies.
+std::vector<TriangleSample> sample_triangles(const Surface& surface);
+
 // The largest edge, in metres, of the bounding box of all triangles of a surface; 0 if there are none.
 double largest_extent_m(const Surface& surface);
 

@@ -14,6 +14,7 @@
 #include "room/cuboid_shape.hpp"
 #include "room/emitter_shape.hpp"
 #include "room/enclosure.hpp"
+#include "room/triangle_shapes.hpp"
 #include "tracer/touch.hpp"
 
 namespace lichtmc {
@@ -69,24 +70,6 @@ class Walls {
   std::optional<CuboidShape> cuboid_;
 };
 
-// Points just in front of some triangles of a surface, distributed over it.
-std::vector<glm::dvec3> in_front_of(const Surface& surface) {
-  constexpr std::size_t most = 16;
-  constexpr double share = 1e-4;  // of the triangle's size
-  std::vector<glm::dvec3> points;
-  const std::size_t stride = std::max<std::size_t>(1, surface.triangles.size() / most);
-  for (std::size_t n = 0; n < surface.triangles.size(); n += stride) {
-    const glm::uvec3 t = surface.triangles[n];
-    const glm::dvec3 a = surface.positions[t.x];
-    const glm::dvec3 b = surface.positions[t.y] - a;
-    const glm::dvec3 c = surface.positions[t.z] - a;
-    const glm::dvec3 cross = glm::cross(b, c);
-    const double length = glm::length(cross);
-    if (length > 0.0) points.push_back(a + (b + c) / 3.0 + share * std::sqrt(length) * (cross / length));
-  }
-  return points;
-}
-
 // Points where light of an emitter starts.
 struct LightStarts {
   std::vector<glm::dvec3> points;
@@ -104,7 +87,9 @@ LightStarts light_starts(const Room& room) {
     visit_shape(
         room.emitters[k], [&](const auto& point) { add(point.position); },
         [&](const auto& area_light) {
-          for (const glm::dvec3& point : in_front_of(room.surfaces[area_light.surface])) add(point);
+          constexpr double share = 1e-4;  // of the triangle's size, in front of it
+          for (const TriangleSample& triangle : sample_triangles(room.surfaces[area_light.surface]))
+            add(triangle.middle + share * triangle.size_m * triangle.normal);
         });
   }
   return starts;

@@ -11,6 +11,7 @@
 #include "room/close_triangles.hpp"
 #include "room/emitter_shape.hpp"
 #include "room/enclosure.hpp"
+#include "room/triangle_shapes.hpp"
 #include "tracer/convex_room.hpp"
 #include "tracer/touch.hpp"
 #include "walk/visibility.hpp"
@@ -176,28 +177,10 @@ class ReceiverPlacer {
             add(point.position + 2.0 * tracer_.clearance_m(axis) * axis, std::nullopt);
           },
           [&](const auto& area_light) {
-            for (const LightOrigin& origin : in_front_of(room_.surfaces[area_light.surface]))
-              add(origin.point, origin.normal);
+            for (const TriangleSample& triangle : sample_triangles(room_.surfaces[area_light.surface]))
+              add(triangle.middle + 2.0 * tracer_.clearance_m(triangle.normal) * triangle.normal, triangle.normal);
           });
     }
-  }
-
-  // Points just in front of some triangles of a surface, distributed over it.
-  std::vector<LightOrigin> in_front_of(const Surface& surface) const {
-    constexpr std::size_t most = 16;
-    std::vector<LightOrigin> points;
-    const std::size_t stride = std::max<std::size_t>(1, surface.triangles.size() / most);
-    for (std::size_t n = 0; n < surface.triangles.size(); n += stride) {
-      const glm::uvec3 t = surface.triangles[n];
-      const glm::dvec3 a = surface.positions[t.x];
-      const glm::dvec3 b = surface.positions[t.y] - a;
-      const glm::dvec3 c = surface.positions[t.z] - a;
-      const double length = glm::length(glm::cross(b, c));
-      if (!(length > 0.0)) continue;
-      const glm::dvec3 normal = glm::cross(b, c) / length;
-      points.push_back({a + (b + c) / 3.0 + 2.0 * tracer_.clearance_m(normal) * normal, normal});
-    }
-    return points;
   }
 
   const Room& room_;

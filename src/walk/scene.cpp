@@ -12,28 +12,19 @@
 #include "room/emitter_shape.hpp"
 #include "room/enclosure.hpp"
 #include "room/nearest_tile.hpp"
+#include "room/triangle_shapes.hpp"
 
 namespace lichtmc {
 
 namespace {
 
 // Whether photons of a surface emitter start inside a closed shell. This is tested in front of some of its triangles,
-// distributed over it.
+// at a millionth of the triangle's size.
 bool emits_inside(const Surface& surface, const Enclosure& enclosure) {
-  constexpr std::size_t samples = 16;
-  const std::size_t stride = std::max<std::size_t>(1, surface.triangles.size() / samples);
-  for (std::size_t n = 0; n < surface.triangles.size(); n += stride) {
-    const glm::uvec3 corner = surface.triangles[n];
-    const glm::dvec3 a = surface.positions[corner.x];
-    const glm::dvec3 b = surface.positions[corner.y] - a;
-    const glm::dvec3 c = surface.positions[corner.z] - a;
-    const glm::dvec3 cross = glm::cross(b, c);
-    const double length = glm::length(cross);
-    if (!(length > 0.0)) continue;
-    // A millionth of the triangle's size in front of it.
-    if (!enclosure.encloses(a + (b + c) / 3.0 + 1e-6 * std::sqrt(length) * (cross / length))) return false;
-  }
-  return true;
+  const std::vector<TriangleSample> samples = sample_triangles(surface);
+  return std::all_of(samples.begin(), samples.end(), [&](const TriangleSample& triangle) {
+    return enclosure.encloses(triangle.middle + 1e-6 * triangle.size_m * triangle.normal);
+  });
 }
 
 // Whether all photons start inside closed shells. Then none can leave the room, except by rounding.
