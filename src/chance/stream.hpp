@@ -20,6 +20,9 @@ enum class Purpose : std::uint32_t {
   direct_point = 5,   // words 0 to 2: point on a surface emitter
   direct_flight = 6,  // words 0, 1: direction of a flight that may hit one
   direct_place = 7,   // words 0, 1: where on a tile
+  // Random shifts of quasi-random points (sobol.hpp); the "history" is the number of the set:
+  shift = 8,        // of emission, words as there
+  place_shift = 9,  // of place, words as there
 };
 
 class Stream {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -9,6 +10,7 @@
 #include "chance/draw_many.hpp"
 #include "chance/lane_math.hpp"
 #include "chance/philox.hpp"
+#include "chance/sobol.hpp"
 #include "chance/stream.hpp"
 #include "lichtmc/emitter_law.hpp"
 #include "support/catch.hpp"
@@ -36,6 +38,35 @@ TEST_CASE("words differ with every part of their address") {
   CHECK(words != stream.draw(7 + (std::uint64_t{1} << 32), 3, Purpose::flight));
   CHECK(words != stream.draw(7, 4, Purpose::flight));
   CHECK(words != stream.draw(7, 3, Purpose::emission));
+}
+
+TEST_CASE("the first 2^k points of Sobol's sequence are stratified in every dimension, shifted or not") {
+  for (const std::uint32_t shift : {0U, 0x9E3779B9U}) {
+    for (std::size_t dimension = 0; dimension < sobol_dimensions; ++dimension) {
+      std::array<int, 64> in_stratum{};
+      for (std::uint32_t k = 0; k < 64; ++k) ++in_stratum[(sobol(k, dimension) ^ shift) >> 26];
+      CHECK(std::all_of(in_stratum.begin(), in_stratum.end(), [](int count) { return count == 1; }));
+    }
+  }
+}
+
+TEST_CASE("Sobol's first two dimensions form a (0, 6, 2)-net") {
+  for (int bits = 0; bits <= 6; ++bits) {  // boxes of 2^-bits by 2^-(6 - bits)
+    std::array<int, 64> in_box{};
+    for (std::uint32_t k = 0; k < 64; ++k) {
+      const std::uint64_t x = std::uint64_t{sobol(k, 0)} >> (32 - bits);
+      const std::uint64_t y = std::uint64_t{sobol(k, 1)} >> (26 + bits);
+      ++in_box[x << (6 - bits) | y];
+    }
+    CHECK(std::all_of(in_box.begin(), in_box.end(), [](int count) { return count == 1; }));
+  }
+}
+
+TEST_CASE("Sobol's points follow from the direction numbers of Joe and Kuo") {
+  // Point 3 is the sum without carries of the first two direction numbers, m₁/2 and m₂/4.
+  const std::array<double, sobol_dimensions> third{0.75, 0.25, 0.25, 0.25, 0.75, 0.75};
+  for (std::size_t dimension = 0; dimension < sobol_dimensions; ++dimension)
+    CHECK(sobol(3, dimension) * 0x1p-32 == third[dimension]);
 }
 
 TEST_CASE("uniform numbers stay in their intervals") {
