@@ -145,7 +145,10 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
     if (const auto emitter = light.emitter_at(reference_point_of(receiver))) refuse_on_emitter(room, k, *emitter);
     return light.irradiance_at(points[k], stream, k, count);
   };
-  task.make_walk = [&](const Settings& own) { return make_backward_walk(context.scene, light, origins, scale, own); };
+  task.make_walk = [&](const Settings& own) {
+    const RoundPlan plan{.forward = 0, .backward = ReceiverOrigins::group};
+    return make_backward_walk(context.scene, light, origins, scale, own, plan);
+  };
   task.error = error_of_receivers;
   task.weights.assign(task.origins, 1.0);
   task.name = "the receivers";

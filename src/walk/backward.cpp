@@ -18,17 +18,18 @@ namespace {
 template <class Policy, class Origins>
 class BackwardGoal : public GoalBase {
  public:
-  BackwardGoal(const Scene& scene, const DirectLight& light, const Origins& origins, const BackwardScale& scale,
-               const Stream& stream)
+  BackwardGoal(const Scene& scene, const DirectLight& light, const Origins& origins, const Stream& stream,
+               double forward_per_walk)
       : scene_(&scene),
         light_(&light),
         origins_(&origins),
-        scale_(scale),
         stream_(stream),
+        forward_per_walk_(forward_per_walk),
         ids_(batch_histories),
         origin_(batch_histories),
         sample_(batch_histories),
-        scores_(batch_histories),
+        irradiance_(batch_histories),
+        forward_ratio_(batch_histories),
         factor_(batch_histories),
         found_(batch_histories),
         direct_(batch_histories),
@@ -43,14 +44,10 @@ class BackwardGoal : public GoalBase {
   }
   void begin(BackwardCount& count) { count_ = &count; }
 
-  // Adds up the rounds of n photons that have all ended; sums[k] belongs to origin first + k.
-  void add_rounds(std::uint32_t n, std::uint64_t first, std::vector<BackwardSums>& sums) const {
-    for (std::uint32_t i = 0; i < n; i += Origins::group) {
-      std::uint64_t round = 0;
-      for (std::uint32_t k = i; k < i + Origins::group; ++k) round += scores_[k];
-      sums[origin_[i] - first].add(round);
-    }
-  }
+  // What photon i, which has ended, contributes to its origin, W/m² or lx.
+  double irradiance(std::uint32_t i) const { return irradiance_[i]; }
+  std::uint64_t origin(std::uint32_t i) const { return origin_[i]; }
+  std::uint64_t sample(std::uint32_t i) const { return sample_[i]; }
 
   // The first flight leaves by Lambert's law within the field of view: the receiver weights radiance by the cosine.
   void start(Wave& wave, std::uint32_t n) {
@@ -64,6 +61,8 @@ class BackwardGoal : public GoalBase {
           sample_cosine_cone(frame_about(reference.normal), view, unit_open(words[0]), unit_open(words[1]));
       wave.rays.set_direction(i,
                               glm::vec3(reference.way_out.value_or(scene_->tracer->directions() * flight.direction)));
+      cosine_[i] = static_cast<float>(flight.cosine);
+      forward_ratio_[i] = 0.0;
       found_[i] = 0.0;
       direct_[i] = 0.0;
     }
@@ -86,6 +85,7 @@ class BackwardGoal : public GoalBase {
   void land(const Wave& wave) {
     ++flight_;
     count_->impacts += wave.rays.size;
+    if (flight_ == 1 && forward_per_walk_ > 0.0) weigh_first_impacts(wave);
     if (flight_ == 1 || !light_->has_area_lights()) return;
     const Rays& rays = wave.rays;
     const Tracer& tracer = *scene_->tracer;
@@ -94,7 +94,8 @@ class BackwardGoal : public GoalBase {
       if (rays.behind[i] != 0 || !light_->is_area_light(facet.surface)) continue;
       const FlightGeometry flight = flight_geometry(tracer, rays, i);
       if (flight.degenerate()) continue;
-      const double irradiance = light_->mis_weighted_emission(rays, i, double{cosine_[i]}, flight);
+      const double irradiance =
+          light_->mis_weighted_emission(rays, i, double{cosine_[i]}, flight, forward_ratio_[wave.photon[i]]);
       if constexpr (Policy::scores_every_impact) {
         found_[i] += (Policy::carries_weight ? wave.weight[i] : 1.0) * irradiance;
       } else {
@@ -142,6 +143,18 @@ class BackwardGoal : public GoalBase {
   }
 
  private:
+  // forward_ratio of DirectLight::sample_light(), from the density of the first impact; factor_ is the share of
+  // Lambert's law within the field of view. A flight without length or along its surface is not found from the other
+  // side.
+  void weigh_first_impacts(const Wave& wave) {
+    for (std::size_t i = 0; i < wave.rays.size; ++i) {
+      const FlightGeometry flight = flight_geometry(*scene_->tracer, wave.rays, i);
+      if (flight.degenerate()) continue;
+      const std::uint32_t photon = wave.photon[i];
+      forward_ratio_[photon] = forward_per_walk_ * factor_[photon] / flight.pdf_bsdf(double{cosine_[i]});
+    }
+  }
+
   // Draws light sample k for photon i; if something may cast a shadow, adds a shadow ray to their wave.
   void add_light_sample(const Wave& wave, std::uint32_t flight, std::size_t i, std::size_t k) {
     const Rays& rays = wave.rays;
@@ -154,7 +167,7 @@ class BackwardGoal : public GoalBase {
     const auto number = static_cast<std::uint32_t>(flight * light_->light_samples_per_point() + k);
     const Words which = stream_.draw(id, number, Purpose::light);
     const Words where = light_->has_area_lights() ? stream_.draw(id, number, Purpose::on_light) : Words{};
-    const LightSample sample = light_->sample_light(k, reference, which, where);
+    const LightSample sample = light_->sample_light(k, reference, which, where, forward_ratio_[wave.photon[i]]);
     if (!(sample.irradiance > 0.0)) return;
     const auto segment = tracer.casts_shadows() ? shadow_segment(tracer, start, sample.target) : std::nullopt;
     if (!segment) {
@@ -168,21 +181,22 @@ class BackwardGoal : public GoalBase {
 
   void finish(const Wave& wave, std::size_t i) {
     const std::uint32_t photon = wave.photon[i];
-    scores_[photon] = scale_.score(found_[i] * factor_[photon]);
+    irradiance_[photon] = found_[i] * factor_[photon];
   }
 
   const Scene* scene_;
   const DirectLight* light_;
   const Origins* origins_;
-  BackwardScale scale_;
   Stream stream_;
+  double forward_per_walk_;  // histories from the emitters for each walk, whose contributions are weighted together
   // By the number of the photon:
   std::vector<std::uint64_t> ids_;
   std::vector<std::uint64_t> origin_;
   std::vector<std::uint64_t> sample_;
-  std::vector<std::uint64_t> scores_;
-  std::vector<double> factor_;  // squared sine of the half angle of the field of view (the fraction of a uniform
-                                // hemisphere), times the uncovered share of the origin
+  std::vector<double> irradiance_;     // when it has ended
+  std::vector<double> forward_ratio_;  // m², of its first impact, see DirectLight::sample_light()
+  std::vector<double> factor_;         // squared sine of the half angle of the field of view (the fraction of a uniform
+                                       // hemisphere), times the uncovered share of the origin
   // By the position in the wave:
   std::vector<double> found_;               // score so far, W/m² or lx
   std::vector<double> direct_;              // direct irradiance at the surface that was left last
@@ -198,18 +212,42 @@ template <class Policy, class Reflectance, class Origins>
 class PolicyBackwardWalk final : public BackwardWalk {
  public:
   PolicyBackwardWalk(const Scene& scene, const DirectLight& light, const Origins& origins, const BackwardScale& scale,
-                     std::uint64_t seed, std::uint32_t max_flights)
-      : goal_(scene, light, origins, scale, Stream(seed, WalkDirection::backward)),
+                     const RoundPlan& plan, std::uint64_t seed, std::uint32_t max_flights)
+      : scale_(scale),
+        group_(plan.backward),
+        goal_(scene, light, origins, Stream(seed, WalkDirection::backward), plan.forward_per_walk()),
         kernel_(scene, Stream(seed, WalkDirection::backward), max_flights) {}
 
   void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,
                 const Abandon& abandon) override {
-    static_assert(batch_histories % Origins::group == 0);  // no round is divided
+    std::uint64_t round = 0;
+    walk(work, count, abandon, [&](std::uint64_t origin, std::uint64_t sample, double irradiance) {
+      round += scale_.score(irradiance);
+      if ((sample + 1) % group_ != 0) return;
+      sums[origin - work.first].add(std::min(round, BackwardScale::largest_sum));
+      round = 0;
+    });
+  }
+
+  void collect(const WalkBlock& work, std::vector<double>& irradiance, BackwardCount& count,
+               const Abandon& abandon) override {
+    const std::uint64_t origins = work.last - work.first;
+    walk(work, count, abandon, [&](std::uint64_t origin, std::uint64_t sample, double found) {
+      const std::uint64_t round = (sample - work.first_sample) / group_;
+      irradiance[round * origins + (origin - work.first)] += found / group_;
+    });
+  }
+
+ private:
+  // Calls record(origin, sample, irradiance) for every walk, in the order of origins and samples.
+  template <class Record>
+  void walk(const WalkBlock& work, BackwardCount& count, const Abandon& abandon, const Record& record) {
+    assert(work.first_sample % group_ == 0 && work.last_sample % group_ == 0);  // no round is divided
     goal_.begin(count);
     std::uint32_t n = 0;
     const auto fly = [&] {
       kernel_.fly(n, goal_, abandon);
-      goal_.add_rounds(n, work.first, sums);
+      for (std::uint32_t i = 0; i < n; ++i) record(goal_.origin(i), goal_.sample(i), goal_.irradiance(i));
       n = 0;
     };
     for (std::uint64_t origin = work.first; origin < work.last; ++origin) {
@@ -221,18 +259,19 @@ class PolicyBackwardWalk final : public BackwardWalk {
     if (n > 0) fly();
   }
 
- private:
+  BackwardScale scale_;
+  std::uint32_t group_;  // walks in a round
   BackwardGoal<Policy, Origins> goal_;
   Kernel<Policy, Reflectance, BackwardGoal<Policy, Origins>> kernel_;
 };
 
 template <class Origins>
 std::unique_ptr<BackwardWalk> walk_from(const Scene& scene, const DirectLight& light, const Origins& origins,
-                                        const BackwardScale& scale, const Settings& settings) {
+                                        const BackwardScale& scale, const Settings& settings, const RoundPlan& plan) {
   return choose_policy(
       settings.estimator, settings.max_bounces, scene.has_reflectance_maps(),
       [&]<class Policy, class Reflectance>(std::uint32_t max_flights) -> std::unique_ptr<BackwardWalk> {
-        return std::make_unique<PolicyBackwardWalk<Policy, Reflectance, Origins>>(scene, light, origins, scale,
+        return std::make_unique<PolicyBackwardWalk<Policy, Reflectance, Origins>>(scene, light, origins, scale, plan,
                                                                                   settings.seed, max_flights);
       });
 }
@@ -260,13 +299,14 @@ ReferencePoint ReceiverOrigins::start(std::uint64_t receiver, std::uint64_t /*sa
 
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
                                                  const ReceiverOrigins& origins, const BackwardScale& scale,
-                                                 const Settings& settings) {
-  return walk_from(scene, light, origins, scale, settings);
+                                                 const Settings& settings, const RoundPlan& plan) {
+  assert(plan.backward > 0);
+  return walk_from(scene, light, origins, scale, settings, plan);
 }
 
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light, const TileFaces& origins,
                                                  const BackwardScale& scale, const Settings& settings) {
-  return walk_from(scene, light, origins, scale, settings);
+  return walk_from(scene, light, origins, scale, settings, {.forward = 0, .backward = TileFaces::group});
 }
 
 }  // namespace lichtmc

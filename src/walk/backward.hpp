@@ -16,6 +16,7 @@
 #include "lichtmc/settings.hpp"
 #include "walk/direct_light.hpp"
 #include "walk/kernel.hpp"
+#include "walk/round_plan.hpp"
 #include "walk/scene.hpp"
 #include "walk/tile_faces.hpp"
 
@@ -42,10 +43,12 @@ template <>
 inline constexpr bool is_row<BackwardSums> = true;
 
 // The unit of scores: 2⁻²⁴ of the emitters' power over the area of all surfaces. A score is at
-// most 2⁵⁰ units, 6·10⁷ times that; the sum of the squares of 2²⁴ rounds of four of the largest stays below 2¹²⁸.
+// most 2⁵⁰ units, 6·10⁷ times that, and the sum of a round at most 2⁵²: the sum of the squares of 2²⁴ such rounds
+// stays below 2¹²⁸.
 struct BackwardScale {
   explicit BackwardScale(const Room& room);
   static constexpr std::uint64_t largest_score = std::uint64_t{1} << 50;
+  static constexpr std::uint64_t largest_sum = std::uint64_t{1} << 52;
 
   double unit = 1.0;  // W/m² or lx
   std::uint64_t score(double irradiance) const;
@@ -78,15 +81,22 @@ class BackwardWalk {
   virtual void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,
                         const Abandon& abandon) = 0;
 
+  // The same; adds the mean over the walks of each round, in W/m² or lx and not rounded, to
+  // irradiance[(r − first) · origins + k], for round r, of which `first` is the first of the work, and origin
+  // work.first + k of its origins.
+  virtual void collect(const WalkBlock& work, std::vector<double>& irradiance, BackwardCount& count,
+                       const Abandon& abandon) = 0;
+
  protected:
   BackwardWalk() = default;
   BackwardWalk(const BackwardWalk&) = default;
   BackwardWalk& operator=(const BackwardWalk&) = default;
 };
 
-// The origins of backward walks. Origins are numbered; walks from one are grouped in rounds of `group`, of which only
-// the sum is recorded, so that the walks of a round may be stratified. start() sets where photon i starts and returns
-// its reference point. uncovered_share(): the share of an origin that receives light, from which its walks start.
+// The origins of backward walks. Origins are numbered; walks from one are grouped in rounds, of which only the sum is
+// recorded, so that the walks of a round may be stratified: of `group` walks, unless a plan says otherwise. start()
+// sets where photon i starts and returns its reference point. uncovered_share(): the share of an origin that receives
+// light, from which its walks start.
 class ReceiverOrigins {
  public:
   // receivers: see receiver_points.hpp; they and the tracer must outlive this.
@@ -104,10 +114,12 @@ class ReceiverOrigins {
   const Tracer* tracer_;
 };
 
-// A walk for one thread, from receivers or from the faces of tiles; scene, light and origins must outlive it.
+// A walk for one thread, from receivers or from the faces of tiles; scene, light and origins must outlive it. plan: a
+// round has plan.backward walks from each receiver; if it has histories from the emitters too, each light sample has
+// its weight beside them (DirectLight::sample_light()).
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
                                                  const ReceiverOrigins& origins, const BackwardScale& scale,
-                                                 const Settings& settings);
+                                                 const Settings& settings, const RoundPlan& plan);
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light, const TileFaces& origins,
                                                  const BackwardScale& scale, const Settings& settings);
 

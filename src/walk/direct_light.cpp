@@ -29,7 +29,8 @@ constexpr double on_emitter = 1e-6;
 
 }  // namespace
 
-DirectLight::DirectLight(const Room& room, const Tracer& tracer) : room_(&room), tracer_(&tracer) {
+DirectLight::DirectLight(const Room& room, const Tracer& tracer)
+    : room_(&room), tracer_(&tracer), power_(total_power(room)) {
   areas_of_surface_.resize(room.surfaces.size());
   std::vector<double> fluxes;
   EmissionOfRoom emission(room);
@@ -102,28 +103,34 @@ DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, con
 }
 
 LightSample DirectLight::sample_light(std::size_t k, const ReferencePoint& reference, const Words& which,
-                                      const Words& where) const {
+                                      const Words& where, double forward_ratio) const {
   const Source& source = sources_[few_ ? k : choose(fluxes_up_to_, unit_fine(which[0], which[1]))];
   if (!source.is_area) {
     LightSample sample = points_[source.index].sample_light(reference);
-    sample.irradiance /= source.share;
+    if (sample.irradiance > 0.0) sample.irradiance /= source.share + forward_ratio * (sample.irradiance / power_);
     return sample;
   }
   const AreaLight& light = areas_[source.index];
   LightSample sample = light.sample_light(reference, unit_open(where[0]), unit_open(where[1]), unit_open(where[2]));
+  if (!(sample.irradiance > 0.0)) return sample;
+  const double pdf_point = sample.relative / light.area_m2();
   const double pdf_light = source.share / light.area_m2() * sample.relative;
-  sample.irradiance *= pdf_light / (pdf_light + sample.pdf_bsdf) / source.share;
+  const double pdf_forward = forward_ratio * (sample.irradiance * pdf_point / power_);
+  sample.irradiance *= pdf_light / (pdf_light + sample.pdf_bsdf + pdf_forward) / source.share;
   return sample;
 }
 
 double DirectLight::mis_weighted_emission(const Rays& rays, std::size_t i, double cosine_here,
-                                          const FlightGeometry& flight) const {
+                                          const FlightGeometry& flight, double forward_ratio) const {
   double sum = 0.0;
   const double pdf_bsdf = flight.pdf_bsdf(cosine_here);
   for (const std::size_t k : areas_of_surface_[tracer_->facets()[rays.facet[i]].surface]) {
     const double relative = areas_[k].relative_exitance(rays.facet[i], rays.s[i], rays.t[i]);
     const double pdf_light = area_shares_[k] / areas_[k].area_m2() * relative;
-    sum += pi * (areas_[k].radiance(flight.cosine_there) * relative) * pdf_bsdf / (pdf_light + pdf_bsdf);
+    const double radiance = areas_[k].radiance(flight.cosine_there) * relative;
+    if (!(radiance > 0.0)) continue;
+    const double pdf_forward = forward_ratio * (pi * radiance * pdf_bsdf / power_);
+    sum += pi * radiance * pdf_bsdf / (pdf_light + pdf_bsdf + pdf_forward);
   }
   return sum;
 }

@@ -41,14 +41,28 @@ class DirectLight {
   // Light sample k (below light_samples_per_point()) at a surface of the walk. Its mean over the random words is the
   // direct irradiance without shadows; area lights count with their weight of the balance heuristic; walks that hit
   // them add the rest (mis_weighted_emission()).
-  LightSample sample_light(std::size_t k, const ReferencePoint& reference, const Words& which,
-                           const Words& where) const;
+  //
+  // forward_ratio, in m²: above 0 if histories from the emitters find the same paths, and contribute them to the origin
+  // of the walk with the rest of the weights: n_F/(n_B p_r) for n_F such histories for n_B walks from the origin, where
+  // p_r is the density per area of the walk's first impact, for a flight from the origin. Reflections between have the
+  // same densities in both directions: only the ends of the path differ (E. Veach, L. Guibas, SIGGRAPH 1995). A history
+  // from the emitters, of power ΣΦ in all, arrives first at a point of the surface, from a point x₀ of the emitter,
+  // with the density e₀/ΣΦ, e₀ the irradiance by that point; per area of the emitter if it is an area light. With q the
+  // probability that the light sample chooses the emitter, p_L the density of its points on it, and p_hit the density
+  // with which a flight from the surface hits x₀, the weights are
+  //   of a point light:             q / (q + forward_ratio e₀/ΣΦ)
+  //   of the point of an area light: q p_L / (q p_L + p_hit + forward_ratio e₀/ΣΦ)
+  //   of the flight that hits it:   p_hit / (q p_L + p_hit + forward_ratio e₀/ΣΦ)
+  LightSample sample_light(std::size_t k, const ReferencePoint& reference, const Words& which, const Words& where,
+                           double forward_ratio = 0.0) const;
 
   // Flight i, which left a surface at an angle of cosine `cosine_here`, has hit the front of an area light: its
   // weighted contribution to the direct irradiance at the surface that it left. Samples of the emitter's points and
   // flights that hit it are combined by the balance heuristic, see area_light_sampling.hpp. Without it, light samples
-  // on a wall that touches a luminous ceiling would grow as 1/r² near the common edge.
-  double mis_weighted_emission(const Rays& rays, std::size_t i, double cosine_here, const FlightGeometry& flight) const;
+  // on a wall that touches a luminous ceiling would grow as 1/r² near the common edge. forward_ratio: see
+  // sample_light().
+  double mis_weighted_emission(const Rays& rays, std::size_t i, double cosine_here, const FlightGeometry& flight,
+                               double forward_ratio = 0.0) const;
   bool has_area_lights() const { return !areas_.empty(); }
   bool is_area_light(std::size_t surface) const { return !areas_of_surface_[surface].empty(); }
 
@@ -73,6 +87,7 @@ class DirectLight {
   std::vector<double> area_shares_;                         // of areas_: probability that a light sample chooses it
   std::vector<std::vector<std::size_t>> areas_of_surface_;  // indices into areas_
   bool few_ = true;
+  double power_ = 0.0;  // of all emitters of the room, W or lm
 };
 
 }  // namespace lichtmc
