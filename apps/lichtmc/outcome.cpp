@@ -93,15 +93,16 @@ void print_tiles(const Result& result) {
 }
 
 void print_receivers(const Result& result) {
-  const WalkReport& backward = result.receiver_walk;
-  const auto histories = static_cast<double>(backward.histories);
+  const WalkReport& walk = result.receiver_walk;
+  const auto histories = static_cast<double>(walk.histories);
   std::cerr << result.receiver_results.size() << (result.receiver_results.size() == 1 ? " receiver, " : " receivers, ")
-            << short_count(histories) << " backward histories in " << four_digits(backward.seconds) << " s ("
-            << describe(backward.stopped_by) << "), " << short_count(static_cast<double>(backward.shadow_rays))
-            << (backward.shadow_rays == 1 ? " shadow ray; relative" : " shadow rays; relative") << " standard error "
-            << percent(backward.rms_relative_error) << " (rms).\n";
-  warn_of_missed_target(result.settings, backward.stopped_by, backward.rms_relative_error, histories,
-                        backward.histories_to_target, backward.seconds, "");
+            << short_count(histories) << " histories in " << four_digits(walk.seconds) << " s ("
+            << describe(walk.stopped_by) << "; " << to_string(walk.receiver_walk) << ", estimator "
+            << to_string(walk.estimator) << "), " << short_count(static_cast<double>(walk.shadow_rays))
+            << (walk.shadow_rays == 1 ? " shadow ray; relative" : " shadow rays; relative") << " standard error "
+            << percent(walk.rms_relative_error) << " (rms).\n";
+  warn_of_missed_target(result.settings, walk.stopped_by, walk.rms_relative_error, histories, walk.histories_to_target,
+                        walk.seconds, "");
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ std::string ProgressLine::work(const Progress& progress) const {
   const bool limited = progress.target < no_photon_limit;
   return short_count(static_cast<double>(progress.histories)) +
          (limited ? " of " + short_count(static_cast<double>(progress.target)) : "") +
-         (receivers  ? " backward histories from receivers, "
+         (receivers  ? " histories for the receivers, "
           : backward ? " backward histories from tiles, "
                      : " photons, ") +
          short_count(static_cast<double>(progress.impacts) / progress.seconds) + (backward ? " rays/s" : " impacts/s");

@@ -49,6 +49,16 @@ WalkDirection parse_tiles(const std::string& text) {
                    "' of the walk for tiles is not known (allowed: forward, backward). Give one of these to --tiles.");
 }
 
+ReceiverWalk parse_receiver_walk(const std::string& text) {
+  if (text == "auto") return ReceiverWalk::automatic;
+  if (text == "two-way") return ReceiverWalk::two_way;
+  if (text == "next-event") return ReceiverWalk::next_event;
+  if (text == "backward") return ReceiverWalk::backward;
+  throw InputError("The walk for receivers '" + text +
+                   "' is not known (allowed: auto, two-way, next-event, backward). Give one of these to "
+                   "--receiver-walk.");
+}
+
 Direct parse_direct(const std::string& text, WalkDirection tiles) {
   if (text == "sampled" && tiles == WalkDirection::backward) {
     throw InputError(
@@ -141,6 +151,7 @@ Settings parse_settings(const RunOptions& options) {
   settings.engine = parse_engine(options.engine);
   if (options.only) settings.measured = parse_measured(*options.only);
   settings.tile_walk = parse_tiles(options.tiles);
+  settings.receiver_walk = parse_receiver_walk(options.receiver_walk);
   if (options.direct) settings.direct = parse_direct(*options.direct, settings.tile_walk);
   return settings;
 }
@@ -362,6 +373,14 @@ void add_receiver_options(CLI::App& command, RunOptions& options) {
       ->group(group);
   command.add_option("--grid-spacing", options.grid_spacing, "Spacing of the grid in metres [0.5]")
       ->type_name("M")
+      ->group(group);
+  command
+      .add_option("--receiver-walk", options.receiver_walk,
+                  "next-event: every impact of photons from the emitters contributes to every receiver; backward: walks "
+                  "from each receiver to the emitters; two-way: both combined; auto: the one with the smallest error "
+                  "for the same work")
+      ->type_name("NAME")
+      ->capture_default_str()
       ->group(group);
   command.add_option("--only", options.only, "Measure only these: tiles or receivers")->type_name("WHAT")->group(group);
 }

@@ -43,6 +43,7 @@ struct RunOptions {
   std::string engine = "auto";
   std::optional<std::string> direct;
   std::string tiles = "forward";
+  std::string receiver_walk = "auto";
   std::optional<std::string> receivers, grid, grid_spacing, only;
   ReportArguments report_arguments;
   std::string checkpoint = "60s";

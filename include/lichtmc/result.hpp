@@ -82,11 +82,18 @@ struct ConvergencePoint {
 // How the results of one walk were computed.
 struct WalkReport {
   Estimator estimator = Estimator::collision;  // as used
-  std::string choice;                          // reason, if Estimator::automatic has chosen it; else empty
+  std::string choice;                          // reason, if it was chosen automatically; else empty
+  // For receivers: the walk as used; the number of rounds, from whose differences the standard errors follow; the
+  // histories of a round.
+  ReceiverWalk receiver_walk = ReceiverWalk::backward;
+  std::uint64_t rounds = 0;
+  std::uint64_t photons_per_round = 0;  // from the emitters, for all receivers together
+  std::uint64_t walks_per_round = 0;    // from each receiver
   StopReason stopped_by = StopReason::photons;
-  std::uint64_t histories = 0;    // for receivers: of all together
+  std::uint64_t histories = 0;    // for receivers: of all together; a photon counts for each receiver that it serves
   std::uint64_t impacts = 0;      // flights that ended on a surface
   std::uint64_t rays = 0;         // flights traced, including those traced again and shadow rays
+  std::uint64_t connections = 0;  // of impacts of photons with receivers
   std::uint64_t shadow_rays = 0;  // rays that test whether an emitter is visible; none if nothing casts a shadow
   std::uint64_t retraced = 0;     // flights that hit no surface and were traced again by the slower rule
   std::uint64_t undecided = 0;    // flights that ended where no rule decides between surfaces in one plane, see Cover

@@ -32,6 +32,14 @@ enum class Measured {
   receivers,  // receivers only
 };
 
+// The walk that measures receivers. All have the same mean.
+enum class ReceiverWalk {
+  automatic,   // the one with the smallest error per work for the receivers of this room, by a short pilot of each
+  two_way,     // both of the following, combined by multiple importance sampling; the pilot chooses their shares
+  next_event,  // photons from the emitters, whose every impact contributes to every receiver
+  backward,    // walks from every receiver, which collect direct light at every surface
+};
+
 // The computation of direct light on tiles.
 enum class Direct {
   sampled,   // scored by photons, as reflected light
@@ -39,10 +47,11 @@ enum class Direct {
 };
 
 // "weight", "collision", "absorption", "auto"; "auto", "cuboid", "embree", "embree-fast"; "all", "tiles", "receivers";
-// "sampled", "analytic".
+// "auto", "two-way", "next-event", "backward"; "sampled", "analytic".
 std::string_view to_string(Estimator estimator);
 std::string_view to_string(Engine engine);
 std::string_view to_string(Measured measured);
+std::string_view to_string(ReceiverWalk walk);
 std::string_view to_string(Direct direct);
 
 // For Settings::photons: other stop rules alone end the run.
@@ -51,13 +60,16 @@ inline constexpr std::uint64_t no_photon_limit = std::uint64_t{1} << 62;
 // The first stop rule to be met ends the run.
 struct Settings {
   Estimator estimator = Estimator::collision;
-  std::uint64_t photons = 1'000'000;  // histories, ≥ 1: for the tiles, and the same number for all receivers together
+  // Histories, ≥ 1: for the tiles, and the same number for all receivers together. A photon that contributes to several
+  // receivers counts for each of them.
+  std::uint64_t photons = 1'000'000;
   std::uint64_t first_history = 0;    // number of the first history: a multiple of State::batch
   bool part = false;  // a part of a run that merge() completes: receivers get only their share of these histories
   std::optional<double> target_error;  // stop when WalkReport::rms_relative_error is at most this, > 0
   std::optional<double> max_seconds;   // s, wall-clock time limit, > 0; half of it each for tiles and receivers
   Measured measured = Measured::all;
   WalkDirection tile_walk = WalkDirection::forward;  // of the walk for the tiles
+  ReceiverWalk receiver_walk = ReceiverWalk::automatic;
   Direct direct = Direct::sampled;  // for tiles and a forward walk; otherwise direct light is always integrated
   // weight only: end every history after this many flights, ≥ 1; none: Russian roulette. (A bounce is a flight: the
   // first one, from the emitter, counts.)

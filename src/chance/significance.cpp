@@ -37,6 +37,11 @@ double normal_from_student(double t, double freedom) {
   return std::copysign((freedom - 2.0 / 3.0 + 0.1 / freedom) * size, t);
 }
 
+double student_from_normal(double z, double freedom) {
+  const double size = z / (freedom - 2.0 / 3.0 + 0.1 / freedom);
+  return std::copysign(std::sqrt(freedom * std::expm1(size * size * (freedom - 5.0 / 6.0))), z);
+}
+
 double largest_of_normals_tail(double z, std::size_t n) {
   return -std::expm1(static_cast<double>(n) * std::log1p(-std::min(1.0, 2.0 * normal_tail(z))));
 }

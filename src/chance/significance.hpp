@@ -18,6 +18,8 @@ double chi_square_tail(double k, double chi_square);
 // of freedom: a deviation divided by an error that was estimated from few differences follows this distribution. D.
 // Peizer, J. Pratt: A Normal Approximation, 1968.
 double normal_from_student(double t, double freedom);
+// The inverse: Student's t with the same tail probability as the standard normal value z.
+double student_from_normal(double z, double freedom);
 
 // Probability that the largest absolute value of n independent standard normal variables exceeds z (Z. Šidák, 1967).
 double largest_of_normals_tail(double z, std::size_t n);

@@ -13,8 +13,9 @@ double freedom_of_tiles(WalkDirection direction, std::uint64_t histories, std::s
   return static_cast<double>(histories) / faces / walks_in_a_round - 1.0;
 }
 
-double freedom_of_receivers(std::uint64_t histories, std::size_t receivers) {
-  return static_cast<double>(histories) / static_cast<double>(receivers) - 1.0;
+double freedom_of_receivers(std::uint64_t rounds) {
+  constexpr std::uint64_t few = 6;
+  return rounds < few ? static_cast<double>(rounds) - 1.0 : 1e9;
 }
 
 ComparableResult comparable(const Result& result, const std::string& name) {
@@ -28,7 +29,7 @@ ComparableResult comparable(const Result& result, const std::string& name) {
                              result.tiles[k].irradiance, result.tiles[k].standard_error});
   }
   if (result.receiver_results.empty()) return figures;
-  figures.receiver_freedom = freedom_of_receivers(result.receiver_walk.histories, result.receiver_results.size());
+  figures.receiver_freedom = freedom_of_receivers(result.receiver_walk.rounds);
   for (std::size_t k = 0; k < result.receiver_results.size(); ++k) {
     const Receiver& receiver = result.receivers[k];
     figures.receivers.push_back({receiver.name, receiver.position, receiver.normal,

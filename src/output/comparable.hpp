@@ -43,6 +43,8 @@ ComparableResult comparable(const Result& result, const std::string& name);
 // Degrees of freedom of standard errors, which are computed from batches of photons (forward) or from rounds of walks
 // (backward).
 double freedom_of_tiles(WalkDirection direction, std::uint64_t histories, std::size_t tiles);
-double freedom_of_receivers(std::uint64_t histories, std::size_t receivers);
+// Those of receivers are enlarged if they are from few rounds: their deviations are normal, unless they are from very
+// few.
+double freedom_of_receivers(std::uint64_t rounds);
 
 }  // namespace lichtmc

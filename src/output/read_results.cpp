@@ -116,6 +116,13 @@ double tile_freedom(const nlohmann::json& summary) {
                           summary.at("histories").get<std::uint64_t>(), summary.at("tiles_count").get<std::size_t>());
 }
 
+// Results of earlier versions have rounds of one walk from each receiver.
+double receiver_freedom(const nlohmann::json& walk, std::size_t receivers) {
+  const auto rounds = walk.contains("rounds") ? walk.at("rounds").get<std::uint64_t>()
+                                              : walk.at("histories").get<std::uint64_t>() / std::max<std::size_t>(receivers, 1);
+  return freedom_of_receivers(rounds);
+}
+
 }  // namespace
 
 ComparableResult read_results(const fs::path& folder) {
@@ -133,8 +140,7 @@ ComparableResult read_results(const fs::path& folder) {
   if (!fs::exists(folder / "receivers.csv")) return result;
   result.receivers = read_receivers(folder / "receivers.csv");
   try {
-    result.receiver_freedom =
-        freedom_of_receivers(summary.at("backward").at("histories").get<std::uint64_t>(), result.receivers.size());
+    result.receiver_freedom = receiver_freedom(summary.at("backward"), result.receivers.size());
   } catch (const nlohmann::json::exception& fault) {
     refuse(file, fault.what());
   }

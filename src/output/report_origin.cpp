@@ -15,6 +15,19 @@ namespace lichtmc {
 
 namespace {
 
+std::string receiver_walk_text(const WalkReport& walk) {
+  switch (walk.receiver_walk) {
+    case ReceiverWalk::next_event:
+      return "by photons from the emitters, whose impacts contribute to every receiver";
+    case ReceiverWalk::backward:
+      return "by backward walks from the receivers";
+    default:
+      break;
+  }
+  return "by photons from the emitters and backward walks from the receivers, " + std::to_string(walk.photons_per_round) +
+         " : " + std::to_string(walk.walks_per_round);
+}
+
 // What was asked for, setting by setting.
 std::string settings_table(const Settings& settings) {
   std::string rows;
@@ -51,7 +64,9 @@ std::string settings_section(const Room& room, const Result& result, bool tile_i
     if (!tile_images) row("tile maps as images", "not written, as asked for (--no-images)");
   }
   if (!result.receiver_results.empty()) {
-    row("backward walks from receivers", std::to_string(result.receiver_walk.histories));
+    row("receivers measured", receiver_walk_text(result.receiver_walk));
+    row("estimator (receivers)", std::string(to_string(result.receiver_walk.estimator)));
+    row("histories (receivers)", std::to_string(result.receiver_walk.histories));
     row("ended by (receivers)", std::string(to_string(result.receiver_walk.stopped_by)));
   }
   row("threads", std::to_string(result.threads));

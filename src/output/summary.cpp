@@ -70,12 +70,18 @@ void write_receivers(const Result& result, const Sink& sink) {
   if (!result.receiver_results.empty()) sink("\n  ");
 }
 
-// Facts of the backward walk for the receivers; null without receivers.
-Json backward_of(const Result& result) {
+// Facts of the walk for the receivers; null without receivers.
+Json receiver_walk_of(const Result& result) {
   if (result.receiver_results.empty()) return nullptr;
   const WalkReport& b = result.receiver_walk;
-  return {{"histories", b.histories},
+  return {{"walk", std::string(to_string(b.receiver_walk))},
+          {"estimator", std::string(to_string(b.estimator))},
+          {"rounds", b.rounds},
+          {"photons_per_round", b.photons_per_round},
+          {"walks_per_round", b.walks_per_round},
+          {"histories", b.histories},
           {"rays", b.rays},
+          {"connections", b.connections},
           {"shadow_rays", b.shadow_rays},
           {"seconds", number(b.seconds)},
           {"rms_relative_error", number(b.rms_relative_error)},
@@ -203,7 +209,8 @@ void add_details(const Room& room, const Result& result, const ResultFiles& file
   summary["direct"] = std::string(to_string(direct_is_apart(result) ? Direct::analytic : Direct::sampled));
   summary["shadow_rays"] = result.walk.shadow_rays + result.receiver_walk.shadow_rays;
   summary["choices"] = result.choices;
-  summary["backward"] = backward_of(result);
+  summary["receiver_walk"] = receiver_walk_of(result);
+  summary["backward"] = receiver_walk_of(result);  // the name in earlier versions
   summary["warnings"] = result.warnings;
   summary["mended"] = result.overrides;
   summary["emitters"] = emitters_of(room);

@@ -23,6 +23,7 @@ void visit_fields(const F& f, Things&... s) {
   f(Field{"engine", request, "engine asked for", "", "--engine"}, s.engine...);
   f(Field{"measured", same, "measured", "", "--only"}, s.measured...);
   f(Field{"tile_walk", same, "direction of the walk for tiles", "", "--tiles"}, s.tile_walk...);
+  f(Field{"receiver_walk", same, "walk for receivers", "", "--receiver-walk"}, s.receiver_walk...);
   f(Field{"direct", same, "direct light of tiles", "", "--direct"}, s.direct...);
   f(Field{"max_bounces", same, "flights after which a history ends", "", "--max-bounces"}, s.max_bounces...);
   f(Field{"first_history", request, "first history", "", "--histories"}, s.first_history...);
@@ -45,6 +46,9 @@ template <>
 inline constexpr std::array all_values<Measured>{Measured::all, Measured::tiles, Measured::receivers};
 template <>
 inline constexpr std::array all_values<WalkDirection>{WalkDirection::forward, WalkDirection::backward};
+template <>
+inline constexpr std::array all_values<ReceiverWalk>{ReceiverWalk::automatic, ReceiverWalk::two_way,
+                                                     ReceiverWalk::next_event, ReceiverWalk::backward};
 template <>
 inline constexpr std::array all_values<Direct>{Direct::sampled, Direct::analytic};
 

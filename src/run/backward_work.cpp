@@ -17,6 +17,9 @@ namespace {
 // Histories that a thread simulates at a time: some waves, so that the cost of the lock at their end is negligible.
 constexpr std::uint64_t histories_at_a_time = 8192;
 
+// The same where photons contribute to many origins, counted for each. A wave of them should not be too small.
+constexpr std::uint64_t histories_of_block = 65536;
+
 [[noreturn]] void refuse_too_short() {
   throw StoppedTooSoon(
       "The run was stopped before its direct light and the first backward walks were completed: there is no result, "
@@ -30,12 +33,13 @@ BackwardWork::BackwardWork(const RunContext& context, const BackwardTask& task, 
     : context_(context),
       task_(task),
       settings_(context.settings_with(estimator)),
-      together_(task.origins * task.group),
+      together_(task.plan.histories(task.origins)),
       range_(rounds_of(settings_, together_)),
       reporter_(context.control, context.watch, stage == Progress::Stage::pilot ? stage : task.stage,
                 histories_of(range_.last - range_.first)) {
   found_.direct = std::move(direct);
   found_.sums = std::make_shared<std::vector<BackwardSums>>(task.origins);
+  found_.plan = task.plan;
   found_.group = task.group;
   found_.unit = task.unit;
 }
@@ -46,14 +50,15 @@ std::uint64_t BackwardWork::histories_of(std::uint64_t rounds) const {
 }
 
 CheckSchedule BackwardWork::schedule() const {
-  const std::uint64_t first = std::max(2U, 256 / task_.group);  // an error from 256 walks has a relative error of 4 %
+  // An error from 256 walks has a relative error of 4 %.
+  const std::uint64_t first = std::max<std::uint64_t>(2, 256 / task_.plan.histories(1));
   return {first, range_.last - range_.first, 1, 4};
 }
 
 std::uint64_t BackwardWork::pilot_rounds(const RunContext& context, const BackwardTask& task, Estimator estimator) {
   // Some walks from every origin: without them there is nothing to compare.
   constexpr std::uint64_t fewest_rounds = 8;
-  const std::uint64_t together = task.origins * task.group;
+  const std::uint64_t together = task.plan.histories(task.origins);
   Settings settings = context.settings;
   settings.photons = std::max(pilot_histories(settings.photons, estimator), fewest_rounds * together);
   const HistoryRange rounds = rounds_of(settings, together);
@@ -62,7 +67,7 @@ std::uint64_t BackwardWork::pilot_rounds(const RunContext& context, const Backwa
 
 void BackwardWork::restore(StateData& data) {
   BackwardState& before = *(data.*task_.slot);
-  if (before.sums->size() != task_.origins || before.group != task_.group) {
+  if (before.sums->size() != task_.origins || before.plan != task_.plan) {
     throw InputError("The state has walks from " + std::to_string(before.sums->size()) + " origins, the room has " +
                      std::to_string(task_.origins) +
                      " (allowed: the same number). The state does not belong to this room; start a new run.");
@@ -82,7 +87,7 @@ void BackwardWork::restore(StateData& data) {
 Walked& BackwardWork::write_to(StateData& data) {
   std::optional<BackwardState>& slot = data.*task_.slot;
   BackwardState& state = slot ? *slot : slot.emplace();
-  state.group = task_.group;
+  state.plan = task_.plan;
   state.ranges = before_;
   state.ranges.push_back({range_.first, range_.first + found_.rounds - rounds_before_});
   state.count = count_;
@@ -133,16 +138,30 @@ bool BackwardWork::simulate_step(std::uint64_t rounds) {
   return true;
 }
 
+BackwardWork::Pieces BackwardWork::pieces_of(std::uint64_t rounds) const {
+  const std::uint64_t of_origin = task_.plan.histories(1);
+  Pieces pieces;
+  if (task_.block > 0) {
+    // Blocks of origins that share the photons from the emitters, each with a part of the rounds.
+    pieces.origins = std::min<std::uint64_t>(task_.block, task_.origins);
+    const std::uint64_t at_a_time = std::max<std::uint64_t>(1, histories_of_block / (of_origin * pieces.origins));
+    pieces.parts = (rounds + at_a_time - 1) / at_a_time;
+  } else {
+    // Either many origins with few rounds, or one origin with a part of its rounds.
+    const std::uint64_t at_a_time = histories_at_a_time / of_origin;
+    pieces.origins = std::max<std::uint64_t>(1, at_a_time / rounds);
+    pieces.parts = pieces.origins > 1 ? 1 : (rounds + at_a_time - 1) / at_a_time;
+  }
+  pieces.count = (task_.origins + pieces.origins - 1) / pieces.origins * pieces.parts;
+  return pieces;
+}
+
 void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, std::vector<BackwardSums>& step_sums,
                                BackwardCount& step_count) {
-  const std::unique_ptr<BackwardWalk> walk = task_.make_walk(settings_);
+  const std::unique_ptr<BackwardWalk> walk = task_.make_walk(settings_, task_.plan);
   const std::uint64_t rounds = last - first;
-  // Either many origins with few rounds, or one origin with a part of its rounds.
-  const std::uint64_t rounds_at_a_time = histories_at_a_time / task_.group;
-  const std::uint64_t together = std::max<std::uint64_t>(1, rounds_at_a_time / rounds);
-  const std::uint64_t parts = together > 1 ? 1 : (rounds + rounds_at_a_time - 1) / rounds_at_a_time;
-  // Each rank simulates its part of the pieces.
-  const Part mine = part_of(context_.control.communicator, (task_.origins + together - 1) / together * parts);
+  const auto [together, parts, pieces] = pieces_of(rounds);
+  const Part mine = part_of(context_.control.communicator, pieces);  // of this rank
   const std::uint64_t skipped = range_.first - rounds_before_;  // rounds are numbered from the first of the run
   std::vector<BackwardSums> sums;
   while (!context_.watch.would_stop()) {
@@ -164,9 +183,10 @@ void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, std::vec
       for (std::size_t k = 0; k < sums.size(); ++k) add_fields(step_sums[work.first + k], sums[k]);
       add_fields(step_count, count);
     }
-    const std::uint64_t walks = (work.last - work.first) * (work.last_sample - work.first_sample);
+    const std::uint64_t histories =
+        (work.last_sample - work.first_sample) / task_.group * task_.plan.histories(work.last - work.first);
     const unsigned ranks = size_of(context_.control.communicator);  // the other ranks have done about the same
-    reporter_.add(walks * ranks, count.traced.rays * ranks);
+    reporter_.add(histories * ranks, count.traced.rays * ranks);
   }
 }
 
@@ -219,16 +239,23 @@ namespace {
 
 class BackwardMeasurement final : public Measurement {
  public:
-  BackwardMeasurement(const RunContext& context, const BackwardTask& task) : context_(context), task_(task) {
+  BackwardMeasurement(const RunContext& context, BackwardTask& task) : context_(context), task_(task) {
     const bool resumed = stored(context.record.data()) != nullptr;
-    if (!resumed) check_rounds(context.settings, task.origins * task.group, task.name);
     direct_cost_ = compute_direct(context, resumed, [&](TraceCount& rays) {
       direct_ = std::make_shared<const std::vector<DirectIrradiance>>(
           direct_light_of(task.origins, task.direct, context.control, context.threads, context.watch, rays));
     });
+    if (resumed) {
+      task_.plan = (context.record.data().*task.slot)->plan;
+      return;
+    }
+    if (task_.choose) task_.choose(task_, *direct_);
+    check_rounds(context.settings, task_.plan.histories(task_.origins), task_.name);
   }
 
   std::string name() const override { return task_.name; }
+  std::vector<Estimator> candidates() const override { return task_.candidates; }
+  std::string reason() const override { return task_.reason; }
   Walked* stored(StateData& data) const override { return data.*task_.slot ? &*(data.*task_.slot) : nullptr; }
   std::unique_ptr<Work> make_work(Estimator estimator, Progress::Stage stage) override {
     return std::make_unique<BackwardWork>(context_, task_, estimator, stage, direct_);
@@ -245,20 +272,23 @@ class BackwardMeasurement final : public Measurement {
 
  private:
   const RunContext& context_;
-  const BackwardTask& task_;
+  BackwardTask& task_;
   std::shared_ptr<const std::vector<DirectIrradiance>> direct_;
   DirectCost direct_cost_;
 };
 
 }  // namespace
 
-BackwardOutcome walk_backward(const RunContext& context, const BackwardTask& task) {
+BackwardOutcome walk_backward(const RunContext& context, BackwardTask task) {
   BackwardMeasurement measurement(context, task);
   Driven driven = drive(context, measurement);
   const OriginEstimates& found = static_cast<const BackwardWork&>(*driven.work).estimates();
   if (found.rounds == 0) refuse_too_short();
   BackwardOutcome outcome{found, std::move(driven.report)};
   measurement.direct_cost().add_to(outcome.report);
+  outcome.report.rounds = outcome.estimates.rounds;
+  outcome.report.photons_per_round = task.plan.forward;
+  outcome.report.walks_per_round = task.plan.backward;
   finish_report(outcome.report, task.error(found));
   return outcome;
 }

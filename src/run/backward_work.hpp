@@ -24,10 +24,11 @@ struct OriginEstimates {
   std::shared_ptr<const std::vector<DirectIrradiance>> direct;  // per origin
   std::shared_ptr<std::vector<BackwardSums>> sums;              // per origin, of all rounds
   std::uint64_t rounds = 0;                                     // per origin
-  std::uint32_t group = 1;                                      // walks in a round
+  RoundPlan plan;                                               // histories of a round
+  std::uint32_t group = 1;                                      // scores of a round that are added up in a sum
   double unit = 1.0;                                            // of the sums, W/m² or lx
 
-  std::uint64_t histories() const { return rounds * group * sums->size(); }
+  std::uint64_t histories() const { return rounds * plan.histories(sums->size()); }
   // Irradiance at origin k by reflected light, and its standard error: NaN if fewer than two rounds were simulated.
   double indirect(std::size_t k) const;
   double indirect_error(std::size_t k) const;
@@ -37,13 +38,22 @@ struct OriginEstimates {
 struct BackwardTask {
   Progress::Stage stage = Progress::Stage::receivers;
   std::size_t origins = 0;
-  std::uint32_t group = 1;                                           // of the origins of make_walk
+  RoundPlan plan;                                                    // histories of a round
+  std::uint32_t group = 1;                                           // as OriginEstimates::group
+  // Origins of a WalkBlock at most; then a block's first origin is a multiple of it. 0: any number.
+  std::size_t block = 0;
   double unit = 1.0;                                                 // of the scale of make_walk, W/m² or lx
   std::function<DirectIrradiance(std::size_t, TraceCount&)> direct;  // direct irradiance at origin k; counts rays
-  std::function<std::unique_ptr<BackwardWalk>(const Settings&)> make_walk;  // one for each thread
+  // One for each thread.
+  std::function<std::unique_ptr<BackwardWalk>(const Settings&, const RoundPlan&)> make_walk;
   std::function<double(const OriginEstimates&)> error;                      // compared with Settings::target_error
   std::vector<double> weights;  // of the origins in the mean of squares whose root is `error`
   std::string name;             // of the origins
+  std::vector<Estimator> candidates;  // for an estimator
+  std::string reason;                 // for the plan and the estimator, if they were chosen
+  // Chooses plan, candidates and reason when direct light is known; not called for walks that continue. Null: they are
+  // given.
+  std::function<void(BackwardTask&, const std::vector<DirectIrradiance>&)> choose;
   std::optional<BackwardState> StateData::*slot = nullptr;  // these walks in a state
 };
 
@@ -62,7 +72,7 @@ class BackwardWork final : public Work {
   void complete() override {}
   double error() override { return task_.error(found_); }
   Pilot pilot() override;
-  WorkCounts counts() override { return {found_.histories(), count_.impacts, count_.traced}; }
+  WorkCounts counts() override { return {found_.histories(), count_.impacts, count_.connections, count_.traced}; }
   Walked& write_to(StateData& data) override;
   void release(StateData& data) override { (data.*task_.slot)->sums.reset(); }
   void show(double rms_relative_error, double histories_to_target) override {
@@ -75,6 +85,13 @@ class BackwardWork final : public Work {
   static std::uint64_t pilot_rounds(const RunContext& context, const BackwardTask& task, Estimator estimator);
 
  private:
+  // A division of rounds × origins into pieces of work.
+  struct Pieces {
+    std::uint64_t origins = 1;  // of a piece
+    std::uint64_t parts = 1;    // of the rounds
+    std::uint64_t count = 1;
+  };
+  Pieces pieces_of(std::uint64_t rounds) const;
   bool simulate_step(std::uint64_t rounds);
   void take_rounds(std::uint64_t first, std::uint64_t last, std::vector<BackwardSums>& step_sums,
                    BackwardCount& step_count);
@@ -82,7 +99,7 @@ class BackwardWork final : public Work {
   const RunContext& context_;
   const BackwardTask& task_;
   Settings settings_;                 // with the estimator of this work
-  std::uint64_t together_;            // walks in a round of all origins
+  std::uint64_t together_;            // histories in a round of all origins
   HistoryRange range_;                // of rounds, to simulate
   std::vector<HistoryRange> before_;  // ranges before the one that grows
   std::uint64_t rounds_before_ = 0;   // number of rounds in them
@@ -107,6 +124,6 @@ struct BackwardOutcome {
   OriginEstimates estimates;
   WalkReport report;  // finished
 };
-BackwardOutcome walk_backward(const RunContext& context, const BackwardTask& task);
+BackwardOutcome walk_backward(const RunContext& context, BackwardTask task);
 
 }  // namespace lichtmc

@@ -37,6 +37,7 @@ class Driver {
     const WorkCounts counts = work_->counts();
     report_.histories = counts.histories;
     report_.impacts = counts.impacts;
+    report_.connections = counts.connections;
     report_.rays = counts.traced.rays;
     report_.retraced = counts.traced.retraced;
     report_.shadow_rays = counts.traced.shadow_rays;
@@ -55,9 +56,10 @@ class Driver {
       before.work->restore(data);
       return before;
     }
-    const std::vector<Estimator> candidates = candidates_for(context_.room, context_.settings);
+    const std::vector<Estimator> candidates = measurement_.candidates();
     if (candidates.size() > 1) return choose(candidates);
-    return {measurement_.make_work(candidates.front(), Progress::Stage::tiles), candidates.front(), {}, true};
+    return {measurement_.make_work(candidates.front(), Progress::Stage::tiles), candidates.front(),
+            measurement_.reason(), true};
   }
 
   // A short pilot of each estimator; the best is used. If a stop comes first, the first estimator is used.

@@ -93,7 +93,7 @@ Pilot ForwardWork::pilot() {
 
 WorkCounts ForwardWork::counts() {
   const Totals& totals = workers_.totals();
-  return {totals.histories, totals.impacts, totals.traced};
+  return {totals.histories, totals.impacts, 0, totals.traced};
 }
 
 Walked& ForwardWork::write_to(StateData& data) {

@@ -46,6 +46,20 @@ std::string_view to_string(Measured measured) {
   return "";
 }
 
+std::string_view to_string(ReceiverWalk walk) {
+  switch (walk) {
+    case ReceiverWalk::automatic:
+      return "auto";
+    case ReceiverWalk::two_way:
+      return "two-way";
+    case ReceiverWalk::next_event:
+      return "next-event";
+    case ReceiverWalk::backward:
+      return "backward";
+  }
+  return "";
+}
+
 std::string_view to_string(Direct direct) {
   return direct == Direct::sampled ? "sampled" : "analytic";
 }

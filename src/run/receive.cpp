@@ -1,19 +1,24 @@
 #include "run/receive.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "base/message.hpp"
+#include "chance/significance.hpp"
 #include "lichtmc/error.hpp"
 #include "room/reflectance.hpp"
 #include "run/backward_work.hpp"
+#include "run/pilot.hpp"
+#include "run/receiver_plan.hpp"
 #include "run/rounds.hpp"
 #include "run/surface_results.hpp"
 #include "run/tile_light.hpp"
 #include "walk/backward.hpp"
 #include "walk/receiver_points.hpp"
+#include "walk/receiver_walk.hpp"
 #include "walk/tile_faces.hpp"
 
 namespace lichtmc {
@@ -30,15 +35,27 @@ double error_at(const OriginEstimates& found, std::size_t k) {
   return std::hypot(found.indirect_error(k), (*found.direct)[k].standard_error);
 }
 
-// Rms of the relative errors of the receivers with an irradiance above 0.
+// A standard error from few rounds is often too small: deviations in units of it follow Student's law. It is enlarged so
+// that three of it contain the mean as often as three of a normal distribution.
+double receiver_error(const OriginEstimates& found, std::size_t k) {
+  constexpr double at = 3.0;
+  const double factor = student_from_normal(at, static_cast<double>(found.rounds) - 1.0) / at;
+  return std::hypot(factor * found.indirect_error(k), (*found.direct)[k].standard_error);
+}
+
+// Rms of the relative errors of the receivers with an irradiance above 0, relative to at least the floor: a receiver in
+// the dark does not rule the error of all.
 double error_of_receivers(const OriginEstimates& found) {
+  std::vector<double> irradiances;
+  for (std::size_t k = 0; k < found.sums->size(); ++k)
+    irradiances.push_back((*found.direct)[k].value + found.indirect(k));
+  const double floor = receiver_error_floor(irradiances);
   double squares = 0.0;
   std::size_t lit = 0;
-  for (std::size_t k = 0; k < found.sums->size(); ++k) {
-    const double irradiance = (*found.direct)[k].value + found.indirect(k);
-    if (!(irradiance > 0.0)) continue;
-    const double error = error_at(found, k);
-    squares += error * error / (irradiance * irradiance);
+  for (std::size_t k = 0; k < irradiances.size(); ++k) {
+    if (!(irradiances[k] > 0.0)) continue;
+    const double relative = receiver_error(found, k) / std::max(irradiances[k], floor);
+    squares += relative * relative;
     ++lit;
   }
   return lit > 0 ? std::sqrt(squares / static_cast<double>(lit)) : std::numeric_limits<double>::quiet_NaN();
@@ -53,7 +70,7 @@ std::vector<TileResult> tiles_of(const Tiling& tiling, const TileFaces& faces, c
     tile.direct += (*found.direct)[face].value;
     tile.irradiance += (*found.direct)[face].value + found.indirect(face);
     tile.standard_error = std::hypot(tile.standard_error, error_at(found, face));
-    tile.hits += found.rounds * found.group;
+    tile.hits += found.rounds * found.plan.backward;
   }
   for (std::size_t i = 0; i < tiles.size(); ++i) tiles[i].power = tiles[i].irradiance * tiling.tiles[i].area_m2;
   return tiles;
@@ -110,7 +127,7 @@ std::vector<ReceiverResult> receiver_results(const Room& room, const OriginEstim
     one.direct = (*found.direct)[k].value;
     one.indirect = found.indirect(k);
     one.irradiance = one.direct + one.indirect;
-    one.standard_error = error_at(found, k);
+    one.standard_error = receiver_error(found, k);
     one.gain = one.irradiance * room.receivers[k].area_m2 / power;
   }
   return results;
@@ -119,11 +136,11 @@ std::vector<ReceiverResult> receiver_results(const Room& room, const OriginEstim
 }  // namespace
 
 void check_receiver_rounds(const Room& room, const Settings& settings) {
-  check_rounds(settings, room.receivers.size() * ReceiverOrigins::group, "the receivers");
+  check_rounds(settings, most_histories_of_round(room.receivers.size()), "the receivers");
 }
 
 void check_receivers_whole(const Room& room, const Settings& settings, const BackwardState& walks) {
-  check_whole(settings, room.receivers.size() * ReceiverOrigins::group, walks, "the receivers");
+  check_whole(settings, walks.plan.histories(room.receivers.size()), walks, "the receivers");
 }
 
 ReceiverMeasurement measure_receivers(const RunContext& context) {
@@ -131,29 +148,36 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   const Tracer& tracer = *context.scene.tracer;
   const DirectLight light(room, tracer);
   const std::vector<ReferencePoint> points = receiver_points(room, tracer);
-  const ReceiverOrigins origins(points, tracer);
+  const ReceiverBlocks blocks(points, tracer);
+  const ReceiverWalkParts parts{room, context.scene, light, points, blocks};
   const BackwardScale scale(room);
   const Stream stream(context.settings.seed, WalkDirection::backward);
   BackwardTask task;
   task.stage = Progress::Stage::receivers;
   task.origins = room.receivers.size();
-  task.group = ReceiverOrigins::group;
   task.unit = scale.unit;
+  task.block = ReceiverBlocks::size;
+  task.choose = [&](BackwardTask& chosen, const std::vector<DirectIrradiance>& direct) {
+    ReceiverPlan found = choose_receiver_plan(room, context.scene, light, points, direct, context.settings);
+    chosen.plan = found.plan;
+    chosen.candidates = {found.estimator};
+    chosen.reason = std::move(found.reason);
+  };
   task.direct = [&](std::size_t k, TraceCount& count) -> DirectIrradiance {
     const Receiver& receiver = room.receivers[k];
     if (receiver.half_angle_deg == 0.0) return {};  // its field of view is empty
     if (const auto emitter = light.emitter_at(reference_point_of(receiver))) refuse_on_emitter(room, k, *emitter);
     return light.irradiance_at(points[k], stream, k, count);
   };
-  task.make_walk = [&](const Settings& own) {
-    const RoundPlan plan{.forward = 0, .backward = ReceiverOrigins::group};
-    return make_backward_walk(context.scene, light, origins, scale, own, plan);
+  task.make_walk = [&](const Settings& own, const RoundPlan& plan) {
+    return make_receiver_walk(parts, scale, own, plan);
   };
   task.error = error_of_receivers;
   task.weights.assign(task.origins, 1.0);
   task.name = "the receivers";
   task.slot = &StateData::receivers;
-  BackwardOutcome outcome = walk_backward(context, task);
+  BackwardOutcome outcome = walk_backward(context, std::move(task));
+  outcome.report.receiver_walk = walk_of(outcome.estimates.plan);
   return {receiver_results(room, outcome.estimates), std::move(outcome.report)};
 }
 
@@ -164,10 +188,12 @@ TileMeasurement measure_tiles_backward(const RunContext& context) {
   BackwardTask task;
   task.stage = Progress::Stage::tiles;
   task.origins = light.faces().size();
+  task.plan = {0, TileFaces::group};
   task.group = TileFaces::group;
+  task.candidates = candidates_for(context.room, context.settings);
   task.unit = scale.unit;
   task.direct = [&](std::size_t face, TraceCount& count) { return light.mean(face, count); };
-  task.make_walk = [&](const Settings& own) {
+  task.make_walk = [&](const Settings& own, const RoundPlan& /*plan*/) {
     return make_backward_walk(context.scene, light.direct_light(), light.faces(), scale, own);
   };
   task.error = [&](const OriginEstimates& found) {
@@ -176,7 +202,7 @@ TileMeasurement measure_tiles_backward(const RunContext& context) {
   for (std::size_t face = 0; face < task.origins; ++face) task.weights.push_back(light.faces().area_m2(face));
   task.name = "the tiles";
   task.slot = &StateData::tile_walks;
-  BackwardOutcome outcome = walk_backward(context, task);
+  BackwardOutcome outcome = walk_backward(context, std::move(task));
 
   TileMeasurement measured;
   measured.report = std::move(outcome.report);

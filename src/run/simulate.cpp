@@ -122,11 +122,11 @@ constexpr const char* tiles_left_out =
     "The state has no walk for the tiles: the run was stopped while it chose their estimator. The results do not "
     "include them; resuming the run restarts them.";
 constexpr const char* receivers_not_measured =
-    "The run was stopped before the first backward walks from the receivers: they were not measured. Resume it, with "
+    "The run was stopped before the first round of walks for the receivers: they were not measured. Resume it, with "
     "more time than the integration of their direct light takes.";
 constexpr const char* receivers_left_out =
     "The run was stopped before the direct light of the receivers was computed again: the results do not include them. "
-    "The state has their backward walks; resuming the run includes them.";
+    "The state has their walks; resuming the run includes them.";
 
 // The engine of a state follows from the room: another one means that the file was changed by another program.
 void note_engine(StateData& data, Engine used) {

@@ -34,7 +34,7 @@ std::vector<HistoryRange> State::histories() const {
 }
 std::uint64_t State::receiver_histories() const {
   const std::optional<BackwardState>& walks = data_->receivers;
-  return walks ? walks->size() * walks->group * walks->sums->size() : 0;
+  return walks ? walks->size() * walks->plan.histories(walks->sums->size()) : 0;
 }
 std::vector<HistoryRange> State::receiver_rounds() const {
   return data_->receivers ? data_->receivers->ranges : std::vector<HistoryRange>{};
@@ -258,7 +258,7 @@ class Merger {
         continue;
       }
       check_same_walk(*merged, *walks, k);
-      if (sums->size() != walks->sums->size() || merged->group != walks->group)
+      if (sums->size() != walks->sums->size() || merged->plan != walks->plan)
         refuse(k, "have different numbers of receivers or tiles");
       add_fields(*sums, *walks->sums);
       add_fields(merged->count, walks->count);

@@ -13,6 +13,7 @@
 #include "lichtmc/settings.hpp"
 #include "lichtmc/state.hpp"
 #include "walk/backward.hpp"
+#include "walk/round_plan.hpp"
 #include "walk/totals.hpp"
 
 namespace lichtmc {
@@ -43,7 +44,7 @@ struct Counted : Walked {
 
 // Backward walks from origins. Ranges are of rounds.
 struct BackwardState : Walked {
-  std::uint32_t group = 1;  // walks in a round
+  RoundPlan plan;  // the histories of a round
   BackwardCount count;
   std::shared_ptr<const std::vector<BackwardSums>> sums;  // per origin
 };
@@ -85,7 +86,7 @@ void visit_fields(const F& f, Things&... photons) {
 template <class F, AllOf<BackwardState>... Things>
 void visit_fields(const F& f, Things&... walks) {
   visit_walked(f, walks...);
-  f(Field{"group", FieldRole::same}, walks.group...);
+  f(Field{"plan", FieldRole::same}, walks.plan...);
   f(Field{"count"}, walks.count...);
   f(Field{"sums"}, walks.sums...);
 }

@@ -28,6 +28,7 @@ class ForwardTiles final : public Measurement {
   }
 
   std::string name() const override { return "the tiles"; }
+  std::vector<Estimator> candidates() const override { return candidates_for(context_.room, context_.settings); }
   Walked* stored(StateData& data) const override { return data.photons ? &*data.photons : nullptr; }
   std::unique_ptr<Work> make_work(Estimator estimator, Progress::Stage stage) override {
     return std::make_unique<ForwardWork>(context_, estimator, stage, direct_);

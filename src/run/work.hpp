@@ -19,6 +19,7 @@ namespace lichtmc {
 struct WorkCounts {
   std::uint64_t histories = 0;
   std::uint64_t impacts = 0;
+  std::uint64_t connections = 0;
   TraceCount traced;
 };
 
@@ -66,6 +67,9 @@ class Measurement {
   virtual ~Measurement() = default;
 
   virtual std::string name() const = 0;  // "the tiles"
+  // The estimators to choose from; if there is one, the reason for it, or nothing to say.
+  virtual std::vector<Estimator> candidates() const = 0;
+  virtual std::string reason() const { return {}; }
   // Its data in the state, or null.
   virtual Walked* stored(StateData& data) const = 0;
   // A walk with one estimator, for one session.

@@ -115,16 +115,26 @@ void check_photons_of(const StateData& data) {
   check_photons(photons, data.settings.max_bounces.has_value());
 }
 
-void check_walks(const Settings& settings, const BackwardState& walks, std::uint32_t group_size,
-                 const std::string& group) {
+// Rounds of walks from tiles are the same in all runs; those for receivers have been chosen.
+void check_tile_plan(const RoundPlan& plan) {
+  if (plan != RoundPlan{0, TileFaces::group})
+    refuse("/tile_walks has rounds of " + std::to_string(plan.forward) + " histories from the emitters and " +
+           std::to_string(plan.backward) + " walks, not of 0 and " + std::to_string(TileFaces::group));
+}
+
+void check_receiver_plan(const RoundPlan& plan) {
+  if (!is_receiver_plan(plan))
+    refuse("/receivers has rounds of " + std::to_string(plan.forward) + " histories from the emitters and " +
+           std::to_string(plan.backward) + " walks, which no run has");
+}
+
+void check_walks(const Settings& settings, const BackwardState& walks, const std::string& group) {
   check_walked(settings, walks, walks.count.traced, group);
   check_ranges(walks, group, 1);
-  if (walks.group != group_size)
-    refuse(group + " has rounds of " + std::to_string(walks.group) + " walks, not of " + std::to_string(group_size));
   const std::uint64_t origins = walks.sums->size();
   const std::uint64_t rounds = walks.size();
   if (origins == 0 || rounds == 0) refuse(group + " has no origin, or no round");
-  if (rounds > std::numeric_limits<std::uint64_t>::max() / group_size / origins)
+  if (rounds > std::numeric_limits<std::uint64_t>::max() / walks.plan.histories(1) / origins)
     refuse(group + " has " + std::to_string(rounds) + " rounds from " + std::to_string(origins) +
            " origins, too many to count");
   if (walks.count.impacts > walks.count.traced.rays)
@@ -140,9 +150,13 @@ void check_state(const StateData& data) {
   if (data.photons) check_photons_of(data);
   if (data.tile_walks) {
     check_estimator(data.settings, *data.tile_walks, "/tile_walks");
-    check_walks(data.settings, *data.tile_walks, TileFaces::group, "/tile_walks");
+    check_tile_plan(data.tile_walks->plan);
+    check_walks(data.settings, *data.tile_walks, "/tile_walks");
   }
-  if (data.receivers) check_walks(data.settings, *data.receivers, ReceiverOrigins::group, "/receivers");
+  if (data.receivers) {
+    check_receiver_plan(data.receivers->plan);
+    check_walks(data.settings, *data.receivers, "/receivers");
+  }
 }
 
 }  // namespace lichtmc

@@ -16,6 +16,8 @@ class EmbreeQuery {
   EmbreeQuery() {
     rtcInitIntersectArguments(&arguments_);
     rtcInitOccludedArguments(&occluded_);
+    rtcInitOccludedArguments(&bundle_);
+    bundle_.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   }
   void intersect(RTCScene scene, RTCRayHit& ray) {
     rtcIntersect1(scene, &ray, &arguments_);
@@ -30,13 +32,20 @@ class EmbreeQuery {
   void occluded(RTCScene scene, RTCRay& ray) {
     rtcOccluded1(scene, &ray, &occluded_);
   }
+  // Rays with a common start and similar directions.
+  void occluded_bundle(const int* valid, RTCScene scene, RTCRay16& rays) {
+    rtcOccluded16(valid, scene, &rays, &bundle_);
+  }
 
  private:
   RTCIntersectArguments arguments_{};
   RTCOccludedArguments occluded_{};
+  RTCOccludedArguments bundle_{};
 #else
   EmbreeQuery() {
     rtcInitIntersectContext(&context_);
+    rtcInitIntersectContext(&bundle_);
+    bundle_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   }
   void intersect(RTCScene scene, RTCRayHit& ray) {
     rtcIntersect1(scene, &context_, &ray);
@@ -51,9 +60,14 @@ class EmbreeQuery {
   void occluded(RTCScene scene, RTCRay& ray) {
     rtcOccluded1(scene, &context_, &ray);
   }
+  // Rays with a common start and similar directions.
+  void occluded_bundle(const int* valid, RTCScene scene, RTCRay16& rays) {
+    rtcOccluded16(valid, scene, &bundle_, &rays);
+  }
 
  private:
   RTCIntersectContext context_{};
+  RTCIntersectContext bundle_{};
 #endif
 };
 

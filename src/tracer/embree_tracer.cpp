@@ -119,6 +119,8 @@ class EmbreeTracer final : public Tracer {
     count.shadow_rays += rays.size;
   }
 
+  void darken_blocked(const glm::vec3& start, const EndPoints& ends, float* value, TraceCount& count) const override;
+
   bool casts_shadows() const override { return casts_shadows_; }
 
   // Coordinates lie between −1 and 1, and no side is longer than 2√3: the step of the largest possible facet.
@@ -288,6 +290,43 @@ void EmbreeTracer::load(RoomTriangles triangles) {
   facets_ = std::move(triangles.facets);
   departures_ = std::move(triangles.departures);
   first_facet_ = std::move(triangles.first_facet);
+}
+
+// Packets of 16 neighbours; those of which none is to be tested are left out.
+void EmbreeTracer::darken_blocked(const glm::vec3& start, const EndPoints& ends, float* value,
+                                  TraceCount& count) const {
+  constexpr std::size_t size = 16;
+  static_assert(most_lanes % size == 0);
+  EmbreeQuery query;
+  RTCRay16 packet{};
+  std::fill_n(packet.org_x, size, start.x);
+  std::fill_n(packet.org_y, size, start.y);
+  std::fill_n(packet.org_z, size, start.z);
+  std::fill_n(packet.tnear, size, 0.0F);
+  std::fill_n(packet.mask, size, 0xFFFFFFFF);
+  alignas(64) std::array<int, size> valid{};
+  std::uint64_t tested = 0;
+  for (std::size_t first = 0; first < ends.size; first += size) {
+    float* of_packet = value + first;
+    int any = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+      valid[k] = of_packet[k] > 0.0F ? -1 : 0;
+      any += valid[k];
+    }
+    if (any == 0) continue;
+    tested -= static_cast<std::uint64_t>(std::int64_t{any});
+    for (std::size_t k = 0; k < size; ++k) {
+      packet.dir_x[k] = ends.x[first + k] - start.x;
+      packet.dir_y[k] = ends.y[first + k] - start.y;
+      packet.dir_z[k] = ends.z[first + k] - start.z;
+      packet.tfar[k] = 1.0F;
+    }
+    query.occluded_bundle(valid.data(), scene_.get(), packet);
+    for (std::size_t k = 0; k < size; ++k) of_packet[k] = packet.tfar[k] < 0.0F ? 0.0F : of_packet[k];
+  }
+  count.rays += tested;
+  count.shadow_rays += tested;
+  count.bundled += tested;
 }
 
 }  // namespace

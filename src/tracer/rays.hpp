@@ -73,4 +73,20 @@ struct ShadowRays {
   std::vector<std::uint8_t> blocked;  // 1: a surface lies between
 };
 
+// Points that shadow rays of one start lead to; the arrays have whole_lanes() elements.
+struct EndPoints {
+  void resize(std::size_t n) {
+    size = n;
+    for (auto* numbers : {&x, &y, &z}) numbers->resize(whole_lanes(n), 0.0F);
+  }
+  void set(std::size_t k, const glm::vec3& point) {
+    x[k] = point.x;
+    y[k] = point.y;
+    z[k] = point.z;
+  }
+
+  std::size_t size = 0;
+  std::vector<float> x, y, z;  // in the tracer's coordinates
+};
+
 }  // namespace lichtmc

@@ -33,6 +33,7 @@ struct TraceCount {
   std::uint64_t rays = 0;         // all rays, including those traced again and shadow rays
   std::uint64_t retraced = 0;     // rays that were traced again
   std::uint64_t shadow_rays = 0;  // rays that test whether a surface lies between two points
+  std::uint64_t bundled = 0;      // those of them that were traced in bundles with a common start
   // Flights that ended where several faces in one plane have an equal right to count (room/faces_in_one_plane.hpp).
   std::uint64_t undecided = 0;
 
@@ -44,6 +45,7 @@ void visit_fields(const F& f, Things&... counts) {
   f(Field{"rays"}, counts.rays...);
   f(Field{"retraced"}, counts.retraced...);
   f(Field{"shadow_rays"}, counts.shadow_rays...);
+  f(Field{"bundled"}, counts.bundled...);
   f(Field{"undecided"}, counts.undecided...);
 }
 
@@ -95,6 +97,10 @@ class Tracer {
 
   // The same for one segment.
   virtual bool is_blocked(const glm::vec3& start, const glm::vec3& segment, TraceCount& count) const = 0;
+
+  // A bundle of segments with one start: sets value[k] to 0 where a surface lies between the start and end k. Ends with
+  // a value of 0 are not tested. Both ends of a segment must be free of surfaces. `value` has whole_lanes() elements.
+  virtual void darken_blocked(const glm::vec3& start, const EndPoints& ends, float* value, TraceCount& count) const;
 
   // Whether a surface can lie between an emitter and a point of the room. If not, the room is one closed convex shell
   // around all its emitters, and shadow rays are traced only from points outside.

@@ -65,11 +65,15 @@ struct WalkBlock {
 struct BackwardCount {
   TraceCount traced;
   std::uint64_t impacts = 0;
+  std::uint64_t connections = 0;  // of impacts of photons from the emitters with receivers (next_event.hpp)
+  std::uint64_t capped = 0;       // scores beyond BackwardScale::largest_score
 };
 
 template <class F, AllOf<BackwardCount>... Things>
 void visit_fields(const F& f, Things&... count) {
   f(Field{"impacts"}, count.impacts...);
+  f(Field{"connections"}, count.connections...);
+  f(Field{"capped"}, count.capped...);
   f(Field{"traced"}, count.traced...);
 }
 

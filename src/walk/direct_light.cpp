@@ -34,9 +34,11 @@ DirectLight::DirectLight(const Room& room, const Tracer& tracer)
   areas_of_surface_.resize(room.surfaces.size());
   std::vector<double> fluxes;
   EmissionOfRoom emission(room);
+  source_of_emitter_.assign(room.emitters.size(), 0);
   for (std::size_t n = 0; n < room.emitters.size(); ++n) {
     const double flux = room.emitters[n].power;
     if (flux == 0.0) continue;
+    source_of_emitter_[n] = sources_.size();
     fluxes.push_back(flux);
     visit_shape(
         room.emitters[n],
@@ -104,7 +106,7 @@ DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, con
 
 LightSample DirectLight::sample_light(std::size_t k, const ReferencePoint& reference, const Words& which,
                                       const Words& where, double forward_ratio) const {
-  const Source& source = sources_[few_ ? k : choose(fluxes_up_to_, unit_fine(which[0], which[1]))];
+  const LightSource& source = sources_[few_ ? k : choose(fluxes_up_to_, unit_fine(which[0], which[1]))];
   if (!source.is_area) {
     LightSample sample = points_[source.index].sample_light(reference);
     if (sample.irradiance > 0.0) sample.irradiance /= source.share + forward_ratio * (sample.irradiance / power_);

@@ -21,6 +21,13 @@
 
 namespace lichtmc {
 
+// An emitter with a flux, as DirectLight has it.
+struct LightSource {
+  bool is_area = false;
+  std::size_t index = 0;  // into DirectLight::points() or areas()
+  double share = 1.0;     // probability that a light sample chooses it
+};
+
 class DirectLight {
  public:
   // The room must have passed check_room(), and outlive this.
@@ -69,20 +76,22 @@ class DirectLight {
   // The emitter that a receiver at this point lies on, as index into Room::emitters.
   std::optional<std::size_t> emitter_at(const ReferencePoint& reference) const;
 
- private:
-  struct Source {
-    bool is_area = false;
-    std::size_t index = 0;  // into points_ or areas_
-    double share = 1.0;     // probability that a light sample chooses it
-  };
+  // The source of an emitter with a flux above 0, not wholly covered; an index into Room::emitters.
+  const LightSource& source_of(std::size_t emitter) const { return sources_[source_of_emitter_[emitter]]; }
+  // The probability that the light samples at a surface choose this source; 1 if all are chosen.
+  double selection_probability(const LightSource& source, const ReferencePoint& /*reference*/) const {
+    return source.share;
+  }
 
+ private:
   void choose_by_flux(const std::vector<double>& fluxes);
 
   const Room* room_;
   const Tracer* tracer_;
   std::vector<PointLight> points_;
   std::vector<AreaLight> areas_;
-  std::vector<Source> sources_;
+  std::vector<LightSource> sources_;
+  std::vector<std::size_t> source_of_emitter_;  // indices into sources_
   std::vector<double> fluxes_up_to_;
   std::vector<double> area_shares_;                         // of areas_: probability that a light sample chooses it
   std::vector<std::vector<std::size_t>> areas_of_surface_;  // indices into areas_

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -101,7 +102,7 @@ void Launcher::launch(const Stream& stream, std::uint64_t history, Rays& rays, s
   } else {
     const auto& surface = std::get<SurfaceSource>(source);
     const glm::dvec3 local = surface.law.sample(unit_open(words[0]), unit_open(words[1]));
-    start_on(surface, glm::vec3(local), stream, history, rays, i);
+    start_on(surface, glm::vec3(local), LaunchWords(stream), history, rays, i);
   }
 }
 
@@ -119,29 +120,28 @@ struct Launcher::Launches {
   std::array<float, batch_histories> cosine;
 };
 
-void Launcher::launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays,
-                          std::uint32_t* photon) const {
-  std::array<std::uint64_t, batch_histories> history;
-  for (std::uint32_t i = 0; i < batch_histories; ++i) {
-    history[i] = first + i;
-    photon[i] = i;
-  }
+void Launcher::launch_all(const LaunchWords& words, std::uint64_t first, std::uint32_t n, Rays& rays,
+                          std::uint32_t* photon, std::uint32_t* emitter) const {
+  std::iota(photon, photon + batch_histories, 0U);
   Launches launches;
-  draw_many(stream, n, history.data(), 0, Purpose::emission, launches.polar.data(), launches.azimuth.data(),
-            launches.chance.data());
-  if (only_source_) return launch_from(*only_source_, launches, 0, n, stream, first, rays, photon);
+  words.draw_emission(first, n, launches.polar.data(), launches.azimuth.data(), launches.chance.data());
+  if (only_source_) {
+    if (emitter != nullptr) std::fill_n(emitter, n, static_cast<std::uint32_t>(*only_source_));
+    return launch_from(*only_source_, launches, 0, n, words, first, rays, photon);
+  }
 
   // Photons of one emitter are adjacent in the wave.
-  const std::vector<std::uint32_t> ends = sort_by_source(n, launches, photon);
+  const std::vector<std::uint32_t> ends = sort_by_source(n, launches, photon, emitter);
   std::uint32_t begin = 0;
   for (std::size_t k = 0; k < sources_.size(); ++k) {
-    if (ends[k] > begin) launch_from(k, launches, begin, ends[k], stream, first, rays, photon);
+    if (ends[k] > begin) launch_from(k, launches, begin, ends[k], words, first, rays, photon);
     begin = ends[k];
   }
 }
 
 // Chooses the source of each photon and sorts the photons by source; returns the end of the photons of each source.
-std::vector<std::uint32_t> Launcher::sort_by_source(std::uint32_t n, Launches& launches, std::uint32_t* photon) const {
+std::vector<std::uint32_t> Launcher::sort_by_source(std::uint32_t n, Launches& launches, std::uint32_t* photon,
+                                                   std::uint32_t* emitter) const {
   std::vector<std::uint32_t> place(sources_.size());
   std::array<std::uint32_t, batch_histories> source;
   for (std::uint32_t i = 0; i < n; ++i) {
@@ -149,6 +149,7 @@ std::vector<std::uint32_t> Launcher::sort_by_source(std::uint32_t n, Launches& l
         static_cast<std::uint32_t>(choose(powers_up_to_, static_cast<double>(launches.chance[i] >> 11) * 0x1p-53));
     ++place[source[i]];
   }
+  if (emitter != nullptr) std::copy_n(source.begin(), n, emitter);
   std::uint32_t sum = 0;
   for (std::uint32_t& of_source : place) sum += std::exchange(of_source, sum);
   const auto polar = launches.polar;
@@ -163,7 +164,8 @@ std::vector<std::uint32_t> Launcher::sort_by_source(std::uint32_t n, Launches& l
 }
 
 void Launcher::launch_from(std::size_t k, Launches& launches, std::uint32_t begin, std::uint32_t end,
-                           const Stream& stream, std::uint64_t first, Rays& rays, const std::uint32_t* photon) const {
+                           const LaunchWords& words, std::uint64_t first, Rays& rays,
+                           const std::uint32_t* photon) const {
   if (const auto* surface = std::get_if<SurfaceSource>(&sources_[k])) {
     polar_angles(surface->law, end - begin, &launches.polar[begin], &launches.sine[begin], &launches.cosine[begin]);
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -171,7 +173,7 @@ void Launcher::launch_from(std::size_t k, Launches& launches, std::uint32_t begi
       float cosine = 0.0F;
       sine_cosine(static_cast<float>(launches.azimuth[i]) * 0x1p-32F, sine, cosine);
       const glm::vec3 local(launches.sine[i] * cosine, launches.sine[i] * sine, launches.cosine[i]);
-      start_on(*surface, local, stream, first + photon[i], rays, i);
+      start_on(*surface, local, words, first + photon[i], rays, i);
     }
     return;
   }
@@ -211,16 +213,16 @@ void Launcher::start_at(const PointSource& source, const glm::dvec3& local, Rays
   rays.set_direction(i, direction);
 }
 
-void Launcher::start_on(const SurfaceSource& source, const glm::vec3& local, const Stream& stream,
+void Launcher::start_on(const SurfaceSource& source, const glm::vec3& local, const LaunchWords& words,
                         std::uint64_t history, Rays& rays, std::size_t i) const {
-  const Words place = stream.draw(history, 0, Purpose::place);
+  const Words place = words.place(history);
   const double u = unit_fine(place[0], place[1]);
   const double v = unit_open(place[2]);
   const double w = unit_open(place[3]);
   std::size_t n = 0;
   glm::vec2 weights(0.0F);
   if (source.emission) {
-    const auto further = [&](std::uint32_t k) { return stream.draw(history, k + 1, Purpose::place); };
+    const auto further = [&](std::uint32_t k) { return words.further_place(history, k + 1); };
     const EmissionPlace chosen = source.emission->choose_place(u, v, w, further);
     n = chosen.triangle;
     weights = chosen.weights;

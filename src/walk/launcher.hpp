@@ -16,6 +16,7 @@
 #include "room/emission.hpp"
 #include "tracer/rays.hpp"
 #include "tracer/tracer.hpp"
+#include "walk/launch_words.hpp"
 
 namespace lichtmc {
 
@@ -30,7 +31,12 @@ class Launcher {
 
   // The same for n photons (n ≤ batch_histories) with histories first … first + n − 1, several at once. photon: which
   // of the histories, counted from `first`, photon i of the wave is; an array of batch_histories.
-  void launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays, std::uint32_t* photon) const;
+  void launch_all(const Stream& stream, std::uint64_t first, std::uint32_t n, Rays& rays, std::uint32_t* photon) const {
+    launch_all(LaunchWords(stream), first, n, rays, photon);
+  }
+  // With other words. emitter: receives the index into Room::emitters for each of the histories, unless null.
+  void launch_all(const LaunchWords& words, std::uint64_t first, std::uint32_t n, Rays& rays, std::uint32_t* photon,
+                  std::uint32_t* emitter = nullptr) const;
 
   // The emitter that starts a history, its number in the room.
   std::size_t emitter_of(const Stream& stream, std::uint64_t history) const;
@@ -57,16 +63,17 @@ class Launcher {
                                       const Tracer& tracer);
   struct Launches;
 
-  std::vector<std::uint32_t> sort_by_source(std::uint32_t n, Launches& launches, std::uint32_t* photon) const;
+  std::vector<std::uint32_t> sort_by_source(std::uint32_t n, Launches& launches, std::uint32_t* photon,
+                                            std::uint32_t* emitter) const;
   // Photons begin … end − 1 of the wave start from source k.
-  void launch_from(std::size_t k, Launches& launches, std::uint32_t begin, std::uint32_t end, const Stream& stream,
+  void launch_from(std::size_t k, Launches& launches, std::uint32_t begin, std::uint32_t end, const LaunchWords& words,
                    std::uint64_t first, Rays& rays, const std::uint32_t* photon) const;
   template <class Law>
   void launch_from_point(const PointSource& point, const Law& law, Launches& launches, std::uint32_t begin,
                          std::uint32_t end, Rays& rays) const;
   static void start_at(const PointSource& source, const glm::dvec3& local, Rays& rays, std::size_t i);
   // A photon of this history starts from a surface, in a direction of the facet's frame.
-  void start_on(const SurfaceSource& source, const glm::vec3& local, const Stream& stream, std::uint64_t history,
+  void start_on(const SurfaceSource& source, const glm::vec3& local, const LaunchWords& words, std::uint64_t history,
                 Rays& rays, std::size_t i) const;
 
   const std::vector<Facet>* facets_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "chance/significance.hpp"
 
@@ -14,11 +15,11 @@ double largest_z_allowed(std::size_t figures) {
   return normal_quantile_above(0.5 * each);
 }
 
-Verdict compare(const std::vector<Compared>& figures) {
+Verdict compare(const std::vector<Compared>& figures, Deviations deviations) {
   Verdict verdict;
   verdict.agrees = !figures.empty();
-  double information =
-      0.0;  // Σ (expected/error)²: a common relative bias b shifts Σ z·(expected/error) by b times this
+  double information = 0.0;  // Σ (expected/error)²: a common relative bias b adds b² times this to Σ z²
+  double sharpest = 0.0;     // largest expected/error
   for (const Compared& figure : figures) {
     const double error = std::hypot(figure.standard_error, figure.expected_error);
     const double difference = figure.value - figure.expected;
@@ -32,12 +33,13 @@ Verdict compare(const std::vector<Compared>& figures) {
     verdict.largest_z = std::max(verdict.largest_z, std::abs(z));
     verdict.chi_square += z * z;
     information += (figure.expected / error) * (figure.expected / error);
+    sharpest = std::max(sharpest, figure.expected / error);
   }
   const double allowed = largest_z_allowed(std::max<std::size_t>(1, verdict.figures));
   if (verdict.largest_z > allowed) verdict.agrees = false;
   double low = 0.0;
   double high = allowed * allowed;
-  if (verdict.figures >= 3) {
+  if (verdict.figures >= 3 && deviations == Deviations::independent) {
     high = chi_square_above(static_cast<double>(verdict.figures), false_alarm);
     low = chi_square_above(static_cast<double>(verdict.figures), 1.0 - false_alarm);
     if (verdict.chi_square > high || verdict.chi_square < low) verdict.agrees = false;
@@ -45,6 +47,10 @@ Verdict compare(const std::vector<Compared>& figures) {
   // With a common bias b the expectation of Σ z² grows by b² · information; from K it must reach the limit.
   const double room = std::max(high - static_cast<double>(verdict.figures), 0.0);
   verdict.smallest_bias = information > 0.0 ? std::sqrt(room / information) : 0.0;
+  if (deviations == Deviations::correlated) {
+    verdict.smallest_bias = sharpest > 0.0 ? allowed / sharpest : 0.0;
+    high = std::numeric_limits<double>::infinity();
+  }
   char text[240];
   std::snprintf(
       text, sizeof text,

@@ -31,9 +31,13 @@ struct Verdict {
   std::string text;            // all of this in one line
 };
 
+// Whether the deviations of figures are independent. Those of receivers are not if the same photons serve all of them:
+// then Σ z² does not follow χ², and the largest z-score alone decides, for which Šidák's limit holds all the more.
+enum class Deviations { independent, correlated };
+
 // Compares figure by figure. Figures whose standard error is not a number above 0 count as disagreement unless value
 // and expectation are equal.
-Verdict compare(const std::vector<Compared>& figures);
+Verdict compare(const std::vector<Compared>& figures, Deviations deviations = Deviations::independent);
 
 // z-score that the largest absolute value of K standard normal variables exceeds with probability false_alarm.
 double largest_z_allowed(std::size_t figures);

@@ -28,6 +28,8 @@ TEST_CASE("significance: Student's law as a normal variable, tabulated") {
   CHECK(normal_from_student(2.228, 10.0) == Approx(1.960).epsilon(0.005));
   CHECK(normal_from_student(-2.571, 5.0) == Approx(-1.960).epsilon(0.02));
   CHECK(normal_from_student(2.0, 1e9) == Approx(2.0).epsilon(1e-6));
+  CHECK(student_from_normal(1.960, 10.0) == Approx(2.228).epsilon(0.005));
+  CHECK(normal_from_student(student_from_normal(3.0, 7.0), 7.0) == Approx(3.0).epsilon(1e-12));
   CHECK(normal_from_student(0.0, 10.0) == 0.0);
 }
 

@@ -263,7 +263,10 @@ TEST_CASE("a state with impossible backward walks is refused") {
   Settings settings = small_settings(Estimator::collision);
   settings.tile_walk = WalkDirection::backward;
   const std::vector<Change> of_receivers{
-      {"/receivers has rounds of 4 walks, not of 1", [](StateData& d) { d.receivers->group = 4; }},
+      {"/receivers has rounds of 3 histories from the emitters and 1 walks, which no run has",
+       [](StateData& d) { d.receivers->plan = {3, 1}; }},
+      {"/receivers has rounds of 0 histories from the emitters and 0 walks, which no run has",
+       [](StateData& d) { d.receivers->plan = {0, 0}; }},
       {"/receivers has no origin, or no round",
        [](StateData& d) { d.receivers->sums = std::make_shared<std::vector<BackwardSums>>(); }},
       {"/receivers has no origin, or no round",
@@ -276,7 +279,8 @@ TEST_CASE("a state with impossible backward walks is refused") {
          d.receivers->ranges = {{0, 5}, {4, 6}};
        }},
       {"impacts of 10 rays", [](StateData& d) { d.receivers->count.traced.rays = 10; }},
-      {"/tile_walks has rounds of 1 walks, not of 4", [](StateData& d) { d.tile_walks->group = 1; }},
+      {"/tile_walks has rounds of 0 histories from the emitters and 1 walks, not of 0 and 4",
+       [](StateData& d) { d.tile_walks->plan = {0, 1}; }},
       {"rounds from 24 origins, too many to count",
        [](StateData& d) {
          d.tile_walks->ranges = {{0, std::uint64_t{1} << 62}};

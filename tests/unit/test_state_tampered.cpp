@@ -100,10 +100,10 @@ TEST_CASE("numbers and text that are missing or of other types are refused") {
       {"the value of engine is not known: '7'", [&](hid_t f) { put_attribute(f, "/", "engine", H5T_C_S1, "7"); }},
       {"the value of part is not known: 7",
        [&](hid_t f) { put_attribute(f, "/settings", "part", H5T_STD_U64LE, &seven); }},
-      {"the value of group is not known: 1099511627776",
+      {"the value of forward is not known: 1099511627776",
        [&](hid_t f) {
          const std::uint64_t wide = std::uint64_t{1} << 40;
-         put_attribute(f, "/receivers", "group", H5T_STD_U64LE, &wide);
+         put_attribute(f, "/receivers", "forward", H5T_STD_U64LE, &wide);
        }},
       {"attribute seed is not a scalar",
        [&](hid_t f) {

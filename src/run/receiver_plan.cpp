@@ -1,0 +1,270 @@
+#include "run/receiver_plan.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "base/message.hpp"
+#include "run/pilot.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// The histories of a round: as many as leave hundreds of rounds in a run of a million photons, because a standard error
+// needs tens. More photons in a set are spread more evenly, down to a third of the variance (docs/performance.md).
+constexpr std::uint64_t histories_of_round = 4096;
+constexpr std::uint32_t most_in_set = 1024;
+
+// A pilot ends after this work: some tens of milliseconds.
+constexpr double pilot_work = 3e5;
+constexpr std::size_t most_pilot_receivers = 512;
+
+// Work in units of one flight by Embree through a room of some thousand triangles (some 0.13 µs), measured by
+// lichtmc_bench. A room that casts no shadow is simple.
+struct UnitCosts {
+  double flight = 1.0;
+  double shadow_ray = 1.0;
+  double bundled_ray = 0.22;
+  double connection = 0.012;
+};
+
+UnitCosts costs_of(const Scene& scene) {
+  if (scene.tracer->casts_shadows()) return {};
+  return {scene.engine == Engine::cuboid ? 0.25 : 0.5, 0.0, 0.0, 0.012};
+}
+
+double work_of(const BackwardCount& count, const UnitCosts& costs) {
+  const TraceCount& traced = count.traced;
+  return costs.flight * static_cast<double>(traced.rays - traced.shadow_rays) +
+         costs.shadow_ray * static_cast<double>(traced.shadow_rays - traced.bundled) +
+         costs.bundled_ray * static_cast<double>(traced.bundled) +
+         costs.connection * static_cast<double>(count.connections);
+}
+
+// Numbers of rounds far beyond those of runs.
+constexpr std::uint64_t first_pilot_round = std::uint64_t{1} << 40;
+
+std::uint32_t power_of_two_below(double value, std::uint32_t most) {
+  const double limited = std::clamp(value, 1.0, static_cast<double>(most));
+  return std::bit_floor(static_cast<std::uint32_t>(limited));
+}
+
+// The plan for receivers with `ratio` photons for each walk; infinite: photons only, 0: walks only.
+RoundPlan plan_with(double ratio, std::size_t receivers) {
+  const double all = static_cast<double>(histories_of_round) / static_cast<double>(receivers);
+  const std::uint32_t most = power_of_two_below(all, most_in_set);
+  if (!(ratio > 0.0)) return {0, std::min(most, 16U)};
+  if (std::isinf(ratio)) return {most, 0};
+  if (ratio >= 1.0) {
+    const std::uint32_t forward = std::max(most, power_of_two_below(ratio, most_forward));
+    return {forward, std::max(1U, static_cast<std::uint32_t>(std::lround(forward / ratio)))};
+  }
+  const std::uint32_t backward = std::max(most, power_of_two_below(1.0 / ratio, most_backward));
+  return {power_of_two_below(backward * ratio, most_forward), backward};
+}
+
+// What a pilot has found about a plan.
+struct Trial {
+  RoundPlan plan;
+  Estimator estimator = Estimator::weight;
+  double variance = 0.0;  // of a round: mean over the receivers of its square relative to the irradiance
+  double work = 0.0;      // of a round, for all receivers of the room
+  double cost() const { return variance * work; }
+};
+
+class Pilots {
+ public:
+  Pilots(const Room& room, const Scene& scene, const DirectLight& light, const std::vector<ReferencePoint>& receivers,
+         const std::vector<DirectIrradiance>& direct, const Settings& settings)
+      : room_(room), scene_(scene), light_(light), settings_(settings), scale_(room), all_(receivers.size()),
+        costs_(costs_of(scene)) {
+    const std::size_t n = std::min(receivers.size(), most_pilot_receivers);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t from = k * receivers.size() / n;
+      sample_.push_back(receivers[from]);
+      direct_.push_back(direct[from].value);
+    }
+    blocks_ = std::make_unique<ReceiverBlocks>(sample_, *scene.tracer);
+  }
+
+  Trial run(const RoundPlan& plan, Estimator estimator) const {
+    Settings settings = settings_;
+    settings.estimator = estimator;
+    const ReceiverWalkParts parts{room_, scene_, light_, sample_, *blocks_};
+    const std::unique_ptr<BackwardWalk> walk = make_receiver_walk(parts, scale_, settings, plan);
+    const std::size_t n = sample_.size();
+    std::vector<double> sums(n, 0.0);
+    std::vector<double> squares(n, 0.0);
+    BackwardCount count;
+    std::uint64_t rounds = 0;
+    constexpr std::uint64_t fewest_rounds = 8;
+    for (std::uint64_t step = fewest_rounds; rounds == 0 || work_of(count, costs_) < pilot_work;) {
+      std::vector<double> irradiance(step * n, 0.0);
+      const std::uint64_t first = first_pilot_round + rounds;
+      walk->collect({0, n, first, first + step}, irradiance, count, [] { return false; });
+      rounds += step;
+      for (std::size_t k = 0; k < irradiance.size(); ++k) {
+        sums[k % n] += irradiance[k];
+        squares[k % n] += irradiance[k] * irradiance[k];
+      }
+      if (count.impacts == 0) break;  // nothing meets a surface
+      step = std::min(rounds, std::max<std::uint64_t>(1, 16384 / plan.histories(n)));
+    }
+    const auto done = static_cast<double>(rounds);
+    // Almost all of the work is for single receivers, of which the pilot has a part.
+    const double work = work_of(count, costs_) / done * static_cast<double>(all_) / static_cast<double>(n);
+    return {plan, estimator, relative_variance(sums, squares, done), work};
+  }
+
+ private:
+  double relative_variance(const std::vector<double>& sums, const std::vector<double>& squares, double n) const {
+    std::vector<double> irradiance = direct_;
+    for (std::size_t k = 0; k < sums.size(); ++k) irradiance[k] += sums[k] / n;
+    const double floor = receiver_error_floor(irradiance);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      const double variance = std::max(0.0, (squares[k] - sums[k] * sums[k] / n) / (n - 1.0));
+      const double against = std::max(irradiance[k], floor);
+      if (against > 0.0) sum += variance / (against * against);
+    }
+    return sum / static_cast<double>(sums.size());
+  }
+
+  const Room& room_;
+  const Scene& scene_;
+  const DirectLight& light_;
+  const Settings& settings_;
+  BackwardScale scale_;
+  std::size_t all_;  // receivers
+  UnitCosts costs_;
+  std::vector<ReferencePoint> sample_;  // of the receivers
+  std::vector<double> direct_;
+  std::unique_ptr<ReceiverBlocks> blocks_;
+};
+
+std::string in_words(const RoundPlan& plan) {
+  switch (walk_of(plan)) {
+    case ReceiverWalk::next_event:
+      return "next-event estimation";
+    case ReceiverWalk::backward:
+      return "backward walks";
+    default:
+      break;
+  }
+  return "two-way walks";
+}
+
+std::string shares(const RoundPlan& plan) {
+  if (!plan.two_way()) return {};
+  return " (" + to_text(plan.forward, "photon") + " from the emitters with " + to_text(plan.backward, "walk") +
+         " from each)";
+}
+
+bool is_known(const Trial& trial) {
+  return trial.cost() > 0.0 && std::isfinite(trial.cost());
+}
+
+// A pilot may miss rare large scores of photons near a receiver, or of walks near an emitter, which two-way walks do not
+// have: walks in one direction must be better by this factor.
+constexpr double margin = 0.85;
+
+std::size_t best_of(const std::vector<Trial>& trials) {
+  std::size_t best = trials.size();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < trials.size(); ++k) {
+    const double cost = trials[k].cost() / (trials[k].plan.two_way() ? 1.0 : margin);
+    if (!is_known(trials[k]) || !(cost < least)) continue;
+    least = cost;
+    best = k;
+  }
+  return best;
+}
+
+// Why a plan was chosen, beside the cheapest of each other kind.
+std::string reason_of(const std::vector<Trial>& trials, std::size_t best) {
+  const Trial& chosen = trials[best];
+  std::string text = in_words(chosen.plan) + shares(chosen.plan) + " with the estimator '" +
+                     std::string(to_string(chosen.estimator)) + "' were chosen for the receivers: for the same error, ";
+  text[0] = static_cast<char>(std::toupper(text[0]));
+  if (walk_of(chosen.plan) == ReceiverWalk::next_event) text.replace(text.find(" were "), 6, " was ");
+  bool listed = false;
+  for (const ReceiverWalk kind : {ReceiverWalk::two_way, ReceiverWalk::next_event, ReceiverWalk::backward}) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Trial& trial : trials) {
+      if (walk_of(trial.plan) == kind && trial.estimator == chosen.estimator && is_known(trial))
+        least = std::min(least, trial.cost());
+    }
+    if (kind == walk_of(chosen.plan) || std::isinf(least)) continue;
+    text += std::string(listed ? ", " : "") + in_words(kind == ReceiverWalk::two_way    ? RoundPlan{1, 1}
+                                                       : kind == ReceiverWalk::backward ? RoundPlan{0, 1}
+                                                                                        : RoundPlan{1, 0}) +
+            (kind == ReceiverWalk::next_event ? " takes " : " take ") + short_number(least / chosen.cost()) +
+            " times the work";
+    listed = true;
+  }
+  for (const Trial& trial : trials) {
+    if (trial.estimator == chosen.estimator || !is_known(trial)) continue;
+    text += std::string(listed ? ", '" : "'") + std::string(to_string(trial.estimator)) + "' " +
+            short_number(trial.cost() / chosen.cost()) + " times";
+    listed = true;
+  }
+  return listed ? text + " (by a short pilot)." : std::string();
+}
+
+}  // namespace
+
+ReceiverWalk walk_of(const RoundPlan& plan) {
+  if (plan.two_way()) return ReceiverWalk::two_way;
+  return plan.forward > 0 ? ReceiverWalk::next_event : ReceiverWalk::backward;
+}
+
+std::uint64_t most_histories_of_round(std::uint64_t receivers) {
+  return std::max(histories_of_round, std::uint64_t{most_forward + most_backward} * receivers);
+}
+
+double receiver_error_floor(const std::vector<double>& irradiances) {
+  if (irradiances.empty()) return 0.0;
+  const double sum = std::accumulate(irradiances.begin(), irradiances.end(), 0.0);
+  return 0.01 * sum / static_cast<double>(irradiances.size());
+}
+
+ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const DirectLight& light,
+                                  const std::vector<ReferencePoint>& receivers,
+                                  const std::vector<DirectIrradiance>& direct, const Settings& settings) {
+  const ReceiverWalk walk = settings.receiver_walk;
+  std::vector<Estimator> estimators = candidates_for(room, settings);
+  // Weight comes first: receivers are points, so that a score is never a matter of hitting them or not.
+  if (estimators.size() > 1) std::swap(estimators[0], estimators[1]);
+  const double one_way = walk == ReceiverWalk::backward ? 0.0 : std::numeric_limits<double>::infinity();
+  const bool fixed = walk == ReceiverWalk::backward || walk == ReceiverWalk::next_event;
+  if (fixed && estimators.size() == 1) return {plan_with(one_way, receivers.size()), estimators.front(), {}};
+
+  const Pilots pilots(room, scene, light, receivers, direct, settings);
+  const RoundPlan only_photons = plan_with(std::numeric_limits<double>::infinity(), receivers.size());
+  const RoundPlan only_walks = plan_with(0.0, receivers.size());
+  std::vector<Trial> trials;
+  const Trial photons = pilots.run(only_photons, estimators.front());
+  const Trial walks = pilots.run(only_walks, estimators.front());
+  if (walk == ReceiverWalk::automatic || walk == ReceiverWalk::next_event) trials.push_back(photons);
+  if (walk == ReceiverWalk::automatic || walk == ReceiverWalk::backward) trials.push_back(walks);
+  if (!fixed && walks.work > 0.0 && photons.work > 0.0) {
+    // Photons for each walk, if both take the same work.
+    const double balanced = (walks.work / only_walks.backward) / (photons.work / only_photons.forward);
+    for (const double share : {16.0, 4.0, 1.0, 0.25, 0.0625})
+      trials.push_back(pilots.run(plan_with(share * balanced, receivers.size()), estimators.front()));
+  }
+  std::size_t best = best_of(trials);
+  if (best == trials.size()) {
+    // Nothing scores: no surface reflects, or no light arrives.
+    return {plan_with(fixed ? one_way : walk == ReceiverWalk::automatic ? 0.0 : 1.0, receivers.size()),
+            estimators.front(), {}};
+  }
+  const RoundPlan plan = trials[best].plan;
+  for (std::size_t k = 1; k < estimators.size(); ++k) trials.push_back(pilots.run(plan, estimators[k]));
+  best = best_of(trials);
+  return {trials[best].plan, trials[best].estimator, reason_of(trials, best)};
+}
+
+}  // namespace lichtmc

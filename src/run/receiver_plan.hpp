@@ -1,0 +1,39 @@
+// The walk for the receivers of a room: photons from the emitters that contribute to all of them, walks from each, or
+// both, and in which shares.
+//
+// The choice has the smallest error for the same work. A short pilot of each candidate gives its variance; the work is
+// counted in rays, not timed. So the same room, settings and seed give the same choice on any machine, in every part of
+// a run, whatever the number of photons. The histories of pilots are not part of the results.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lichtmc/settings.hpp"
+#include "walk/direct_light.hpp"
+#include "walk/receiver_walk.hpp"
+#include "walk/round_plan.hpp"
+
+namespace lichtmc {
+
+struct ReceiverPlan {
+  RoundPlan plan;
+  Estimator estimator = Estimator::weight;
+  std::string reason;  // a sentence; empty if nothing was left to choose
+};
+
+// Chooses what the settings leave open: the walk, its shares, the estimator. direct: of every receiver.
+ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const DirectLight& light,
+                                  const std::vector<ReferencePoint>& receivers,
+                                  const std::vector<DirectIrradiance>& direct, const Settings& settings);
+
+// The kind of walk that a plan is.
+ReceiverWalk walk_of(const RoundPlan& plan);
+
+// The largest number of histories that a round of any plan for this number of receivers has.
+std::uint64_t most_histories_of_round(std::uint64_t receivers);
+
+// The irradiance below which relative errors of receivers are measured against it: 1 % of the mean of all.
+double receiver_error_floor(const std::vector<double>& irradiances);
+
+}  // namespace lichtmc

@@ -1,0 +1,197 @@
+#include "walk/next_event.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "room/emitter_shape.hpp"
+#include "walk/choose_policy.hpp"
+#include "walk/kernel.hpp"
+#include "walk/launch_words.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// Goal of the forward walk for receivers: light is scattered to them from every surface that a photon survives, as
+// backward walks collect it there.
+template <class Policy>
+class NextEventGoal : public GoalBase {
+ public:
+  NextEventGoal(const Room& room, const Scene& scene, const DirectLight& light, const Stream& stream,
+                const RoundPlan& plan)
+      : scene_(&scene),
+        words_(stream, plan.forward),
+        first_impact_(room, *scene.tracer, light),
+        plan_(plan),
+        power_(total_power(room)),
+        emitter_(batch_histories),
+        from_(batch_histories),
+        ratio_(batch_histories, 0.0F),
+        left_(Policy::scores_every_impact ? 0 : batch_histories) {
+    for (const Facet& facet : scene.tracer->facets()) normals_.emplace_back(world_normal(*scene.tracer, facet));
+  }
+
+  void begin(const ReceiverLanes& receivers, std::uint64_t first_round, std::uint32_t rounds, BackwardCount& count) {
+    receivers_ = &receivers;
+    first_history_ = first_round * plan_.forward;
+    count_ = &count;
+    sums_.assign(rounds * whole_lanes(receivers.size()), 0.0);
+    impacts_.clear();
+  }
+  // Adds the mean over the photons of each round, in W/m² or lx.
+  void end(std::uint32_t rounds, double* irradiance) {
+    contribute();
+    const std::size_t n = receivers_->size();
+    const double unit = power_ / plan_.forward / (receivers_->size_m() * receivers_->size_m());
+    for (std::uint32_t round = 0; round < rounds; ++round) {
+      for (std::size_t k = 0; k < n; ++k)
+        irradiance[round * n + receivers_->number(k)] += unit * sums_[round * whole_lanes(n) + k];
+    }
+  }
+
+  void start(Wave& wave, std::uint32_t n) {
+    flight_ = 0;
+    scene_->launcher->launch_all(words_, first_history_, n, wave.rays, wave.photon.data(), emitter_.data());
+    for (std::uint32_t i = 0; i < n; ++i)
+      from_[wave.photon[i]] = {wave.rays.facet[i], wave.rays.s[i], wave.rays.t[i]};
+    if (!Policy::scores_every_impact) std::fill(left_.begin(), left_.end(), Impact{});
+  }
+  Misses misses() const { return scene_->misses; }
+  TraceCount& traced() { return count_->traced; }
+
+  // set_ratios() needs the geometry of the first flight.
+  void move(Wave& wave, std::size_t from, std::size_t to) const {
+    if (flight_ > 0) return;
+    wave.rays.set_start(to, wave.rays.start(from));
+    wave.rays.set_direction(to, wave.rays.direction(from));
+    wave.rays.length[to] = wave.rays.length[from];
+  }
+  void escape(const Wave& wave, std::size_t i) { score_last(wave.photon[i], 1.0); }
+
+  void land(Wave& wave) {
+    const Rays& rays = wave.rays;
+    count_->impacts += rays.size;
+    if (++flight_ == 1 && plan_.two_way()) set_ratios(wave);
+    for (std::size_t i = 0; i < rays.size; ++i) wave.surface[i] = scene_->surface_of[rays.facet[i]];
+  }
+
+  static constexpr bool watches_absorption = !Policy::scores_every_impact;
+  static constexpr bool in_lanes = Policy::chooses_in_lanes;
+  // Variant 3: only the last surface that the photon survived scores.
+  void absorb(const Wave& wave, std::size_t i, double reflectance) {
+    score_last(wave.photon[i], 1.0 / (1.0 - reflectance));
+  }
+  void absorb_all(const Wave& wave, const std::uint32_t* at, std::size_t n) {
+    for (std::size_t k = 0; k < n; ++k)
+      score_last(wave.photon[at[k]], 1.0 / (1.0 - scene_->reflectance_of[wave.surface[at[k]]]));
+  }
+
+  void reflect(const Wave& wave, std::uint32_t /*flight*/) {
+    for (std::size_t i = 0; i < wave.rays.size; ++i) {
+      const Impact impact = impact_of(wave, i);
+      if constexpr (Policy::scores_every_impact) {
+        impacts_.push_back(impact);
+      } else {
+        left_[wave.photon[i]] = impact;
+      }
+    }
+    contribute();
+  }
+
+ private:
+  // The part of a path that its end at the emitter determines: the same for all impacts of the photon.
+  void set_ratios(const Wave& wave) {
+    const double per_area = plan_.backward / (static_cast<double>(plan_.forward) * receivers_->size_m() * receivers_->size_m());
+    for (std::size_t i = 0; i < wave.rays.size; ++i) {
+      const std::uint32_t photon = wave.photon[i];
+      ratio_[photon] = static_cast<float>(
+          per_area * first_impact_.backward_over_forward(emitter_[photon], from_[photon], wave.rays, i));
+    }
+  }
+
+  Impact impact_of(const Wave& wave, std::size_t i) const {
+    const Rays& rays = wave.rays;
+    const glm::vec3& normal = normals_[rays.facet[i]];
+    const std::uint32_t photon = wave.photon[i];
+    Impact impact;
+    impact.start = rays.start(i);
+    impact.point = receivers_->point(impact.start);
+    impact.normal = rays.behind[i] != 0 ? -normal : normal;
+    impact.weight = Policy::carries_weight && Policy::scores_every_impact ? static_cast<float>(wave.weight[i]) : 1.0F;
+    impact.backward_ratio = ratio_[photon];
+    impact.round = photon / plan_.forward;
+    return impact;
+  }
+
+  void score_last(std::uint32_t photon, double factor) {
+    if constexpr (!Policy::scores_every_impact) {
+      Impact impact = left_[photon];
+      impact.weight *= static_cast<float>(factor);
+      if (impact.weight > 0.0F) impacts_.push_back(impact);
+    }
+  }
+
+  // Light from the impacts to all receivers that see them.
+  void contribute() {
+    count_->connections += impacts_.size() * receivers_->size();
+    receivers_->irradiate(impacts_, *scene_->tracer, value_, sums_, count_->traced);
+    impacts_.clear();
+  }
+
+  const Scene* scene_;
+  QuasiRandomWords words_;
+  FirstImpact first_impact_;
+  RoundPlan plan_;
+  double power_;  // of all emitters, W or lm
+  std::uint32_t flight_ = 0;
+  const ReceiverLanes* receivers_ = nullptr;
+  BackwardCount* count_ = nullptr;
+  std::vector<glm::vec3> normals_;  // of the facets, world
+  std::vector<Impact> impacts_;     // that have not yet contributed
+  std::vector<float> value_;
+  std::vector<double> sums_;  // by round and receiver
+  // By the number of the photon:
+  std::vector<std::uint32_t> emitter_;
+  std::vector<StartOnFacet> from_;
+  std::vector<float> ratio_;
+  std::vector<Impact> left_;  // the surface that it survived last
+};
+
+template <class Policy, class Reflectance>
+class PolicyNextEvent final : public NextEvent {
+ public:
+  PolicyNextEvent(const Room& room, const Scene& scene, const DirectLight& light, std::uint64_t seed,
+                  const RoundPlan& plan, std::uint32_t max_flights)
+      : plan_(plan), goal_(room, scene, light, Stream(seed), plan), kernel_(scene, Stream(seed), max_flights) {}
+
+  std::uint32_t rounds_at_a_time() const override { return batch_histories / plan_.forward; }
+
+  void simulate(const ReceiverLanes& receivers, std::uint64_t first, std::uint64_t rounds,
+                std::vector<double>& irradiance, BackwardCount& count, const Abandon& abandon) override {
+    for (std::uint64_t done = 0; done < rounds;) {
+      const auto together = static_cast<std::uint32_t>(std::min<std::uint64_t>(rounds_at_a_time(), rounds - done));
+      goal_.begin(receivers, first + done, together, count);
+      kernel_.fly(together * plan_.forward, goal_, abandon);
+      goal_.end(together, irradiance.data() + done * receivers.size());
+      done += together;
+    }
+  }
+
+ private:
+  RoundPlan plan_;
+  NextEventGoal<Policy> goal_;
+  Kernel<Policy, Reflectance, NextEventGoal<Policy>> kernel_;
+};
+
+}  // namespace
+
+std::unique_ptr<NextEvent> make_next_event(const Room& room, const Scene& scene, const DirectLight& light,
+                                           const Settings& settings, const RoundPlan& plan) {
+  return choose_policy(settings.estimator, settings.max_bounces, scene.has_reflectance_maps(),
+                       [&]<class Policy, class Reflectance>(std::uint32_t max_flights) -> std::unique_ptr<NextEvent> {
+                         return std::make_unique<PolicyNextEvent<Policy, Reflectance>>(room, scene, light, settings.seed,
+                                                                                       plan, max_flights);
+                       });
+}
+
+}  // namespace lichtmc

@@ -1,0 +1,155 @@
+#include "walk/receiver_lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <glm/geometric.hpp>
+
+#include "room/bounds.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// Heights over a plane below this are rounding errors: some roundings of coordinates of about 1. A receiver that lies in
+// the plane of an impact gets nothing from it.
+constexpr float least_height = 8.0F * 0x1p-24F;
+
+// The position of a point in a box along a curve that visits neighbours one after the other (G. M. Morton, 1966).
+std::uint64_t morton(const glm::dvec3& point, const Bounds& box) {
+  constexpr int bits = 16;
+  const glm::dvec3 size = box.high - box.low;
+  std::uint64_t code = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double share = size[c] > 0.0 ? (point[c] - box.low[c]) / size[c] : 0.0;
+    const auto cell = static_cast<std::uint64_t>(share * ((1 << bits) - 1));
+    for (int bit = 0; bit < bits; ++bit) code |= (cell >> bit & 1U) << (3 * bit + c);
+  }
+  return code;
+}
+
+// Receivers in lanes.
+struct Lanes {
+  const float* LICHTMC_APART x;
+  const float* LICHTMC_APART y;
+  const float* LICHTMC_APART z;
+  const float* LICHTMC_APART normal_x;
+  const float* LICHTMC_APART normal_y;
+  const float* LICHTMC_APART normal_z;
+  const float* LICHTMC_APART least_squared_cosine;
+  const float* LICHTMC_APART spread;
+};
+
+// w G at receiver k, without shadows: G = cos θ cos ψ/(π r²), the radiance of a Lambertian impact of exitance 1 times the
+// projected solid angle. With walks from the receivers it is weighted by the balance heuristic, w G/(1 + ratio · G/sin² α):
+// their first flight reaches the impact with the density G/sin² α, α the half angle of the field of view.
+inline float irradiance_at(const Impact& impact, const Lanes& at, std::size_t k) {
+  constexpr float inverse_pi = 0.318309886F;
+  const float dx = at.x[k] - impact.point.x;
+  const float dy = at.y[k] - impact.point.y;
+  const float dz = at.z[k] - impact.point.z;
+  const float squared = dx * dx + dy * dy + dz * dz;
+  const float height = dx * impact.normal.x + dy * impact.normal.y + dz * impact.normal.z;     // r cos θ, over the impact
+  const float depth = -(dx * at.normal_x[k] + dy * at.normal_y[k] + dz * at.normal_z[k]);  // r cos ψ, over the receiver
+  const bool seen = (height > least_height) & (depth > least_height) &
+                    (depth * depth >= at.least_squared_cosine[k] * squared);
+  const float projected = inverse_pi * height * depth;
+  const float value = impact.weight * projected / (squared * squared + impact.backward_ratio * at.spread[k] * projected);
+  return seen ? value : 0.0F;
+}
+
+LICHTMC_LANES std::uint32_t irradiate_lanes(std::size_t n, const Impact& impact, const Lanes& at,
+                                            float* LICHTMC_APART value) {
+  const Impact here = impact;
+  const Lanes lanes = at;
+  std::uint32_t any = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    value[k] = irradiance_at(here, lanes, k);
+    any |= value[k] > 0.0F ? 1U : 0U;
+  }
+  return any;
+}
+
+LICHTMC_LANES void add_lanes(std::size_t n, const float* LICHTMC_APART value, double* LICHTMC_APART sums) {
+  for (std::size_t k = 0; k < n; ++k) sums[k] += double{value[k]};
+}
+
+// The irradiance by many impacts where nothing casts a shadow.
+LICHTMC_LANES void irradiate_all_lanes(std::size_t n, const Impact* impacts, std::size_t count, const Lanes& at,
+                                       double* LICHTMC_APART sums) {
+  const Lanes lanes = at;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Impact here = impacts[i];
+    double* LICHTMC_APART of_round = sums + here.round * n;
+    for (std::size_t k = 0; k < n; ++k) of_round[k] += double{irradiance_at(here, lanes, k)};
+  }
+}
+
+}  // namespace
+
+ReceiverLanes::ReceiverLanes(const std::vector<ReferencePoint>& receivers, const Tracer& tracer, std::size_t first,
+                             std::size_t last)
+    : number_(last - first) {
+  // The sides of the tracer's unit cube, as long as they are in the world.
+  const glm::dmat3 axes(tracer.world_vector({1.0, 0.0, 0.0}), tracer.world_vector({0.0, 1.0, 0.0}),
+                        tracer.world_vector({0.0, 0.0, 1.0}));
+  size_m_ = std::max({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
+  to_lanes_ = axes * (1.0 / size_m_);
+
+  Bounds box;
+  for (std::size_t k = first; k < last; ++k) box.add(receivers[k].point);
+  std::iota(number_.begin(), number_.end(), 0U);
+  std::vector<std::uint64_t> codes(number_.size());
+  for (const std::uint32_t k : number_) codes[k] = morton(receivers[first + k].point, box);
+  std::stable_sort(number_.begin(), number_.end(), [&](std::uint32_t a, std::uint32_t b) { return codes[a] < codes[b]; });
+
+  const std::size_t whole = whole_lanes(number_.size());
+  for (std::vector<float>& array : arrays_) array.resize(whole, 0.0F);
+  ends_.resize(number_.size());
+  for (std::size_t k = 0; k < number_.size(); ++k) {
+    const ReferencePoint& receiver = receivers[first + number_[k]];
+    const glm::vec3 end(start_of(receiver, tracer));
+    const glm::vec3 here = point(end);
+    // No reflected light reaches a receiver outside a room in which nothing casts a shadow, and none an empty field of
+    // view: without a normal it receives nothing.
+    const bool receives = !receiver.way_out && receiver.squared_sine() > 0.0;
+    const glm::vec3 normal = receives ? glm::vec3(receiver.normal) : glm::vec3(0.0F);
+    const double squared_sine = receives ? receiver.squared_sine() : 1.0;
+    const std::array<double, 8> of_receiver{here.x,
+                                            here.y,
+                                            here.z,
+                                            normal.x,
+                                            normal.y,
+                                            normal.z,
+                                            receiver.least_cosine * receiver.least_cosine,
+                                            1.0 / squared_sine};
+    for (std::size_t c = 0; c < arrays_.size(); ++c) arrays_[c][k] = static_cast<float>(of_receiver[c]);
+    ends_.set(k, end);
+  }
+}
+
+namespace {
+
+template <class Arrays>
+Lanes lanes_of(const Arrays& of) {
+  return {of[0].data(), of[1].data(), of[2].data(), of[3].data(), of[4].data(), of[5].data(), of[6].data(), of[7].data()};
+}
+
+}  // namespace
+
+void ReceiverLanes::irradiate(const std::vector<Impact>& impacts, const Tracer& tracer, std::vector<float>& value,
+                              std::vector<double>& sums, TraceCount& count) const {
+  const std::size_t n = whole_lanes(size());
+  const Lanes lanes = lanes_of(arrays_);
+  if (!tracer.casts_shadows()) return irradiate_all_lanes(n, impacts.data(), impacts.size(), lanes, sums.data());
+  value.resize(n);
+  for (const Impact& impact : impacts) {
+    if (irradiate_lanes(n, impact, lanes, value.data()) == 0) continue;
+    tracer.darken_blocked(impact.start, ends_, value.data(), count);
+    add_lanes(n, value.data(), sums.data() + impact.round * n);
+  }
+}
+
+}  // namespace lichtmc

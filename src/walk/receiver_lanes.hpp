@@ -1,0 +1,61 @@
+// Receivers as arrays, several of which one vector instruction treats at a time; for next-event estimation.
+//
+// Positions are in the room's own coordinates: relative to the tracer's origin, in units of `size_m`, so that they are
+// at most some units wherever and however large the room is, and floats resolve them to 10⁻⁷ of it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "base/lanes.hpp"
+#include "tracer/rays.hpp"
+#include "tracer/tracer.hpp"
+#include "walk/reference_point.hpp"
+
+namespace lichtmc {
+
+// A point of a surface from which light is scattered to receivers.
+struct Impact {
+  glm::vec3 point{0.0F};   // in the receivers' coordinates
+  glm::vec3 normal{0.0F};  // world, length 1, on the side that was hit
+  glm::vec3 start{0.0F};   // of shadow rays, in the tracer's coordinates
+  float weight = 0.0F;     // of the photon
+  // Backward over forward: the density with which walks from receivers would have made the photon's path, except for
+  // their first flight, divided by that of photons from the emitters; in the receivers' units of area. 0: no walks.
+  float backward_ratio = 0.0F;
+  std::uint32_t round = 0;
+};
+
+class ReceiverLanes {
+ public:
+  // receivers: see receiver_points.hpp; a part of them, first … last − 1.
+  ReceiverLanes(const std::vector<ReferencePoint>& receivers, const Tracer& tracer, std::size_t first,
+                std::size_t last);
+
+  std::size_t size() const { return number_.size(); }
+  // The receiver at position k of the arrays, counted from `first`.
+  std::uint32_t number(std::size_t k) const { return number_[k]; }
+  // m: the unit of length.
+  double size_m() const { return size_m_; }
+  // A point in the tracer's coordinates → the receivers' coordinates.
+  glm::vec3 point(const glm::vec3& in_tracer) const { return glm::vec3(to_lanes_ * glm::dvec3(in_tracer)); }
+
+  // Adds the irradiance that impacts cause at every receiver, in units of the photon's power per size_m², to
+  // sums[round · whole_lanes(size()) + k], k the position in the arrays. value: memory for it; shadow rays are counted.
+  void irradiate(const std::vector<Impact>& impacts, const Tracer& tracer, std::vector<float>& value,
+                 std::vector<double>& sums, TraceCount& count) const;
+
+ private:
+  glm::dmat3 to_lanes_{1.0};
+  double size_m_ = 1.0;
+  std::vector<std::uint32_t> number_;
+  // Position, normal, squared least cosine of the field of view, 1/sin² of its half angle.
+  std::array<std::vector<float>, 8> arrays_;
+  EndPoints ends_;  // of shadow rays
+};
+
+}  // namespace lichtmc
