@@ -146,7 +146,8 @@ void check_receivers_whole(const Room& room, const Settings& settings, const Bac
 ReceiverMeasurement measure_receivers(const RunContext& context) {
   const Room& room = context.room;
   const Tracer& tracer = *context.scene.tracer;
-  const DirectLight light(room, tracer);
+  DirectLight light(room, tracer);
+  light.learn_selection(context.scene);
   const std::vector<ReferencePoint> points = receiver_points(room, tracer);
   const ReceiverBlocks blocks(points, tracer);
   const ReceiverWalkParts parts{room, context.scene, light, points, blocks};

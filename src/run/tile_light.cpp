@@ -32,6 +32,7 @@ TileLight::TileLight(const Room& room, const Tiling& tiling, const Scene& scene,
       light_(room, *scene.tracer),
       faces_(room, tiling, *scene.tracer),
       direct_(light_, faces_, *scene.tracer, Stream(settings.seed, direction), accuracy_for(settings), level_of(room)) {
+  if (direction == WalkDirection::backward) light_.learn_selection(scene);
 }
 
 std::vector<TileDirect> TileLight::of_tiles(const Control& control, unsigned threads, StopWatch& watch,

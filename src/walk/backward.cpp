@@ -34,6 +34,7 @@ class BackwardGoal : public GoalBase {
         found_(batch_histories),
         direct_(batch_histories),
         cosine_(batch_histories),
+        cell_(batch_histories),
         pending_irradiance_(batch_histories) {}
 
   // Photon i will start from an origin, as its sample `sample`.
@@ -95,7 +96,7 @@ class BackwardGoal : public GoalBase {
       const FlightGeometry flight = flight_geometry(tracer, rays, i);
       if (flight.degenerate()) continue;
       const double irradiance =
-          light_->mis_weighted_emission(rays, i, double{cosine_[i]}, flight, forward_ratio_[wave.photon[i]]);
+          light_->mis_weighted_emission(rays, i, cell_[i], double{cosine_[i]}, flight, forward_ratio_[wave.photon[i]]);
       if constexpr (Policy::scores_every_impact) {
         found_[i] += (Policy::carries_weight ? wave.weight[i] : 1.0) * irradiance;
       } else {
@@ -140,6 +141,7 @@ class BackwardGoal : public GoalBase {
     found_[to] = found_[from];
     direct_[to] = direct_[from];
     cosine_[to] = cosine_[from];
+    cell_[to] = cell_[from];
   }
 
  private:
@@ -167,7 +169,9 @@ class BackwardGoal : public GoalBase {
     const auto number = static_cast<std::uint32_t>(flight * light_->light_samples_per_point() + k);
     const Words which = stream_.draw(id, number, Purpose::light);
     const Words where = light_->has_area_lights() ? stream_.draw(id, number, Purpose::on_light) : Words{};
-    const LightSample sample = light_->sample_light(k, reference, which, where, forward_ratio_[wave.photon[i]]);
+    if (k == 0) cell_[i] = light_->cell_of(reference);
+    const LightSample sample =
+        light_->sample_light(k, cell_[i], reference, which, where, forward_ratio_[wave.photon[i]]);
     if (!(sample.irradiance > 0.0)) return;
     const auto segment = tracer.casts_shadows() ? shadow_segment(tracer, start, sample.target) : std::nullopt;
     if (!segment) {
@@ -201,6 +205,7 @@ class BackwardGoal : public GoalBase {
   std::vector<double> found_;               // score so far, W/m² or lx
   std::vector<double> direct_;              // direct irradiance at the surface that was left last
   std::vector<float> cosine_;               // of the angle at which that surface was left
+  std::vector<std::uint32_t> cell_;         // of light samples there, see DirectLight::cell_of()
   std::vector<double> pending_irradiance_;  // of the light samples whose shadow rays are being traced
   std::vector<std::size_t> pending_;
   ShadowRays shadow_rays_;

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
-#include "chance/choice.hpp"
 #include "room/bounds.hpp"
 #include "room/emitter_shape.hpp"
+#include "walk/learn_selection.hpp"
 #include "walk/near_area_light.hpp"
 
 namespace lichtmc {
@@ -30,57 +29,58 @@ constexpr double on_emitter = 1e-6;
 }  // namespace
 
 DirectLight::DirectLight(const Room& room, const Tracer& tracer)
-    : room_(&room), tracer_(&tracer), power_(total_power(room)) {
-  areas_of_surface_.resize(room.surfaces.size());
-  std::vector<double> fluxes;
+    : room_(&room),
+      tracer_(&tracer),
+      source_of_emitter_(room.emitters.size(), no_source),
+      area_sources_of_surface_(room.surfaces.size()),
+      power_(total_power(room)) {
   EmissionOfRoom emission(room);
-  source_of_emitter_.assign(room.emitters.size(), 0);
   for (std::size_t n = 0; n < room.emitters.size(); ++n) {
     const double flux = room.emitters[n].power;
     if (flux == 0.0) continue;
-    source_of_emitter_[n] = sources_.size();
-    fluxes.push_back(flux);
+    const std::size_t source = sources_.size();
     visit_shape(
         room.emitters[n],
         [&](const auto& point) {
-          sources_.push_back({false, points_.size(), 1.0});
+          sources_.push_back({false, points_.size(), source, flux});
           points_.emplace_back(point, flux, n);
         },
         [&](const auto& area) {
           AreaLight light(room, area, emission.of(area), flux, tracer.locate(area.surface, 0).facet,
                           tracer.faces_in_one_plane());
-          if (!(light.area_m2() > 0.0)) {  // wholly covered
-            fluxes.pop_back();
-            return;
-          }
-          areas_of_surface_[area.surface].push_back(areas_.size());
-          sources_.push_back({true, areas_.size(), 1.0});
+          if (!(light.area_m2() > 0.0)) return;  // wholly covered
+          area_sources_of_surface_[area.surface].push_back(source);
+          sources_.push_back({true, areas_.size(), source, flux});
           areas_.push_back(std::move(light));
         });
+    if (sources_.size() > source) source_of_emitter_[n] = source;
   }
-  area_shares_.assign(areas_.size(), 1.0);
-  few_ = sources_.size() <= few;
-  if (!few_) choose_by_flux(fluxes);
+  if (sources_.size() > few) selection_.emplace(fluxes());
 }
 
-void DirectLight::choose_by_flux(const std::vector<double>& fluxes) {
-  const double sum = std::accumulate(fluxes.begin(), fluxes.end(), 0.0);
-  for (std::size_t k = 0; k < sources_.size(); ++k) {
-    sources_[k].share = fluxes[k] / sum;
-    if (sources_[k].is_area) area_shares_[sources_[k].index] = sources_[k].share;
+std::vector<double> DirectLight::fluxes() const {
+  std::vector<double> fluxes;
+  for (const LightSource& source : sources_) fluxes.push_back(source.flux);
+  return fluxes;
+}
+
+void DirectLight::learn_selection(const Scene& scene) {
+  if (!selection_) return;
+  LearnedEmitters emitters{fluxes(), std::vector<std::size_t>(sources_.size()), {}};
+  for (std::size_t n = 0; n < source_of_emitter_.size(); ++n) {
+    if (source_of_emitter_[n] != no_source) emitters.in_room[source_of_emitter_[n]] = n;
   }
-  fluxes_up_to_ = cumulative(fluxes);
+  emitters.sample = [this](std::size_t k, const ReferencePoint& reference, const Words& where) {
+    return sample_of(sources_[k], 1.0, reference, where, 0.0);
+  };
+  selection_ = lichtmc::learn_selection(scene, emitters);
 }
 
 DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, const Stream& stream, std::uint64_t number,
                                             TraceCount& count) const {
   DirectIrradiance sum;
   double variance = 0.0;
-  for (const PointLight& light : points_) {
-    const LightSample sample = light.sample_light(reference);
-    if (sample.irradiance > 0.0 && !is_blocked(*tracer_, reference, sample.target, count))
-      sum.value += sample.irradiance;
-  }
+  sum.value = irradiance_by_points(reference, count);
   if (reference.way_out) return sum;  // the walls lie between area lights, which are walls, and points outside
   for (std::size_t k = 0; k < areas_.size(); ++k) {
     if (!tracer_->casts_shadows() && areas_[k].has_closed_form() && reference.least_cosine <= 0.0) {
@@ -104,32 +104,66 @@ DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, con
   return sum;
 }
 
-LightSample DirectLight::sample_light(std::size_t k, const ReferencePoint& reference, const Words& which,
-                                      const Words& where, double forward_ratio) const {
-  const LightSource& source = sources_[few_ ? k : choose(fluxes_up_to_, unit_fine(which[0], which[1]))];
+// The shadow rays to all point lights are traced together.
+double DirectLight::irradiance_by_points(const ReferencePoint& reference, TraceCount& count) const {
+  const bool has_shadows = tracer_->casts_shadows() || reference.way_out;
+  const glm::dvec3 start = start_of(reference, *tracer_);
+  constexpr std::size_t untested = std::numeric_limits<std::size_t>::max();
+  struct Part {
+    double irradiance = 0.0;
+    std::size_t ray = untested;
+  };
+  std::vector<Part> parts;
+  ShadowRays rays;
+  for (const PointLight& light : points_) {
+    const LightSample sample = light.sample_light(reference);
+    if (!(sample.irradiance > 0.0)) continue;
+    const auto segment = has_shadows ? shadow_segment(*tracer_, start, sample.target) : std::nullopt;
+    parts.push_back({sample.irradiance, segment ? rays.size : untested});
+    if (segment) rays.add(glm::vec3(start), *segment);
+  }
+  if (rays.size > 0) tracer_->find_blocked(rays, count);
+  double sum = 0.0;
+  for (const Part& part : parts) {
+    if (part.ray == untested || rays.blocked[part.ray] == 0) sum += part.irradiance;
+  }
+  return sum;
+}
+
+LightSample DirectLight::sample_light(std::size_t k, std::uint32_t cell, const ReferencePoint& reference,
+                                      const Words& which, const Words& where, double forward_ratio) const {
+  if (!selection_) return sample_of(sources_[k], 1.0, reference, where, forward_ratio);
+  const LightSelection::Choice choice = selection_->choose(cell, unit_fine(which[0], which[1]));
+  return sample_of(sources_[choice.emitter], choice.probability, reference, where, forward_ratio);
+}
+
+// A sample of an emitter that is chosen with this probability.
+LightSample DirectLight::sample_of(const LightSource& source, double probability, const ReferencePoint& reference,
+                                   const Words& where, double forward_ratio) const {
   if (!source.is_area) {
     LightSample sample = points_[source.index].sample_light(reference);
-    if (sample.irradiance > 0.0) sample.irradiance /= source.share + forward_ratio * (sample.irradiance / power_);
+    if (sample.irradiance > 0.0) sample.irradiance /= probability + forward_ratio * (sample.irradiance / power_);
     return sample;
   }
   const AreaLight& light = areas_[source.index];
   LightSample sample = light.sample_light(reference, unit_open(where[0]), unit_open(where[1]), unit_open(where[2]));
   if (!(sample.irradiance > 0.0)) return sample;
   const double pdf_point = sample.relative / light.area_m2();
-  const double pdf_light = source.share / light.area_m2() * sample.relative;
+  const double pdf_light = probability / light.area_m2() * sample.relative;
   const double pdf_forward = forward_ratio * (sample.irradiance * pdf_point / power_);
-  sample.irradiance *= pdf_light / (pdf_light + sample.pdf_bsdf + pdf_forward) / source.share;
+  sample.irradiance *= pdf_light / (pdf_light + sample.pdf_bsdf + pdf_forward) / probability;
   return sample;
 }
 
-double DirectLight::mis_weighted_emission(const Rays& rays, std::size_t i, double cosine_here,
+double DirectLight::mis_weighted_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
                                           const FlightGeometry& flight, double forward_ratio) const {
   double sum = 0.0;
   const double pdf_bsdf = flight.pdf_bsdf(cosine_here);
-  for (const std::size_t k : areas_of_surface_[tracer_->facets()[rays.facet[i]].surface]) {
-    const double relative = areas_[k].relative_exitance(rays.facet[i], rays.s[i], rays.t[i]);
-    const double pdf_light = area_shares_[k] / areas_[k].area_m2() * relative;
-    const double radiance = areas_[k].radiance(flight.cosine_there) * relative;
+  for (const std::size_t k : area_sources_of_surface_[tracer_->facets()[rays.facet[i]].surface]) {
+    const AreaLight& light = areas_[sources_[k].index];
+    const double relative = light.relative_exitance(rays.facet[i], rays.s[i], rays.t[i]);
+    const double pdf_light = probability(cell, k) / light.area_m2() * relative;
+    const double radiance = light.radiance(flight.cosine_there) * relative;
     if (!(radiance > 0.0)) continue;
     const double pdf_forward = forward_ratio * (pi * radiance * pdf_bsdf / power_);
     sum += pi * radiance * pdf_bsdf / (pdf_light + pdf_bsdf + pdf_forward);

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -15,23 +16,31 @@
 #include "lichtmc/room.hpp"
 #include "tracer/tracer.hpp"
 #include "walk/area_light_sampling.hpp"
+#include "walk/light_selection.hpp"
 #include "walk/light_source.hpp"
 #include "walk/reference_point.hpp"
 #include "walk/visibility.hpp"
 
 namespace lichtmc {
 
+struct Scene;
+
 // An emitter with a flux, as DirectLight has it.
 struct LightSource {
   bool is_area = false;
-  std::size_t index = 0;  // into DirectLight::points() or areas()
-  double share = 1.0;     // probability that a light sample chooses it
+  std::size_t index = 0;   // into DirectLight::points() or areas()
+  std::size_t number = 0;  // among all sources
+  double flux = 0.0;       // W or lm
 };
 
 class DirectLight {
  public:
   // The room must have passed check_room(), and outlive this.
   DirectLight(const Room& room, const Tracer& tracer);
+
+  // Learns which emitters light which part of the room (learn_selection.hpp), if there are more than a few; until then,
+  // light samples choose them by flux alone. Call it before walks begin.
+  void learn_selection(const Scene& scene);
 
   // The direct irradiance at a receiver. Samples of area lights depend on (seed, number) only. Shadow rays are counted.
   DirectIrradiance irradiance_at(const ReferencePoint& reference, const Stream& stream, std::uint64_t number,
@@ -41,13 +50,18 @@ class DirectLight {
   const std::vector<PointLight>& points() const { return points_; }
   const std::vector<AreaLight>& areas() const { return areas_; }
 
-  // Number of light samples at each surface of a walk: one of every emitter if there are few, else one of one emitter,
-  // chosen with a probability proportional to its flux.
-  std::size_t light_samples_per_point() const { return few_ ? sources_.size() : 1; }
+  // Number of light samples at each surface of a walk: one of every emitter if there are few, else one of one emitter
+  // (light_selection.hpp).
+  std::size_t light_samples_per_point() const { return selection_ ? 1 : sources_.size(); }
 
-  // Light sample k (below light_samples_per_point()) at a surface of the walk. Its mean over the random words is the
-  // direct irradiance without shadows; area lights count with their weight of the balance heuristic; walks that hit
-  // them add the rest (mis_weighted_emission()).
+  // The cell of a surface point of the walk, whose table of emitters its light samples use.
+  std::uint32_t cell_of(const ReferencePoint& reference) const {
+    return selection_ ? selection_->cell_of(reference.point, reference.normal) : 0;
+  }
+
+  // Light sample k (below light_samples_per_point()) at a surface point of the walk, of this cell. Its mean over the
+  // random words is the direct irradiance without shadows; area lights count with their weight of the balance
+  // heuristic; walks that hit them add the rest (mis_weighted_emission()).
   //
   // forward_ratio, in m²: above 0 if histories from the emitters find the same paths, and contribute them to the origin
   // of the walk with the rest of the weights: n_F/(n_B p_r) for n_F such histories for n_B walks from the origin, where
@@ -60,18 +74,18 @@ class DirectLight {
   //   of a point light:             q / (q + forward_ratio e₀/ΣΦ)
   //   of the point of an area light: q p_L / (q p_L + p_hit + forward_ratio e₀/ΣΦ)
   //   of the flight that hits it:   p_hit / (q p_L + p_hit + forward_ratio e₀/ΣΦ)
-  LightSample sample_light(std::size_t k, const ReferencePoint& reference, const Words& which, const Words& where,
-                           double forward_ratio = 0.0) const;
+  LightSample sample_light(std::size_t k, std::uint32_t cell, const ReferencePoint& reference, const Words& which,
+                           const Words& where, double forward_ratio = 0.0) const;
 
-  // Flight i, which left a surface at an angle of cosine `cosine_here`, has hit the front of an area light: its
-  // weighted contribution to the direct irradiance at the surface that it left. Samples of the emitter's points and
-  // flights that hit it are combined by the balance heuristic, see area_light_sampling.hpp. Without it, light samples
-  // on a wall that touches a luminous ceiling would grow as 1/r² near the common edge. forward_ratio: see
+  // Flight i, which left a surface point of this cell at an angle of cosine `cosine_here`, has hit the front of an area
+  // light: its weighted contribution to the direct irradiance at the surface that it left. Samples of the emitter's
+  // points and flights that hit it are combined by the balance heuristic, see area_light_sampling.hpp. Without it,
+  // light samples on a wall that touches a luminous ceiling would grow as 1/r² near the common edge. forward_ratio: see
   // sample_light().
-  double mis_weighted_emission(const Rays& rays, std::size_t i, double cosine_here, const FlightGeometry& flight,
-                               double forward_ratio = 0.0) const;
+  double mis_weighted_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
+                               const FlightGeometry& flight, double forward_ratio = 0.0) const;
   bool has_area_lights() const { return !areas_.empty(); }
-  bool is_area_light(std::size_t surface) const { return !areas_of_surface_[surface].empty(); }
+  bool is_area_light(std::size_t surface) const { return !area_sources_of_surface_[surface].empty(); }
 
   // The emitter that a receiver at this point lies on, as index into Room::emitters.
   std::optional<std::size_t> emitter_at(const ReferencePoint& reference) const;
@@ -79,24 +93,30 @@ class DirectLight {
   // The source of an emitter with a flux above 0, not wholly covered; an index into Room::emitters.
   const LightSource& source_of(std::size_t emitter) const { return sources_[source_of_emitter_[emitter]]; }
   // The probability that the light samples at a surface choose this source; 1 if all are chosen.
-  double selection_probability(const LightSource& source, const ReferencePoint& /*reference*/) const {
-    return source.share;
+  double selection_probability(const LightSource& source, const ReferencePoint& reference) const {
+    return probability(cell_of(reference), source.number);
   }
 
  private:
-  void choose_by_flux(const std::vector<double>& fluxes);
+  static constexpr std::size_t no_source = std::numeric_limits<std::size_t>::max();
+
+  std::vector<double> fluxes() const;
+  double irradiance_by_points(const ReferencePoint& reference, TraceCount& count) const;
+  LightSample sample_of(const LightSource& source, double probability, const ReferencePoint& reference,
+                        const Words& where, double forward_ratio) const;
+  double probability(std::uint32_t cell, std::size_t source) const {
+    return selection_ ? selection_->probability(cell, source) : 1.0;
+  }
 
   const Room* room_;
   const Tracer* tracer_;
   std::vector<PointLight> points_;
   std::vector<AreaLight> areas_;
   std::vector<LightSource> sources_;
-  std::vector<std::size_t> source_of_emitter_;  // indices into sources_
-  std::vector<double> fluxes_up_to_;
-  std::vector<double> area_shares_;                         // of areas_: probability that a light sample chooses it
-  std::vector<std::vector<std::size_t>> areas_of_surface_;  // indices into areas_
-  bool few_ = true;
-  double power_ = 0.0;  // of all emitters of the room, W or lm
+  std::vector<std::size_t> source_of_emitter_;                     // of Room::emitters; or no_source
+  std::optional<LightSelection> selection_;                        // among sources_, unless these are few
+  std::vector<std::vector<std::size_t>> area_sources_of_surface_;  // indices into sources_
+  double power_ = 0.0;                                             // of all emitters of the room, W or lm
 };
 
 }  // namespace lichtmc

@@ -120,6 +120,21 @@ struct Launcher::Launches {
   std::array<float, batch_histories> cosine;
 };
 
+void Launcher::launch_in_turn(const Stream& stream, std::uint64_t first, std::uint32_t n,
+                              const std::vector<std::size_t>& emitters, std::size_t each, Rays& rays,
+                              std::uint32_t* photon) const {
+  const LaunchWords words(stream);
+  std::iota(photon, photon + batch_histories, 0U);
+  Launches launches;
+  words.draw_emission(first, n, launches.polar.data(), launches.azimuth.data(), launches.chance.data());
+  for (std::uint32_t begin = 0; begin < n;) {
+    const std::uint64_t turn = (first + begin) / each;
+    const auto end = static_cast<std::uint32_t>(std::min<std::uint64_t>(n, (turn + 1) * each - first));
+    launch_from(emitters[turn], launches, begin, end, words, first, rays, photon);
+    begin = end;
+  }
+}
+
 void Launcher::launch_all(const LaunchWords& words, std::uint64_t first, std::uint32_t n, Rays& rays,
                           std::uint32_t* photon, std::uint32_t* emitter) const {
   std::iota(photon, photon + batch_histories, 0U);

@@ -38,6 +38,11 @@ class Launcher {
   void launch_all(const LaunchWords& words, std::uint64_t first, std::uint32_t n, Rays& rays, std::uint32_t* photon,
                   std::uint32_t* emitter = nullptr) const;
 
+  // The same, but history h starts from emitter emitters[h/each], whatever its power; emitters: numbers in the room.
+  void launch_in_turn(const Stream& stream, std::uint64_t first, std::uint32_t n,
+                      const std::vector<std::size_t>& emitters, std::size_t each, Rays& rays,
+                      std::uint32_t* photon) const;
+
   // The emitter that starts a history, its number in the room.
   std::size_t emitter_of(const Stream& stream, std::uint64_t history) const;
 

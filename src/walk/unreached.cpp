@@ -215,7 +215,7 @@ class DarkWalks : public GoalBase {
       const auto number = static_cast<std::uint32_t>(flight * light_.light_samples_per_point() + k);
       const Words which = stream_.draw(first_history_ + photon, number, Purpose::light);
       const Words where = stream_.draw(first_history_ + photon, number, Purpose::on_light);
-      const LightSample sample = light_.sample_light(k, reference, which, where);
+      const LightSample sample = light_.sample_light(k, light_.cell_of(reference), reference, which, where);
       if (!(sample.irradiance > 0.0)) continue;
       const auto segment = shadow_segment(*scene_.tracer, glm::dvec3(start), sample.target);
       if (!segment || !scene_.tracer->is_blocked(start, *segment, traced())) return found(photon);
