@@ -12,14 +12,15 @@ namespace lichtmc {
 
 namespace {
 
-// The histories of a round: as many as leave hundreds of rounds in a run of a million photons, because a standard error
-// needs tens. More photons in a set are spread more evenly, down to a third of the variance (docs/performance.md).
-constexpr std::uint64_t histories_of_round = 4096;
-constexpr std::uint32_t most_in_set = 1024;
+// The histories of a round for each receiver: few, because a standard error needs tens of rounds, also in short runs.
+// More photons in a set are spread more evenly: 32 have 0.7 times the variance of independent ones, 1024 have 0.35 times
+// (docs/performance.md).
+constexpr std::uint64_t histories_of_round = 8192;
+constexpr std::uint32_t most_of_kind = 32;
 
-// A pilot ends after this work: some tens of milliseconds.
-constexpr double pilot_work = 3e5;
-constexpr std::size_t most_pilot_receivers = 512;
+// A pilot ends after this work, some milliseconds: all pilots together take some hundredths of a second.
+constexpr double pilot_work = 1.5e4;
+constexpr std::size_t most_pilot_receivers = 128;
 
 // Work in units of one flight by Embree through a room of some thousand triangles (some 0.13 µs), measured by
 // lichtmc_bench. A room that casts no shadow is simple.
@@ -51,18 +52,19 @@ std::uint32_t power_of_two_below(double value, std::uint32_t most) {
   return std::bit_floor(static_cast<std::uint32_t>(limited));
 }
 
-// The plan for receivers with `ratio` photons for each walk; infinite: photons only, 0: walks only.
+// The plan for receivers with `ratio` photons for each walk, or the nearest that is allowed; infinite: photons only, 0:
+// walks only.
 RoundPlan plan_with(double ratio, std::size_t receivers) {
-  const double all = static_cast<double>(histories_of_round) / static_cast<double>(receivers);
-  const std::uint32_t most = power_of_two_below(all, most_in_set);
+  const std::uint32_t most =
+      power_of_two_below(static_cast<double>(histories_of_round) / static_cast<double>(receivers), most_of_kind);
   if (!(ratio > 0.0)) return {0, std::min(most, 16U)};
   if (std::isinf(ratio)) return {most, 0};
   if (ratio >= 1.0) {
-    const std::uint32_t forward = std::max(most, power_of_two_below(ratio, most_forward));
+    const std::uint32_t forward = std::max(most, power_of_two_below(ratio, most_of_kind));
     return {forward, std::max(1U, static_cast<std::uint32_t>(std::lround(forward / ratio)))};
   }
-  const std::uint32_t backward = std::max(most, power_of_two_below(1.0 / ratio, most_backward));
-  return {power_of_two_below(backward * ratio, most_forward), backward};
+  const std::uint32_t backward = std::max(most, power_of_two_below(1.0 / ratio, most_of_kind));
+  return {power_of_two_below(backward * ratio, most_of_kind), backward};
 }
 
 // What a pilot has found about a plan.
@@ -89,7 +91,19 @@ class Pilots {
     blocks_ = std::make_unique<ReceiverBlocks>(sample_, *scene.tracer);
   }
 
+  // The variance of a round of the plan, from smaller rounds with the same shares: of histories without quasi-random
+  // points it is the same.
   Trial run(const RoundPlan& plan, Estimator estimator) const {
+    const std::uint32_t common = plan.two_way() ? std::gcd(plan.forward, plan.backward) : 1;
+    Trial trial = run_rounds({plan.forward / common, plan.backward / common}, estimator);
+    trial.plan = plan;
+    trial.variance /= common;
+    trial.work *= common;
+    return trial;
+  }
+
+ private:
+  Trial run_rounds(const RoundPlan& plan, Estimator estimator) const {
     Settings settings = settings_;
     settings.estimator = estimator;
     const ReceiverWalkParts parts{room_, scene_, light_, sample_, *blocks_};
@@ -118,7 +132,6 @@ class Pilots {
     return {plan, estimator, relative_variance(sums, squares, done), work};
   }
 
- private:
   double relative_variance(const std::vector<double>& sums, const std::vector<double>& squares, double n) const {
     std::vector<double> irradiance = direct_;
     for (std::size_t k = 0; k < sums.size(); ++k) irradiance[k] += sums[k] / n;
@@ -221,7 +234,7 @@ ReceiverWalk walk_of(const RoundPlan& plan) {
 }
 
 std::uint64_t most_histories_of_round(std::uint64_t receivers) {
-  return std::max(histories_of_round, std::uint64_t{most_forward + most_backward} * receivers);
+  return std::uint64_t{2} * most_of_kind * receivers;
 }
 
 double receiver_error_floor(const std::vector<double>& irradiances) {

@@ -28,6 +28,7 @@ Receiver at(const glm::dvec3& position, const glm::dvec3& normal, double half_an
 Settings backward(Estimator estimator, Engine engine, double photons, std::uint64_t seed) {
   Settings settings = settings_of(estimator, engine, photons, seed);
   settings.measured = Measured::receivers;
+  settings.receiver_walk = ReceiverWalk::backward;
   return settings;
 }
 
