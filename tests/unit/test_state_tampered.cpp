@@ -220,14 +220,14 @@ TEST_CASE("arrays and groups that are elsewhere are refused") {
 namespace {
 
 // A position in the file of a 64-bit number or of a letter.
-struct Place {
+struct StoredMember {
   std::string group;
   std::string name;
   bool is_array = false;
 };
 
-std::vector<Place> places_in(hid_t file) {
-  std::vector<Place> places;
+std::vector<StoredMember> places_in(hid_t file) {
+  std::vector<StoredMember> places;
   for (const char* group : {"/", "/settings", "/photons", "/receivers"}) {
     const Opened opened(H5Gopen2(file, group, H5P_DEFAULT), H5Gclose);
     for (unsigned k = 0; k < static_cast<unsigned>(H5Aget_num_attrs(opened)); ++k) {
@@ -248,7 +248,7 @@ class Tampering {
  public:
   explicit Tampering(unsigned seed) : random_(seed) {}
 
-  void change(hid_t file, const Place& place) {
+  void change(hid_t file, const StoredMember& place) {
     const std::string path = place.group + "/" + place.name;
     if (place.is_array) {
       const Opened array(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
@@ -301,7 +301,7 @@ TEST_CASE("if any number of a state is changed, it is refused or results are com
   const StateData good = small_state(small_settings(Estimator::weight));
   write(good, scratch.file());
   const std::string whole = bytes_of(scratch.file());
-  std::vector<Place> places;
+  std::vector<StoredMember> places;
   change_file(scratch.file(), [&](hid_t file) { places = places_in(file); });
   REQUIRE(places.size() > 70);
   Tampering tampering(1);
@@ -309,7 +309,7 @@ TEST_CASE("if any number of a state is changed, it is refused or results are com
   std::size_t refused = 0;
   for (int k = 0; k < 2000; ++k) {
     write_bytes(scratch.file(), whole);
-    const Place& place = places[random() % places.size()];
+    const StoredMember& place = places[random() % places.size()];
     change_file(scratch.file(), [&](hid_t file) { tampering.change(file, place); });
     INFO(place.group << "/" << place.name);
     try {
