@@ -18,6 +18,9 @@ namespace {
 constexpr std::uint64_t histories_of_round = 8192;
 constexpr std::uint32_t most_of_kind = 32;
 
+// Walks of a round, if there are no photons: with 32 from each, 1000 receivers leave 30 rounds of a million.
+constexpr std::uint64_t walks_of_round = 32768;
+
 // A pilot ends after this work, some milliseconds: all pilots together take some hundredths of a second.
 constexpr double pilot_work = 1.5e4;
 constexpr std::size_t most_pilot_receivers = 128;
@@ -26,7 +29,7 @@ constexpr std::size_t most_pilot_receivers = 128;
 // lichtmc_bench. A room that casts no shadow is simple.
 struct UnitCosts {
   double flight = 1.0;
-  double shadow_ray = 1.0;
+  double shadow_ray = 0.45;
   double bundled_ray = 0.22;
   double connection = 0.012;
 };
@@ -57,7 +60,10 @@ std::uint32_t power_of_two_below(double value, std::uint32_t most) {
 RoundPlan plan_with(double ratio, std::size_t receivers) {
   const std::uint32_t most =
       power_of_two_below(static_cast<double>(histories_of_round) / static_cast<double>(receivers), most_of_kind);
-  if (!(ratio > 0.0)) return {0, std::min(most, 16U)};
+  if (!(ratio > 0.0)) {
+    const double walks = static_cast<double>(walks_of_round) / static_cast<double>(receivers);
+    return {0, static_cast<std::uint32_t>(std::clamp(walks, 1.0, static_cast<double>(most_of_kind)))};
+  }
   if (std::isinf(ratio)) return {most, 0};
   if (ratio >= 1.0) {
     const std::uint32_t forward = std::max(most, power_of_two_below(ratio, most_of_kind));

@@ -227,8 +227,11 @@ class CuboidTracer final : public Tracer {
     const double rounding = 4.0 * 0x1p-24 * size / glm::length(glm::dvec3(segment));
     return enters > 0.0 && leaves - enters > rounding;
   }
-  void find_blocked(ShadowRays& rays, TraceCount& /*count*/) const override {
-    std::fill_n(rays.blocked.begin(), rays.size, std::uint8_t{0});
+  void find_blocked(ShadowRays& rays, TraceCount& count) const override {
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      const bool blocked = is_blocked({rays.x[i], rays.y[i], rays.z[i]}, {rays.dx[i], rays.dy[i], rays.dz[i]}, count);
+      rays.blocked[i] = blocked ? 1 : 0;
+    }
   }
   bool casts_shadows() const override { return false; }
 

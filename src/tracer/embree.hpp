@@ -36,6 +36,9 @@ class EmbreeQuery {
   void occluded_bundle(const int* valid, RTCScene scene, RTCRay16& rays) {
     rtcOccluded16(valid, scene, &rays, &bundle_);
   }
+  void occluded16(const int* valid, RTCScene scene, RTCRay16& rays) {
+    rtcOccluded16(valid, scene, &rays, &occluded_);
+  }
 
  private:
   RTCIntersectArguments arguments_{};
@@ -63,6 +66,9 @@ class EmbreeQuery {
   // Rays with a common start and similar directions.
   void occluded_bundle(const int* valid, RTCScene scene, RTCRay16& rays) {
     rtcOccluded16(valid, scene, &bundle_, &rays);
+  }
+  void occluded16(const int* valid, RTCScene scene, RTCRay16& rays) {
+    rtcOccluded16(valid, scene, &context_, &rays);
   }
 
  private:

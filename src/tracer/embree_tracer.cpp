@@ -113,8 +113,16 @@ class EmbreeTracer final : public Tracer {
 
   void find_blocked(ShadowRays& rays, TraceCount& count) const override {
     EmbreeQuery query;
-    for (std::size_t i = 0; i < rays.size; ++i)
-      rays.blocked[i] = is_occluded(query, rays.starts[i], rays.segments[i]) ? 1 : 0;
+    RTCRay16 packet{};
+    std::fill_n(packet.mask, shadow_packet_size, 0xFFFFFFFF);
+    alignas(64) std::array<int, shadow_packet_size> valid{};
+    for (std::size_t first = 0; first < rays.size; first += shadow_packet_size) {
+      for (std::size_t k = 0; k < shadow_packet_size; ++k) valid[k] = first + k < rays.size ? -1 : 0;
+      fill(packet, rays, first);
+      query.occluded16(valid.data(), scene_.get(), packet);
+      // Embree reports occlusion by tfar = −∞.
+      for (std::size_t k = 0; k < shadow_packet_size; ++k) rays.blocked[first + k] = packet.tfar[k] < 0.0F ? 1 : 0;
+    }
     count.rays += rays.size;
     count.shadow_rays += rays.size;
   }
@@ -227,6 +235,18 @@ class EmbreeTracer final : public Tracer {
   }
 
   static constexpr std::size_t packet_size = 8;
+  static constexpr std::size_t shadow_packet_size = 16;
+
+  static void fill(RTCRay16& packet, const ShadowRays& rays, std::size_t first) {
+    std::copy_n(&rays.x[first], shadow_packet_size, packet.org_x);
+    std::copy_n(&rays.y[first], shadow_packet_size, packet.org_y);
+    std::copy_n(&rays.z[first], shadow_packet_size, packet.org_z);
+    std::copy_n(&rays.dx[first], shadow_packet_size, packet.dir_x);
+    std::copy_n(&rays.dy[first], shadow_packet_size, packet.dir_y);
+    std::copy_n(&rays.dz[first], shadow_packet_size, packet.dir_z);
+    std::fill_n(packet.tnear, shadow_packet_size, 0.0F);
+    std::fill_n(packet.tfar, shadow_packet_size, 1.0F);
+  }
 
   // Copies flights first … first + 7 into a packet. The arrays of rays have whole_lanes() elements.
   static void fill(RTCRayHit8& packet, const Rays& rays, std::size_t first) {

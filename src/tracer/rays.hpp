@@ -55,22 +55,32 @@ struct Rays {
 
 // Straight segments between two points, to be tested for a surface between them.
 struct ShadowRays {
+  // For `capacity` segments, and more if they are added; the arrays have whole_lanes(size) elements at least.
+  explicit ShadowRays(std::size_t capacity = 0) { reserve(capacity); }
+
   void clear() { size = 0; }
   void add(const glm::vec3& start, const glm::vec3& segment) {
-    if (size == starts.size()) {
-      starts.emplace_back();
-      segments.emplace_back();
-      blocked.emplace_back();
-    }
-    starts[size] = start;
-    segments[size] = segment;
+    if (size == x.size()) reserve(2 * size + 1);
+    x[size] = start.x;
+    y[size] = start.y;
+    z[size] = start.z;
+    dx[size] = segment.x;
+    dy[size] = segment.y;
+    dz[size] = segment.z;
     ++size;
   }
 
   std::size_t size = 0;
-  std::vector<glm::vec3> starts;      // in the tracer's coordinates
-  std::vector<glm::vec3> segments;    // from start to end
+  std::vector<float> x, y, z;         // start, in the tracer's coordinates
+  std::vector<float> dx, dy, dz;      // from start to end
   std::vector<std::uint8_t> blocked;  // 1: a surface lies between
+
+ private:
+  void reserve(std::size_t capacity) {
+    const std::size_t whole = whole_lanes(capacity);
+    for (auto* numbers : {&x, &y, &z, &dx, &dy, &dz}) numbers->resize(whole);
+    blocked.resize(whole);
+  }
 };
 
 // Points that shadow rays of one start lead to; the arrays have whole_lanes() elements.

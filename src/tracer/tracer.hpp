@@ -116,6 +116,7 @@ class Tracer {
   // A point and a vector in the tracer's coordinates → the world, in m; and back.
   glm::dvec3 world_point(const glm::dvec3& point) const { return origin_ + to_world_ * point; }
   glm::dvec3 world_vector(const glm::dvec3& vector) const { return to_world_ * vector; }
+  const glm::dmat3& to_world() const { return to_world_; }
   glm::dvec3 tracer_point(const glm::dvec3& world_m) const { return from_world_ * (world_m - origin_); }
 
   const std::vector<Facet>& facets() const { return facets_; }

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
+#include <utility>
 
-#include <glm/geometric.hpp>
-
-#include "base/frame.hpp"
-#include "chance/places.hpp"
 #include "walk/choose_policy.hpp"
+#include "walk/first_flights.hpp"
+#include "walk/surface_light.hpp"
+#include "walk/visibility.hpp"
 
 namespace lichtmc {
 
@@ -19,23 +18,25 @@ template <class Policy, class Origins>
 class BackwardGoal : public GoalBase {
  public:
   BackwardGoal(const Scene& scene, const DirectLight& light, const Origins& origins, const Stream& stream,
-               double forward_per_walk)
+               const RoundPlan& plan)
       : scene_(&scene),
         light_(&light),
         origins_(&origins),
         stream_(stream),
-        forward_per_walk_(forward_per_walk),
+        group_(plan.backward),
+        forward_per_walk_(plan.forward_per_walk()),
+        points_(plan.backward, Origins::is_extended),
+        first_flights_(batch_histories),
+        surface_light_(light, *scene.tracer, stream),
         ids_(batch_histories),
         origin_(batch_histories),
         sample_(batch_histories),
-        irradiance_(batch_histories),
+        found_(batch_histories),
         forward_ratio_(batch_histories),
         factor_(batch_histories),
-        found_(batch_histories),
         direct_(batch_histories),
-        cosine_(batch_histories),
-        cell_(batch_histories),
-        pending_irradiance_(batch_histories) {}
+        cosine_(whole_lanes(batch_histories)),
+        cell_(batch_histories) {}
 
   // Photon i will start from an origin, as its sample `sample`.
   void prepare(std::size_t i, std::uint64_t origin, std::uint64_t sample) {
@@ -46,105 +47,119 @@ class BackwardGoal : public GoalBase {
   void begin(BackwardCount& count) { count_ = &count; }
 
   // What photon i, which has ended, contributes to its origin, W/m² or lx.
-  double irradiance(std::uint32_t i) const { return irradiance_[i]; }
+  double irradiance(std::uint32_t i) const { return found_[i] * factor_[i]; }
   std::uint64_t origin(std::uint32_t i) const { return origin_[i]; }
   std::uint64_t sample(std::uint32_t i) const { return sample_[i]; }
 
   // The first flight leaves by Lambert's law within the field of view: the receiver weights radiance by the cosine.
   void start(Wave& wave, std::uint32_t n) {
     flight_ = 0;
+    std::uint64_t last_set = 0;
+    ways_out_.clear();
     for (std::uint32_t i = 0; i < n; ++i) {
-      const ReferencePoint reference = origins_->start(origin_[i], sample_[i], ids_[i], stream_, wave.rays, i);
-      const Words words = stream_.draw(ids_[i], 0, Purpose::emission);
-      const double view = reference.squared_sine();
-      factor_[i] = view * origins_->uncovered_share(origin_[i]);
-      const ConeDirection flight =
-          sample_cosine_cone(frame_about(reference.normal), view, unit_open(words[0]), unit_open(words[1]));
-      wave.rays.set_direction(i,
-                              glm::vec3(reference.way_out.value_or(scene_->tracer->directions() * flight.direction)));
-      cosine_[i] = static_cast<float>(flight.cosine);
+      const std::uint64_t set = sample_[i] / group_ * origins_->size() + origin_[i];
+      if (i == 0 || set != last_set) points_.begin(stream_, last_set = set);
+      const OriginView view = leave_origin(i, wave.rays);
+      const auto number = static_cast<std::uint32_t>(sample_[i] % group_);
+      first_flights_.set(i, view, points_.polar(number), points_.azimuth(number));
+      if (view.way_out) ways_out_.push_back({i, *view.way_out});
+      factor_[i] = view.squared_sine() * origins_->uncovered_share(origin_[i]);
       forward_ratio_[i] = 0.0;
       found_[i] = 0.0;
       direct_[i] = 0.0;
     }
+    first_flights_.aim(n, scene_->tracer->directions(), wave.rays, cosine_.data());
+    for (const auto& [i, direction] : ways_out_) wave.rays.set_direction(i, direction);
   }
   void number_histories(Wave& wave) const {
     for (std::size_t i = 0; i < wave.rays.size; ++i) wave.history[i] = ids_[wave.photon[i]];
   }
   TraceCount& traced() { return count_->traced; }
 
-  // Walks from tiles start on uncovered parts only, except by rounding.
-  void cover(const Wave& wave, std::size_t i) { finish(wave, i); }
   // Escape through an opening counts as absorption by ρ = 0, also if the opening is due to rounding.
   void escape(const Wave& wave, std::size_t i) {
-    if constexpr (!Policy::scores_every_impact) found_[i] += direct_[i];
-    finish(wave, i);
+    if constexpr (!Policy::scores_every_impact) found_[wave.photon[i]] += direct_[i];
   }
 
   // A flight that hits an area light adds its weighted emission to the direct light at the surface that it left. The
   // direct light at the receiver itself is computed elsewhere.
-  void land(const Wave& wave) {
+  void land(Wave& wave) {
     ++flight_;
     count_->impacts += wave.rays.size;
+    find_surfaces(wave);
     if (flight_ == 1 && forward_per_walk_ > 0.0) weigh_first_impacts(wave);
     if (flight_ == 1 || !light_->has_area_lights()) return;
     const Rays& rays = wave.rays;
     const Tracer& tracer = *scene_->tracer;
     for (std::size_t i = 0; i < rays.size; ++i) {
-      const Facet& facet = tracer.facets()[rays.facet[i]];
-      if (rays.behind[i] != 0 || !light_->is_area_light(facet.surface)) continue;
+      if (rays.behind[i] != 0 || !light_->is_area_light(wave.surface[i])) continue;
       const FlightGeometry flight = flight_geometry(tracer, rays, i);
       if (flight.degenerate()) continue;
+      const std::uint32_t photon = wave.photon[i];
       const double irradiance =
-          light_->mis_weighted_emission(rays, i, cell_[i], double{cosine_[i]}, flight, forward_ratio_[wave.photon[i]]);
+          light_->mis_weighted_emission(rays, i, cell_[i], double{cosine_[i]}, flight, forward_ratio_[photon]);
       if constexpr (Policy::scores_every_impact) {
-        found_[i] += (Policy::carries_weight ? wave.weight[i] : 1.0) * irradiance;
+        found_[photon] += weight(wave, i) * irradiance;
       } else {
         direct_[i] += irradiance;
       }
     }
   }
 
-  static constexpr bool watches_absorption = true;
+  static constexpr bool in_lanes = Policy::chooses_in_lanes;
+  static constexpr bool watches_absorption = !Policy::scores_every_impact;
   // Variant 3: only the direct light at the last surface that the photon survived scores.
   void absorb(const Wave& wave, std::size_t i, double reflectance) {
-    if constexpr (!Policy::scores_every_impact) found_[i] += direct_[i] / (1.0 - reflectance);
-    finish(wave, i);
+    if constexpr (!Policy::scores_every_impact) found_[wave.photon[i]] += direct_[i] / (1.0 - reflectance);
+  }
+  void absorb_all(const Wave& wave, const std::uint32_t* at, std::size_t n) {
+    for (std::size_t k = 0; k < n; ++k) absorb(wave, at[k], scene_->reflectance_of[wave.surface[at[k]]]);
   }
 
   // Light sampling at every surface that a photon survived.
-  void reflect(const Wave& wave, std::uint32_t flight) {
-    const Rays& rays = wave.rays;
-    for (std::size_t i = 0; i < rays.size; ++i) direct_[i] = 0.0;
-    for (std::size_t k = 0; k < light_->light_samples_per_point(); ++k) {
-      shadow_rays_.clear();
-      pending_.clear();
-      for (std::size_t i = 0; i < rays.size; ++i) add_light_sample(wave, flight, i, k);
-      if (shadow_rays_.size == 0) continue;
-      scene_->tracer->find_blocked(shadow_rays_, count_->traced);
-      for (std::size_t n = 0; n < pending_.size(); ++n) {
-        if (shadow_rays_.blocked[n] == 0) direct_[pending_[n]] += pending_irradiance_[pending_[n]];
+  void reflect(Wave& wave, std::uint32_t flight) {
+    if (!light_->takes_all() || light_->has_area_lights()) number_histories(wave);
+    surface_light_.sample(wave, flight, forward_per_walk_ > 0.0 ? forward_ratio_.data() : nullptr, count_->traced);
+    const std::vector<double>& irradiance = surface_light_.irradiance();
+    for (std::size_t i = 0; i < wave.rays.size; ++i) {
+      if constexpr (Policy::scores_every_impact) {
+        found_[wave.photon[i]] += weight(wave, i) * irradiance[i];
+      } else {
+        direct_[i] = irradiance[i];
       }
     }
-    if constexpr (Policy::scores_every_impact) {
-      for (std::size_t i = 0; i < rays.size; ++i)
-        found_[i] += (Policy::carries_weight ? wave.weight[i] : 1.0) * direct_[i];
-    }
+    if (!light_->takes_all() && light_->has_area_lights())
+      std::copy_n(surface_light_.cells().begin(), wave.rays.size, cell_.begin());
   }
 
-  void cut_off(const Wave& wave, std::size_t i) { finish(wave, i); }
   float* cosines() { return cosine_.data(); }
   void move(Wave& wave, std::size_t from, std::size_t to) {
     // land() needs the geometry of each flight.
     wave.rays.set_direction(to, wave.rays.direction(from));
     wave.rays.length[to] = wave.rays.length[from];
-    found_[to] = found_[from];
     direct_[to] = direct_[from];
     cosine_[to] = cosine_[from];
     cell_[to] = cell_[from];
   }
 
  private:
+  static double weight(const Wave& wave, std::size_t i) { return Policy::carries_weight ? wave.weight[i] : 1.0; }
+
+  OriginView leave_origin(std::size_t i, Rays& rays) const {
+    if constexpr (Origins::is_extended) {
+      const auto number = static_cast<std::uint32_t>(sample_[i] % group_);
+      return origins_->start(origin_[i], unit_open(points_.place(number, 0)), unit_open(points_.place(number, 1)), rays,
+                             i);
+    } else {
+      return origins_->start(origin_[i], rays, i);
+    }
+  }
+
+  void find_surfaces(Wave& wave) const {
+    const std::uint32_t* surface_of = scene_->surface_of.data();
+    for (std::size_t i = 0; i < wave.rays.size; ++i) wave.surface[i] = surface_of[wave.rays.facet[i]];
+  }
+
   // forward_ratio of DirectLight::sample_light(), from the density of the first impact; factor_ is the share of
   // Lambert's law within the field of view. A flight without length or along its surface is not found from the other
   // side.
@@ -157,58 +172,28 @@ class BackwardGoal : public GoalBase {
     }
   }
 
-  // Draws light sample k for photon i; if something may cast a shadow, adds a shadow ray to their wave.
-  void add_light_sample(const Wave& wave, std::uint32_t flight, std::size_t i, std::size_t k) {
-    const Rays& rays = wave.rays;
-    const Tracer& tracer = *scene_->tracer;
-    const glm::dvec3 start(rays.start(i));
-    const glm::dvec3 normal = world_normal(tracer, tracer.facets()[rays.facet[i]]);
-    const ReferencePoint reference{tracer.world_point(start), rays.behind[i] != 0 ? -normal : normal, 0.0};
-    const std::uint64_t id = ids_[wave.photon[i]];
-    // Separate random words for each emitter at each surface.
-    const auto number = static_cast<std::uint32_t>(flight * light_->light_samples_per_point() + k);
-    const Words which = stream_.draw(id, number, Purpose::light);
-    const Words where = light_->has_area_lights() ? stream_.draw(id, number, Purpose::on_light) : Words{};
-    if (k == 0) cell_[i] = light_->cell_of(reference);
-    const LightSample sample =
-        light_->sample_light(k, cell_[i], reference, which, where, forward_ratio_[wave.photon[i]]);
-    if (!(sample.irradiance > 0.0)) return;
-    const auto segment = tracer.casts_shadows() ? shadow_segment(tracer, start, sample.target) : std::nullopt;
-    if (!segment) {
-      direct_[i] += sample.irradiance;
-      return;
-    }
-    pending_irradiance_[i] = sample.irradiance;
-    pending_.push_back(i);
-    shadow_rays_.add(rays.start(i), *segment);
-  }
-
-  void finish(const Wave& wave, std::size_t i) {
-    const std::uint32_t photon = wave.photon[i];
-    irradiance_[photon] = found_[i] * factor_[photon];
-  }
-
   const Scene* scene_;
   const DirectLight* light_;
   const Origins* origins_;
   Stream stream_;
+  std::uint32_t group_;      // walks in a round
   double forward_per_walk_;  // histories from the emitters for each walk, whose contributions are weighted together
+  RoundPoints points_;
+  FirstFlights first_flights_;
+  SurfaceLight surface_light_;
+  std::vector<std::pair<std::uint32_t, glm::vec3>> ways_out_;
   // By the number of the photon:
   std::vector<std::uint64_t> ids_;
   std::vector<std::uint64_t> origin_;
   std::vector<std::uint64_t> sample_;
-  std::vector<double> irradiance_;     // when it has ended
+  std::vector<double> found_;          // score so far, W/m² or lx
   std::vector<double> forward_ratio_;  // m², of its first impact, see DirectLight::sample_light()
   std::vector<double> factor_;         // squared sine of the half angle of the field of view (the fraction of a uniform
                                        // hemisphere), times the uncovered share of the origin
   // By the position in the wave:
-  std::vector<double> found_;               // score so far, W/m² or lx
-  std::vector<double> direct_;              // direct irradiance at the surface that was left last
-  std::vector<float> cosine_;               // of the angle at which that surface was left
-  std::vector<std::uint32_t> cell_;         // of light samples there, see DirectLight::cell_of()
-  std::vector<double> pending_irradiance_;  // of the light samples whose shadow rays are being traced
-  std::vector<std::size_t> pending_;
-  ShadowRays shadow_rays_;
+  std::vector<double> direct_;       // direct irradiance at the surface that was left last
+  std::vector<float> cosine_;        // of the angle at which that surface was left
+  std::vector<std::uint32_t> cell_;  // of light samples there, see DirectLight::cell_of()
   std::uint32_t flight_ = 0;
   BackwardCount* count_ = nullptr;
 };
@@ -220,7 +205,7 @@ class PolicyBackwardWalk final : public BackwardWalk {
                      const RoundPlan& plan, std::uint64_t seed, std::uint32_t max_flights)
       : scale_(scale),
         group_(plan.backward),
-        goal_(scene, light, origins, Stream(seed, WalkDirection::backward), plan.forward_per_walk()),
+        goal_(scene, light, origins, Stream(seed, WalkDirection::backward), plan),
         kernel_(scene, Stream(seed, WalkDirection::backward), max_flights) {}
 
   void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,
@@ -276,8 +261,9 @@ std::unique_ptr<BackwardWalk> walk_from(const Scene& scene, const DirectLight& l
   return choose_policy(
       settings.estimator, settings.max_bounces, scene.has_reflectance_maps(),
       [&]<class Policy, class Reflectance>(std::uint32_t max_flights) -> std::unique_ptr<BackwardWalk> {
-        return std::make_unique<PolicyBackwardWalk<Policy, Reflectance, Origins>>(scene, light, origins, scale, plan,
-                                                                                  settings.seed, max_flights);
+        using Own = std::conditional_t<std::is_same_v<Policy, RouletteWeightPolicy>, EarlyRouletteWeightPolicy, Policy>;
+        return std::make_unique<PolicyBackwardWalk<Own, Reflectance, Origins>>(scene, light, origins, scale, plan,
+                                                                               settings.seed, max_flights);
       });
 }
 
@@ -294,12 +280,13 @@ std::uint64_t BackwardScale::score(double irradiance) const {
   return units < static_cast<double>(largest_score) ? static_cast<std::uint64_t>(units + 0.5) : largest_score;
 }
 
-ReferencePoint ReceiverOrigins::start(std::uint64_t receiver, std::uint64_t /*sample*/, std::uint64_t /*id*/,
-                                      const Stream& /*stream*/, Rays& rays, std::size_t i) const {
-  const ReferencePoint& reference = (*receivers_)[receiver];
-  rays.facet[i] = no_facet;
-  rays.set_start(i, glm::vec3(start_of(reference, *tracer_)));
-  return reference;
+ReceiverOrigins::ReceiverOrigins(const std::vector<ReferencePoint>& receivers, const Tracer& tracer) {
+  places_.reserve(receivers.size());
+  for (const ReferencePoint& one : receivers) {
+    Place place{glm::vec3(start_of(one, tracer)), {glm::vec3(one.normal), one.least_cosine, std::nullopt}};
+    if (one.way_out) place.view.way_out = glm::vec3(*one.way_out);
+    places_.push_back(place);
+  }
 }
 
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,

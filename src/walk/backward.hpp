@@ -16,6 +16,7 @@
 #include "lichtmc/settings.hpp"
 #include "walk/direct_light.hpp"
 #include "walk/kernel.hpp"
+#include "walk/origin_view.hpp"
 #include "walk/round_plan.hpp"
 #include "walk/scene.hpp"
 #include "walk/tile_faces.hpp"
@@ -98,24 +99,30 @@ class BackwardWalk {
 };
 
 // The origins of backward walks. Origins are numbered; walks from one are grouped in rounds, of which only the sum is
-// recorded, so that the walks of a round may be stratified: of `group` walks, unless a plan says otherwise. start()
-// sets where photon i starts and returns its reference point. uncovered_share(): the share of an origin that receives
-// light, from which its walks start.
+// recorded, so that the walks of a round may be spread evenly (first_flights.hpp): of `group` walks, unless a plan says
+// otherwise. start() sets where photon i starts; origins that are extended have a place for each u, v in (0, 1).
+// uncovered_share(): the share of an origin that receives light, from which its walks start.
 class ReceiverOrigins {
  public:
-  // receivers: see receiver_points.hpp; they and the tracer must outlive this.
-  ReceiverOrigins(const std::vector<ReferencePoint>& receivers, const Tracer& tracer)
-      : receivers_(&receivers), tracer_(&tracer) {}
+  // receivers: see receiver_points.hpp.
+  ReceiverOrigins(const std::vector<ReferencePoint>& receivers, const Tracer& tracer);
 
   static constexpr std::uint32_t group = 1;
-  std::size_t size() const { return receivers_->size(); }
+  static constexpr bool is_extended = false;
+  std::size_t size() const { return places_.size(); }
   static double uncovered_share(std::uint64_t /*receiver*/) { return 1.0; }
-  ReferencePoint start(std::uint64_t receiver, std::uint64_t sample, std::uint64_t id, const Stream& stream, Rays& rays,
-                       std::size_t i) const;
+  OriginView start(std::uint64_t receiver, Rays& rays, std::size_t i) const {
+    rays.facet[i] = no_facet;
+    rays.set_start(i, places_[receiver].start);
+    return places_[receiver].view;
+  }
 
  private:
-  const std::vector<ReferencePoint>* receivers_;
-  const Tracer* tracer_;
+  struct Place {
+    glm::vec3 start;  // tracer's coordinates
+    OriginView view;
+  };
+  std::vector<Place> places_;
 };
 
 // A walk for one thread, from receivers or from the faces of tiles; scene, light and origins must outlive it. plan: a

@@ -71,7 +71,7 @@ void DirectLight::learn_selection(const Scene& scene) {
     if (source_of_emitter_[n] != no_source) emitters.in_room[source_of_emitter_[n]] = n;
   }
   emitters.sample = [this](std::size_t k, const ReferencePoint& reference, const Words& where) {
-    return sample_of(sources_[k], 1.0, reference, where, 0.0);
+    return sample_of({k, 1.0}, reference, where, 0.0);
   };
   selection_ = lichtmc::learn_selection(scene, emitters);
 }
@@ -132,26 +132,25 @@ double DirectLight::irradiance_by_points(const ReferencePoint& reference, TraceC
 
 LightSample DirectLight::sample_light(std::size_t k, std::uint32_t cell, const ReferencePoint& reference,
                                       const Words& which, const Words& where, double forward_ratio) const {
-  if (!selection_) return sample_of(sources_[k], 1.0, reference, where, forward_ratio);
-  const LightSelection::Choice choice = selection_->choose(cell, unit_fine(which[0], which[1]));
-  return sample_of(sources_[choice.emitter], choice.probability, reference, where, forward_ratio);
+  const Choice choice = takes_all() ? Choice{k, 1.0} : choose_source(cell, unit_fine(which[0], which[1]));
+  return sample_of(choice, reference, where, forward_ratio);
 }
 
-// A sample of an emitter that is chosen with this probability.
-LightSample DirectLight::sample_of(const LightSource& source, double probability, const ReferencePoint& reference,
-                                   const Words& where, double forward_ratio) const {
+LightSample DirectLight::sample_of(const Choice& choice, const ReferencePoint& reference, const Words& where,
+                                   double forward_ratio) const {
+  const LightSource& source = sources_[choice.source];
   if (!source.is_area) {
     LightSample sample = points_[source.index].sample_light(reference);
-    if (sample.irradiance > 0.0) sample.irradiance /= probability + forward_ratio * (sample.irradiance / power_);
+    if (sample.irradiance > 0.0) sample.irradiance = weighted(sample.irradiance, choice.probability, forward_ratio);
     return sample;
   }
   const AreaLight& light = areas_[source.index];
   LightSample sample = light.sample_light(reference, unit_open(where[0]), unit_open(where[1]), unit_open(where[2]));
   if (!(sample.irradiance > 0.0)) return sample;
   const double pdf_point = sample.relative / light.area_m2();
-  const double pdf_light = probability / light.area_m2() * sample.relative;
+  const double pdf_light = choice.probability / light.area_m2() * sample.relative;
   const double pdf_forward = forward_ratio * (sample.irradiance * pdf_point / power_);
-  sample.irradiance *= pdf_light / (pdf_light + sample.pdf_bsdf + pdf_forward) / probability;
+  sample.irradiance *= pdf_light / (pdf_light + sample.pdf_bsdf + pdf_forward) / choice.probability;
   return sample;
 }
 

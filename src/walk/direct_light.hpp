@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "chance/choice.hpp"
 #include "chance/stream.hpp"
 #include "lichtmc/room.hpp"
 #include "tracer/tracer.hpp"
@@ -54,6 +55,22 @@ class DirectLight {
   // (light_selection.hpp).
   std::size_t light_samples_per_point() const { return selection_ ? 1 : sources_.size(); }
 
+  // The emitters that light samples choose from, numbered from 0; a point light, or null for an area light.
+  std::size_t sources() const { return sources_.size(); }
+  const PointLight* point_light(std::size_t source) const {
+    return sources_[source].is_area ? nullptr : &points_[sources_[source].index];
+  }
+  // Whether light sample k is of source k; if not, a source is chosen for it by u, uniform in [0, 1).
+  bool takes_all() const { return !selection_; }
+  struct Choice {
+    std::size_t source = 0;
+    double probability = 1.0;
+  };
+  Choice choose_source(std::uint32_t cell, double u) const {
+    const LightSelection::Choice choice = selection_->choose(cell, u);
+    return {choice.emitter, choice.probability};
+  }
+
   // The cell of a surface point of the walk, whose table of emitters its light samples use.
   std::uint32_t cell_of(const ReferencePoint& reference) const {
     return selection_ ? selection_->cell_of(reference.point, reference.normal) : 0;
@@ -76,6 +93,13 @@ class DirectLight {
   //   of the flight that hits it:   p_hit / (q p_L + p_hit + forward_ratio e₀/ΣΦ)
   LightSample sample_light(std::size_t k, std::uint32_t cell, const ReferencePoint& reference, const Words& which,
                            const Words& where, double forward_ratio = 0.0) const;
+  // The same for a source that is chosen already.
+  LightSample sample_of(const Choice& choice, const ReferencePoint& reference, const Words& where,
+                        double forward_ratio) const;
+  // The same for a point light: its irradiance (above 0, without shadow) with its weight.
+  double weighted(double irradiance, double probability, double forward_ratio) const {
+    return irradiance / (probability + forward_ratio * (irradiance / power_));
+  }
 
   // Flight i, which left a surface point of this cell at an angle of cosine `cosine_here`, has hit the front of an area
   // light: its weighted contribution to the direct irradiance at the surface that it left. Samples of the emitter's
@@ -102,8 +126,6 @@ class DirectLight {
 
   std::vector<double> fluxes() const;
   double irradiance_by_points(const ReferencePoint& reference, TraceCount& count) const;
-  LightSample sample_of(const LightSource& source, double probability, const ReferencePoint& reference,
-                        const Words& where, double forward_ratio) const;
   double probability(std::uint32_t cell, std::size_t source) const {
     return selection_ ? selection_->probability(cell, source) : 1.0;
   }

@@ -50,7 +50,8 @@ class GoalBase {
   // Array for the cosines of the angles at which photons leave surfaces, filled by the kernel; or null.
   float* cosines() { return nullptr; }
 
-  // Whether the kernel calls absorb(); and whether it may process survival in lanes. Then move() does nothing,
+  // Whether the kernel calls absorb(); and whether it may process survival in lanes. Then move() is called for photons
+  // that others have left by escape only: it moves what land() reads, and no data of the wave for the next flight;
   // absorb_all() is called instead of absorb(), and land() must set Wave::surface if the policy reads it, as those of
   // the estimators do.
   static constexpr bool watches_absorption = false;

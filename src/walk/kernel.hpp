@@ -7,6 +7,7 @@
 // estimators.hpp), the source of ρ (Reflectance), and the purpose of the walk (Goal, see goal.hpp).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -37,6 +38,12 @@ struct MappedReflectance {
   static double at(const Scene& scene, const Rays& rays, std::size_t i) { return scene.reflectance(rays, i); }
 };
 
+// A policy whose roulette is played before a flight, after the goal has collected light at the surface.
+template <class Policy>
+concept PlaysBeforeFlight = requires(Wave wave, std::uint8_t* marks, Ends ends) {
+  Policy::play(wave, marks, ends);
+};
+
 template <class Policy, class Reflectance, WalkGoal Goal>
 class Kernel {
  public:
@@ -60,6 +67,7 @@ class Kernel {
       survive_or_be_absorbed(goal);
       scatter(goal);
       goal.reflect(wave_, flight);
+      if constexpr (PlaysBeforeFlight<Policy>) play_before_flight(goal);
       const bool abandoned = flight % abandon_interval == 0 && abandon() && flight > abandon_after;
       if (abandoned || flight == max_flights_) cut_off(goal);
       if (abandoned) ended = false;
@@ -107,6 +115,10 @@ class Kernel {
   void remove_escaped(Goal& goal) {
     Rays& rays = wave_.rays;
     if (none_escaped(rays)) return;
+    if constexpr (Goal::in_lanes) {
+      remove_escaped_in_lanes(goal);
+      return;
+    }
     std::size_t kept = 0;
     for (std::size_t i = 0; i < rays.size; ++i) {
       if (rays.facet[i] == no_facet) {
@@ -116,6 +128,24 @@ class Kernel {
       keep(i, kept, goal);
     }
     rays.size = kept;
+  }
+
+  // The same result, several photons at a time.
+  void remove_escaped_in_lanes(Goal& goal) {
+    const std::size_t n = wave_.rays.size;
+    std::array<std::uint8_t, batch_histories> marks{};
+    for (std::size_t i = 0; i < n; ++i) marks[i] = wave_.rays.facet[i] != no_facet ? 1 : 0;
+    choose_marked(marks.data(), n, survivors_);
+    list_ended(n, survivors_);
+    for (std::size_t k = 0; k < n - survivors_.count; ++k) goal.escape(wave_, survivors_.ended_at[k]);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (marks[i] == 0) continue;
+      wave_.weight[kept] = wave_.weight[i];
+      goal.move(wave_, i, kept++);
+    }
+    compact_wave(wave_, survivors_);
+    wave_.rays.size = survivors_.count;
   }
 
   static bool none_escaped(const Rays& rays) {
@@ -198,6 +228,26 @@ class Kernel {
       goal.move(wave_, i, kept);
     }
     ++kept;
+  }
+
+  // Roulette after the light of a surface has been collected: a photon that ends saves its next flight.
+  void play_before_flight(Goal& goal) {
+    Rays& rays = wave_.rays;
+    const std::size_t n = rays.size;
+    std::array<std::uint8_t, batch_histories> marks{};
+    Policy::play(wave_, marks.data(), goal.ends());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (marks[i] == 0) continue;
+      if (kept != i) {
+        wave_.photon[kept] = wave_.photon[i];
+        wave_.weight[kept] = wave_.weight[i];
+        rays.set_start(kept, rays.start(i));
+        goal.move(wave_, i, kept);
+      }
+      ++kept;
+    }
+    rays.size = kept;
   }
 
   // The walk ends for all remaining photons.

@@ -100,9 +100,18 @@ LightSample PointLight::sample_light(const ReferencePoint& reference) const {
   const glm::dvec3 towards = segment / r;
   const double cosine = glm::dot(towards, reference.normal);
   if (cosine <= 0.0 || cosine < reference.least_cosine) return {};
-  const glm::dvec3 local(glm::dot(-towards, frame_.tangent), glm::dot(-towards, frame_.bitangent),
-                         glm::dot(-towards, frame_.normal));
-  return {intensity(law_, flux_, local) * cosine / (r * r), position_, 0.0};
+  return {flux_ * density(-towards) * cosine / (r * r), position_, 0.0};
+}
+
+std::optional<double> PointLight::uniform_intensity() const {
+  if (!std::holds_alternative<IsotropicLaw>(law_)) return std::nullopt;
+  return intensity(law_, flux_, {0.0, 0.0, 1.0});
+}
+
+double PointLight::density(const glm::dvec3& away) const {
+  const glm::dvec3 local(glm::dot(away, frame_.tangent), glm::dot(away, frame_.bitangent),
+                         glm::dot(away, frame_.normal));
+  return intensity(law_, 1.0, local);
 }
 
 AreaLight::AreaLight(const Room& room, const SurfaceEmitter& emitter, std::optional<SurfaceEmission> emission,

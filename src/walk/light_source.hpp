@@ -48,6 +48,11 @@ class PointLight {
   std::size_t number() const { return number_; }
   const glm::dvec3& position() const { return position_; }
   const glm::dvec3& axis() const { return frame_.normal; }
+  double flux() const { return flux_; }
+  // The intensity, if it is the same in all directions.
+  std::optional<double> uniform_intensity() const;
+  // Density of the directions of its light, 1/sr, in a direction (world, length 1).
+  double density(const glm::dvec3& away) const;
 
  private:
   glm::dvec3 position_;

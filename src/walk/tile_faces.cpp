@@ -60,13 +60,7 @@ ReferencePoint TileFaces::reference(std::size_t face, const SurfacePlace& place)
   return {point_at(surface(face), place.triangle, place.weights), faces_[face].behind ? -normal : normal, 0.0};
 }
 
-ReferencePoint TileFaces::start(std::uint64_t face, std::uint64_t sample, std::uint64_t id, const Stream& stream,
-                                Rays& rays, std::size_t i) const {
-  const Words words = stream.draw(id, 0, Purpose::place);
-  const std::uint64_t quarter = sample % group;
-  const std::uint64_t upper = quarter / 2;
-  const double u = 0.5 * (static_cast<double>(quarter % 2) + unit_open(words[0]));
-  const double v = 0.5 * (static_cast<double>(upper) + unit_open(words[1]));
+OriginView TileFaces::start(std::uint64_t face, double u, double v, Rays& rays, std::size_t i) const {
   const SurfacePlace spot = place(face, u, v);
   const TriangleOnFacet& facet = facets_[surface_number(face)][spot.triangle];
   const glm::vec2 st =
@@ -75,7 +69,8 @@ ReferencePoint TileFaces::start(std::uint64_t face, std::uint64_t sample, std::u
   rays.s[i] = st.x;
   rays.t[i] = st.y;
   rays.behind[i] = faces_[face].behind ? 1 : 0;
-  return reference(face, spot);
+  const glm::dvec3& normal = normals_[surface_number(face)][spot.triangle];
+  return {glm::vec3(faces_[face].behind ? -normal : normal), 0.0, std::nullopt};
 }
 
 }  // namespace lichtmc

@@ -17,6 +17,7 @@
 #include "tracer/rays.hpp"
 #include "tracer/tracer.hpp"
 #include "walk/light_source.hpp"
+#include "walk/origin_view.hpp"
 
 namespace lichtmc {
 
@@ -46,11 +47,10 @@ class TileFaces {
   // The reference point at a point of the face.
   ReferencePoint reference(std::size_t face, const SurfacePlace& place) const;
 
-  // As origins of backward walks (see backward.hpp): walks in rounds of four, one from each quarter of the unit square
-  // of (u, v).
+  // As origins of backward walks, see backward.hpp.
   static constexpr std::uint32_t group = 4;
-  ReferencePoint start(std::uint64_t face, std::uint64_t sample, std::uint64_t id, const Stream& stream, Rays& rays,
-                       std::size_t i) const;
+  static constexpr bool is_extended = true;
+  OriginView start(std::uint64_t face, double u, double v, Rays& rays, std::size_t i) const;
 
  private:
   std::size_t surface_number(std::size_t face) const {

@@ -1,0 +1,18 @@
+// How a backward walk leaves its origin: see backward.hpp.
+#pragma once
+
+#include <optional>
+
+#include <glm/vec3.hpp>
+
+namespace lichtmc {
+
+struct OriginView {
+  glm::vec3 normal{0.0F, 1.0F, 0.0F};  // world, length 1
+  double least_cosine = 0.0;           // of the field of view, as in ReferencePoint
+  std::optional<glm::vec3> way_out;    // as in ReferencePoint
+
+  double squared_sine() const { return (1.0 - least_cosine) * (1.0 + least_cosine); }
+};
+
+}  // namespace lichtmc
