@@ -187,7 +187,7 @@ TEST_CASE("on a surface: receivers have the limit of the side that they look to,
           one.room.receivers.push_back(at(place.point + distance * place.off, place.normal));
       }
       const Room room = turn ? turned(one.room) : one.room;
-      const Result result = simulate(room, receivers_only(one.engine, 18 * 20'000.0, 11));
+      const Result result = simulate(room, receivers_only(one.engine, 18 * 25'000.0, 11));
       std::vector<Compared> figures;
       std::vector<Compared> without_own_surface;
       for (std::size_t k = 0; k < places.size(); ++k) {
