@@ -111,7 +111,7 @@ def living_room_tiles(folder):
     tiles = tiles_of(room, options, folder / "living_room_tiles")
     return Task(
         "tiles",
-        f"The same room: {len(tiles)} tiles of 0.25 m",
+        f"Living room, 2228 triangles, one isotropic lamp: {len(tiles)} tiles of 0.25 m",
         room,
         Lamp(LIVING_ROOM_LAMP, LIVING_ROOM_POWER),
         options,
