@@ -12,7 +12,7 @@ cd "$(dirname "$0")/../.."
 
 # LLVM 14 to 16 cannot compile all operations that Mitsuba uses. Debian 12 and 13 have 19.
 find_llvm() {
-  DRJIT_LIBLLVM_PATH=${DRJIT_LIBLLVM_PATH:-$(ldconfig -p | awk '/libLLVM.*19/ { print $NF; exit }')}
+  DRJIT_LIBLLVM_PATH=${DRJIT_LIBLLVM_PATH:-$(/sbin/ldconfig -p | awk '/libLLVM.*19/ { path = $NF } END { print path }')}
 }
 
 install_packages() {
