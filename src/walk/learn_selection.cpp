@@ -17,21 +17,23 @@ namespace {
 
 constexpr std::uint64_t seed = 0x7F4A7C159E3779B9;  // any
 
-// Photons in all, and limits of those of each emitter.
+// Photons: in all as many as this, if that gives each emitter a number within the limits; with very many emitters at
+// most the other number in all, or one of each.
 constexpr std::size_t photons = 65'536;
-constexpr std::size_t least_photons = 16;
+constexpr std::size_t least_photons = 32;
 constexpr std::size_t most_photons = 1024;
+constexpr std::size_t most_in_all = 524'288;
 
 constexpr std::size_t points_of_cell = 6;  // at most
-constexpr std::size_t points_of_region = 256;
+constexpr std::size_t points_of_region = 128;
 constexpr std::size_t tests_of_region = 16;  // of emitters whose photons have arrived only around it
+constexpr std::size_t most_candidates = 96;  // emitters that are tested in the cells of a region: the strongest
+constexpr std::size_t tests_of_cell = 192;   // at most: points times candidates
 // An emitter whose light without shadow is less than this fraction of that which is known to arrive at a test point is
 // not tested there: the choice by flux serves it.
 constexpr double negligible = 1e-3;
-// Of the weights of a cell, this share that belongs to the weakest emitters is left to the other choices; at most this
-// many are kept.
+// Of the weights of a cell, this share that belongs to the weakest emitters is left to the other choices.
 constexpr double left_out = 0.005;
-constexpr std::size_t most_of_cell = 128;
 
 // Where a photon has arrived first.
 struct Arrival {
@@ -75,7 +77,8 @@ class ArrivalsGoal : public GoalBase {
 };
 
 Arrivals first_arrivals(const Scene& scene, const Stream& stream, const std::vector<std::size_t>& emitters) {
-  const std::size_t each = std::clamp(photons / emitters.size(), least_photons, most_photons);
+  const std::size_t wanted = std::clamp(photons / emitters.size(), least_photons, most_photons);
+  const std::size_t each = std::clamp<std::size_t>(most_in_all / emitters.size(), 1, wanted);
   Arrivals arrivals;
   ArrivalsGoal goal(scene, stream, emitters, each, arrivals);
   Kernel<NeverAbsorbedPolicy, SurfaceReflectance, ArrivalsGoal> kernel(scene, stream, 1);
@@ -156,41 +159,50 @@ class LightTest {
   TraceCount count_;
 };
 
-// The emitters whose light may arrive in a region.
-class Candidates {
- public:
-  Candidates(const PlaceTree& cells, const Arrivals& arrivals, std::size_t emitters)
-      : cells_(cells), arrivals_(arrivals), listed_(emitters, false), arrived_(emitters, 0.0) {}
+using Weights = std::vector<LightSelection::Weight>;
 
-  // Those that have sent a photon to the region, and those that have sent one to regions around it, up to the second
-  // beyond, and light a test point of the region.
-  std::vector<std::uint32_t> of_region(std::uint32_t region, LightTest& test) {
-    const std::vector<std::uint32_t> own = senders_to({region});
-    const std::vector<std::uint32_t> all = senders_to(around(region));
-    std::vector<std::uint32_t> others;
-    std::set_difference(all.begin(), all.end(), own.begin(), own.end(), std::back_inserter(others));
+bool is_stronger(const LightSelection::Weight& a, const LightSelection::Weight& b) {
+  return a.weight != b.weight ? a.weight > b.weight : a.emitter < b.emitter;
+}
+bool has_lower_number(const LightSelection::Weight& a, const LightSelection::Weight& b) {
+  return a.emitter < b.emitter;
+}
+
+// A region: the emitters that light it.
+struct RegionLight {
+  Weights arriving;                       // power that arrives there and nearby, as shares; emitters ascending
+  std::vector<std::uint32_t> candidates;  // emitters to be tested in its cells, ascending
+  double share = 0.0;                     // of the power that arrives in the region, by candidates
+};
+
+class Regions {
+ public:
+  Regions(const PlaceTree& cells, const Arrivals& arrivals, const std::vector<double>& fluxes)
+      : cells_(cells), arrivals_(arrivals), fluxes_(fluxes), power_(fluxes.size(), 0.0) {}
+
+  // Candidates are the strongest of the emitters that have sent a photon to the region and, if these are few, of those
+  // that have sent one nearby and light a test point of the region.
+  RegionLight light_of(std::uint32_t region, LightTest& test) {
+    RegionLight light;
+    Weights own = arriving_in({region});
+    light.arriving = arriving_in(around(region));
+    Weights others;
+    std::set_difference(light.arriving.begin(), light.arriving.end(), own.begin(), own.end(),
+                        std::back_inserter(others), has_lower_number);
+    keep_strongest(own, most_candidates);
+    keep_strongest(others, most_candidates - own.size());
+    for (const LightSelection::Weight& one : own) {
+      light.candidates.push_back(one.emitter);
+      light.share += one.weight;
+    }
+    std::vector<std::uint32_t> to_test;
+    for (const LightSelection::Weight& one : others) to_test.push_back(one.emitter);
     const std::span<const std::uint32_t> members = cells_.members(cells_.cells_of_region(region));
     std::vector<std::uint32_t> points;
     for (std::size_t k = 0; k < tests_of_region; ++k) points.push_back(members[k * members.size() / tests_of_region]);
-    std::vector<std::uint32_t> candidates = own;
-    for (const Light& one : test.at(points, others)) candidates.push_back(one.emitter);
-    std::sort(candidates.begin(), candidates.end());
-    return candidates;
-  }
-
-  // The table of a region: the flux that arrives there and in the regions around.
-  std::vector<LightSelection::Weight> table_of_region(std::uint32_t region, const std::vector<double>& fluxes) {
-    std::vector<LightSelection::Weight> table;
-    for (const std::uint32_t one : around(region)) {
-      for (const std::uint32_t k : cells_.members(cells_.cells_of_region(one))) {
-        const std::uint32_t emitter = arrivals_.of[k].emitter;
-        if (arrived_[emitter] == 0.0) table.push_back({emitter, 0.0});
-        arrived_[emitter] += fluxes[emitter];
-      }
-    }
-    for (auto& one : table) one.weight = std::exchange(arrived_[one.emitter], 0.0);
-    std::sort(table.begin(), table.end(), [](const auto& a, const auto& b) { return a.emitter < b.emitter; });
-    return table;
+    for (const Light& one : test.at(points, to_test)) light.candidates.push_back(one.emitter);
+    std::sort(light.candidates.begin(), light.candidates.end());
+    return light;
   }
 
  private:
@@ -209,43 +221,50 @@ class Candidates {
     return around;
   }
 
-  // The emitters whose photons have arrived in regions, ascending.
-  std::vector<std::uint32_t> senders_to(const std::vector<std::uint32_t>& regions) {
-    std::vector<std::uint32_t> senders;
-    for (const std::uint32_t region : regions) {
-      for (const std::uint32_t k : cells_.members(cells_.cells_of_region(region))) {
+  // The power that arrives in regions, as shares; emitters ascending.
+  Weights arriving_in(const std::vector<std::uint32_t>& regions) {
+    Weights arriving;
+    double sum = 0.0;
+    for (const std::uint32_t one : regions) {
+      for (const std::uint32_t k : cells_.members(cells_.cells_of_region(one))) {
         const std::uint32_t emitter = arrivals_.of[k].emitter;
-        if (!listed_[emitter]) senders.push_back(emitter);
-        listed_[emitter] = true;
+        if (power_[emitter] == 0.0) arriving.push_back({emitter, 0.0});
+        power_[emitter] += fluxes_[emitter];
+        sum += fluxes_[emitter];
       }
     }
-    for (const std::uint32_t emitter : senders) listed_[emitter] = false;
-    std::sort(senders.begin(), senders.end());
-    return senders;
+    for (LightSelection::Weight& one : arriving) one.weight = std::exchange(power_[one.emitter], 0.0) / sum;
+    std::sort(arriving.begin(), arriving.end(), has_lower_number);
+    return arriving;
+  }
+
+  static void keep_strongest(Weights& weights, std::size_t most) {
+    std::sort(weights.begin(), weights.end(), is_stronger);
+    if (weights.size() > most) weights.resize(most);
   }
 
   const PlaceTree& cells_;
   const Arrivals& arrivals_;
-  std::vector<bool> listed_;     // by emitter; false between calls
-  std::vector<double> arrived_;  // by emitter; 0 between calls
+  const std::vector<double>& fluxes_;
+  std::vector<double> power_;  // by emitter; 0 between calls
 };
 
-// The table of a cell: roots of the sums of squares, without the weakest.
-std::vector<LightSelection::Weight> table_of_cell(const std::vector<Light>& light) {
-  std::vector<LightSelection::Weight> table;
+// The table of a cell: roots of the sums of squares, without the weakest. share: of the light, by the candidates.
+LightSelection::CellTable table_of_cell(const std::vector<Light>& light, double share) {
+  Weights all;
   double sum = 0.0;
   for (const Light& one : light) {
-    table.push_back({one.emitter, std::sqrt(one.square)});
-    sum += table.back().weight;
+    all.push_back({one.emitter, std::sqrt(one.square)});
+    sum += all.back().weight;
   }
-  std::sort(table.begin(), table.end(), [](const auto& a, const auto& b) {
-    return a.weight != b.weight ? a.weight > b.weight : a.emitter < b.emitter;
-  });
+  std::sort(all.begin(), all.end(), is_stronger);
   double left = 0.0;
-  while (!table.empty() && (left += table.back().weight) < left_out * sum) table.pop_back();
-  if (table.size() > most_of_cell) table.resize(most_of_cell);
-  std::sort(table.begin(), table.end(), [](const auto& a, const auto& b) { return a.emitter < b.emitter; });
-  return table;
+  while (!all.empty() && left + all.back().weight < left_out * sum) {
+    left += all.back().weight;
+    all.pop_back();
+  }
+  std::sort(all.begin(), all.end(), has_lower_number);
+  return {Weights(all.begin(), all.end()), sum > 0.0 ? share * (1.0 - left / sum) : 0.0};
 }
 
 }  // namespace
@@ -255,19 +274,21 @@ LightSelection learn_selection(const Scene& scene, const LearnedEmitters& emitte
   const Arrivals arrivals = first_arrivals(scene, stream, emitters.in_room);
   PlaceTree cells(arrivals.places, points_of_cell, points_of_region);
   LightTest test(scene, emitters, arrivals, stream);
-  Candidates candidates(cells, arrivals, emitters.fluxes.size());
-  LightSelection::Tables weights;
+  Regions regions(cells, arrivals, emitters.fluxes);
+  LightSelection::Tables tables;
   for (std::uint32_t region = 0; region < cells.regions(); ++region) {
-    weights.of_regions.push_back(candidates.table_of_region(region, emitters.fluxes));
-    const std::vector<std::uint32_t> here = candidates.of_region(region, test);
+    RegionLight light = regions.light_of(region, test);
+    const std::size_t most_points =
+        std::max<std::size_t>(tests_of_cell / std::max<std::size_t>(light.candidates.size(), 1), 1);
     const PlaceTree::Range range = cells.cells_of_region(region);
     for (std::uint32_t cell = range.begin; cell < range.end; ++cell) {
-      std::span<const std::uint32_t> members = cells.members(cell);
-      if (members.size() > points_of_cell) members = members.first(points_of_cell);  // one and the same point
-      weights.of_cells.push_back(table_of_cell(test.at(members, here)));
+      std::span<const std::uint32_t> points = cells.members(cell);
+      points = points.first(std::min({points.size(), points_of_cell, most_points}));
+      tables.of_cells.push_back(table_of_cell(test.at(points, light.candidates), light.share));
     }
+    tables.of_regions.push_back(std::move(light.arriving));
   }
-  return {emitters.fluxes, std::move(cells), weights};
+  return {emitters.fluxes, std::move(cells), tables};
 }
 
 }  // namespace lichtmc

@@ -11,8 +11,9 @@ namespace lichtmc {
 
 namespace {
 
-constexpr double share_by_flux = 0.05;    // a
-constexpr double share_of_region = 0.05;  // b
+constexpr double share_by_flux = 0.05;  // a
+// The largest s, for cells whose table has all emitters.
+constexpr double most_by_cell = 0.9;
 
 // u, which is below `share`, as a number in [0, 1).
 double stretched(double u, double share) {
@@ -29,8 +30,11 @@ LightSelection::LightSelection(const std::vector<double>& fluxes, PlaceTree cell
   for (double& share : by_flux_) share /= sum;
   std::vector<Table> of_regions;
   for (const std::vector<Weight>& weights : tables.of_regions) of_regions.push_back(add_table(weights));
-  for (std::uint32_t cell = 0; cell < cells_.size(); ++cell)
-    tables_.push_back({add_table(tables.of_cells[cell]), of_regions[cells_.region_of(cell)]});
+  for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
+    const Table of_cell = add_table(tables.of_cells[cell].weights);
+    const double share = of_cell.is_empty() ? 0.0 : most_by_cell * tables.of_cells[cell].share;
+    tables_.push_back({of_cell, of_regions[cells_.region_of(cell)], share});
+  }
   tables_.emplace_back();
 }
 
@@ -70,24 +74,25 @@ double LightSelection::probability_in(const Table& table, std::size_t emitter) c
 LightSelection::Choice LightSelection::choose(std::uint32_t cell, double u) const {
   const CellTables& tables = tables_[cell];
   std::size_t emitter = 0;
-  if (tables.cell.is_empty()) {
+  if (tables.region.is_empty()) {
     emitter = lichtmc::choose(flux_up_to_, u);
-  } else if (u < share_by_flux) {
-    emitter = lichtmc::choose(flux_up_to_, stretched(u, share_by_flux));
-  } else if (u < share_by_flux + share_of_region) {
-    emitter = choose_from(tables.region, stretched(u - share_by_flux, share_of_region));
+  } else if (u < tables.share) {
+    emitter = choose_from(tables.cell, stretched(u, tables.share));
+  } else if (u < tables.share + share_by_flux) {
+    emitter = lichtmc::choose(flux_up_to_, stretched(u - tables.share, share_by_flux));
   } else {
-    const double rest = 1.0 - share_by_flux - share_of_region;
-    emitter = choose_from(tables.cell, stretched(u - share_by_flux - share_of_region, rest));
+    const double before = tables.share + share_by_flux;
+    emitter = choose_from(tables.region, stretched(u - before, 1.0 - before));
   }
   return {emitter, probability(cell, emitter)};
 }
 
 double LightSelection::probability(std::uint32_t cell, std::size_t emitter) const {
   const CellTables& tables = tables_[cell];
-  if (tables.cell.is_empty()) return by_flux_[emitter];
-  return (1.0 - share_by_flux - share_of_region) * probability_in(tables.cell, emitter) +
-         share_of_region * probability_in(tables.region, emitter) + share_by_flux * by_flux_[emitter];
+  if (tables.region.is_empty()) return by_flux_[emitter];
+  return tables.share * probability_in(tables.cell, emitter) +
+         (1.0 - share_by_flux - tables.share) * probability_in(tables.region, emitter) +
+         share_by_flux * by_flux_[emitter];
 }
 
 }  // namespace lichtmc

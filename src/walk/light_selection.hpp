@@ -2,10 +2,10 @@
 // place.
 //
 // In each cell of the room's surfaces (place_tree.hpp) three choices are mixed: by a table of the emitters that light
-// the cell, by a table of those that light its region, and by flux: q = (1 − a − b)·cell + b·region + a·flux/Σ flux.
+// the cell, by a table of those that light its region, and by flux: q = s·cell + (1 − a − s)·region + a·flux/Σ flux.
 // The last keeps every probability above 0, so that estimates are unbiased whatever the tables say; the second keeps
-// scores low where a cell reaches through a wall, in buildings with very many emitters, too. Where there is no table,
-// the choice is by flux alone.
+// scores low where a cell reaches through a wall, in buildings with very many emitters, too, and serves emitters for
+// which the table of the cell is too short. Where there is no table, the choice is by flux alone.
 #pragma once
 
 #include <cstddef>
@@ -34,10 +34,13 @@ class LightSelection {
   // By flux alone: one cell. fluxes: of the emitters, numbered as here; above 0, in any unit.
   explicit LightSelection(const std::vector<double>& fluxes);
 
-  // Tables of each cell and each region: emitters ascending, each at most once. A cell with a weight above 0 is in a
-  // region with one.
+  // Tables of each cell and each region: emitters ascending, each at most once; empty if there is no light.
+  struct CellTable {
+    std::vector<Weight> weights;
+    double share = 1.0;  // of the cell's light that comes from the emitters of its table: 0 … 1
+  };
   struct Tables {
-    std::vector<std::vector<Weight>> of_cells;
+    std::vector<CellTable> of_cells;
     std::vector<std::vector<Weight>> of_regions;
   };
   LightSelection(const std::vector<double>& fluxes, PlaceTree cells, const Tables& tables);
@@ -71,6 +74,7 @@ class LightSelection {
   struct CellTables {
     Table cell;
     Table region;
+    double share = 0.0;  // s
   };
 
   Table add_table(const std::vector<Weight>& weights);

@@ -41,9 +41,13 @@ LightSelection random_selection(const std::vector<double>& fluxes, const std::ve
     return weights;
   };
   LightSelection::Tables tables;
-  for (std::size_t k = 0; k < cells.size(); ++k) tables.of_cells.push_back(table());
+  for (std::size_t k = 0; k < cells.size(); ++k) tables.of_cells.push_back({table(), uniform(random)});
   for (std::size_t k = 0; k < cells.regions(); ++k) tables.of_regions.push_back(table());
-  tables.of_cells[3].clear();  // a dark cell
+  tables.of_cells[3] = {};       // a dark cell
+  tables.of_regions[0].clear();  // a dark region
+  for (std::uint32_t k = 0; k < cells.size(); ++k) {
+    if (cells.region_of(k) == 0) tables.of_cells[k] = {};
+  }
   return {fluxes, cells, tables};
 }
 

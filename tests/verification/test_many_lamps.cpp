@@ -156,8 +156,9 @@ TEST_CASE("many lamps: lamps behind a wall are hardly ever chosen, however stron
         const double own = chances.of_room(k, reference);
         const double other = chances.of_room(1 - k, reference);
         CHECK(own + other == Approx(1.0).epsilon(1e-13));
-        // 5 % are chosen by flux, 5 % by the light of the region, which may reach through the wall.
-        CHECK(own >= 0.9);
+        // 0.9 are chosen by the table of the cell, except the weakest 0.5 % of its light; the rest by flux and by the
+        // light of the region, which may extend through the wall.
+        CHECK(own >= 0.9 * 0.995);
         CHECK(other > 0.0);
       }
     }
