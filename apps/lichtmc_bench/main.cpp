@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "backward.hpp"
 #include "lichtmc/simulate.hpp"
 #include "lichtmc/version.hpp"
 #include "measure.hpp"
@@ -189,6 +190,25 @@ Measured start_up(const Options& options) {
   return {"start to the first photons, 100 000 triangles", median(times), 1.0, false, "s", {{"times", times}}};
 }
 
+Measured backward_speed(const Options& options) {
+  BackwardStage stage;
+  const Ratio ratio = compare_speeds([&] { return stage.walk(); }, [&] { return stage.plain_walk(); },
+                                     (options.quick ? 1 : 3) * options.turns());
+  return {"backward walk of a living room, walks per second against the plain one", ratio.value, 2.0, true, "",
+          details_of(ratio, "walks_per_second", "plain_walks_per_second")};
+}
+
+Measured backward_variance(const Options& options) {
+  BackwardStage stage;
+  const BackwardStage::Variances found = stage.compare_variances(options.quick ? 1024 : 4096);
+  return {"its variance with evenly spread first flights, median point",
+          found.median,
+          0.6,
+          false,
+          "",
+          {{"median_point", found.median}, {"mean_of_relative_variances", found.mean}}};
+}
+
 // In a separate process: the peak memory of a process never decreases.
 Measured peak_memory() {
   const pid_t child = fork();
@@ -233,6 +253,8 @@ std::vector<Measured> measure_all(const Options& options) {
   add("start", [&] { return start_up(options); });
   add("estimators", [&] { return estimator(options, Estimator::weight); });
   add("estimators", [&] { return estimator(options, Estimator::absorption); });
+  add("backward", [&] { return backward_speed(options); });
+  add("backward", [&] { return backward_variance(options); });
   std::vector<Measured> measured;
   for (std::size_t k = 0; k < all.size(); ++k) {
     std::cerr << "\r" << k + 1 << " of " << all.size() << "" << std::flush;
@@ -300,7 +322,8 @@ static int run_program(int argc, char** argv) {
   program.add_flag("--json", options.json, "Write JSON, with every turn, instead of the table");
   program.add_flag("--quick", options.quick, "Shorter turns: under a minute");
   program.add_option("--only", options.only, "One group of measurements")
-      ->check(CLI::IsMember({"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators"}));
+      ->check(CLI::IsMember(
+          {"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators", "backward"}));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
