@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <concepts>
 #include <utility>
 
 #include "walk/choose_policy.hpp"
 #include "walk/first_flights.hpp"
+#include "walk/roulette.hpp"
 #include "walk/surface_light.hpp"
 #include "walk/visibility.hpp"
 
@@ -18,13 +20,14 @@ template <class Policy, class Origins>
 class BackwardGoal : public GoalBase {
  public:
   BackwardGoal(const Scene& scene, const DirectLight& light, const Origins& origins, const Stream& stream,
-               const RoundPlan& plan)
+               const RoundPlan& plan, double threshold)
       : scene_(&scene),
         light_(&light),
         origins_(&origins),
         stream_(stream),
         group_(plan.backward),
         forward_per_walk_(plan.forward_per_walk()),
+        threshold_(threshold),
         points_(plan.backward, Origins::is_extended),
         first_flights_(batch_histories),
         surface_light_(light, *scene.tracer, stream),
@@ -132,6 +135,10 @@ class BackwardGoal : public GoalBase {
       std::copy_n(surface_light_.cells().begin(), wave.rays.size, cell_.begin());
   }
 
+  void play(Wave& wave, std::uint8_t* marks) const requires std::same_as<Policy, RouletteBeforeFlightPolicy> {
+    play_roulette(wave.rays.size, wave.chance.data(), threshold_, threshold_, wave.weight.data(), marks);
+  }
+
   float* cosines() { return cosine_.data(); }
   void move(Wave& wave, std::size_t from, std::size_t to) {
     // land() needs the geometry of each flight.
@@ -178,6 +185,7 @@ class BackwardGoal : public GoalBase {
   Stream stream_;
   std::uint32_t group_;      // walks in a round
   double forward_per_walk_;  // histories from the emitters for each walk, whose contributions are weighted together
+  double threshold_;         // of the roulette, see roulette.hpp
   RoundPoints points_;
   FirstFlights first_flights_;
   SurfaceLight surface_light_;
@@ -205,7 +213,7 @@ class PolicyBackwardWalk final : public BackwardWalk {
                      const RoundPlan& plan, std::uint64_t seed, std::uint32_t max_flights)
       : scale_(scale),
         group_(plan.backward),
-        goal_(scene, light, origins, Stream(seed, WalkDirection::backward), plan),
+        goal_(scene, light, origins, Stream(seed, WalkDirection::backward), plan, threshold_of(scene, light, scale)),
         kernel_(scene, Stream(seed, WalkDirection::backward), max_flights) {}
 
   void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,
@@ -229,6 +237,11 @@ class PolicyBackwardWalk final : public BackwardWalk {
   }
 
  private:
+  static double threshold_of(const Scene& scene, const DirectLight& light, const BackwardScale& scale) {
+    if constexpr (!std::same_as<Policy, RouletteBeforeFlightPolicy>) return 0.0;
+    return roulette_threshold(scene, light, scale.mean_irradiance());
+  }
+
   // Calls record(origin, sample, irradiance) for every walk, in the order of origins and samples.
   template <class Record>
   void walk(const WalkBlock& work, BackwardCount& count, const Abandon& abandon, const Record& record) {
@@ -261,7 +274,8 @@ std::unique_ptr<BackwardWalk> walk_from(const Scene& scene, const DirectLight& l
   return choose_policy(
       settings.estimator, settings.max_bounces, scene.has_reflectance_maps(),
       [&]<class Policy, class Reflectance>(std::uint32_t max_flights) -> std::unique_ptr<BackwardWalk> {
-        using Own = std::conditional_t<std::is_same_v<Policy, RouletteWeightPolicy>, EarlyRouletteWeightPolicy, Policy>;
+        using Own =
+            std::conditional_t<std::is_same_v<Policy, RouletteWeightPolicy>, RouletteBeforeFlightPolicy, Policy>;
         return std::make_unique<PolicyBackwardWalk<Own, Reflectance, Origins>>(scene, light, origins, scale, plan,
                                                                                settings.seed, max_flights);
       });

@@ -52,6 +52,8 @@ struct BackwardScale {
   static constexpr std::uint64_t largest_sum = std::uint64_t{1} << 52;
 
   double unit = 1.0;  // W/m² or lx
+  // The emitters' power over the area of all surfaces.
+  double mean_irradiance() const { return unit * 0x1p24; }
   std::uint64_t score(double irradiance) const;
 };
 

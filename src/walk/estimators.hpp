@@ -127,14 +127,9 @@ struct RouletteWeightPolicy : WeightPolicy {
   }
 };
 
-// Variant 1 with Russian roulette before a flight, for walks that collect light at the surface that they leave: a
-// photon that ends there saves a flight, and the light of every surface that was hit is collected. Below 1/2 the photon
-// ends, or continues with weight 1/2: among the thresholds between 1/4 and 1 the product of variance and time differs
-// little (docs/performance.md).
-struct EarlyRouletteWeightPolicy : WeightPolicy {
-  static constexpr double threshold = 0.5;
-  static constexpr double restored = 0.5;
-
+// Variant 1 for walks that collect light at the surface that they leave: their goal plays the roulette before a flight
+// (see goal.hpp). A photon that ends there saves a flight, and the light of every surface that was hit is collected.
+struct RouletteBeforeFlightPolicy : WeightPolicy {
   // A photon without weight ends on its surface.
   static bool survive(double reflectance, double /*chance*/, double& weight, Ends& ends) {
     absorb(reflectance, weight, ends);
@@ -145,10 +140,6 @@ struct EarlyRouletteWeightPolicy : WeightPolicy {
     std::array<std::uint8_t, batch_histories> marks;
     for (std::size_t i = 0; i < wave.rays.size; ++i) marks[i] = wave.weight[i] > 0.0 ? 1 : 0;
     choose_marked(marks.data(), wave.rays.size, survivors);
-  }
-  // marks: 1 for photons that fly on, else 0.
-  static void play(Wave& wave, std::uint8_t* marks, Ends& ends) {
-    ends.residual += play_roulette(wave.rays.size, wave.chance.data(), threshold, restored, wave.weight.data(), marks);
   }
 };
 

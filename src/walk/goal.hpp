@@ -94,4 +94,11 @@ concept WalkGoal = std::derived_from<Goal, GoalBase> && requires(Goal goal, Wave
   { Goal::counts_absorption } -> std::convertible_to<bool>;
 };
 
+// A goal that ends photons by roulette before their next flight, after reflect(): play() changes the weights and sets
+// marks, 1 for photons that fly on, else 0. An array of whole_lanes() elements.
+template <class Goal>
+concept PlaysBeforeFlight = requires(Goal goal, Wave wave, std::uint8_t* marks) {
+  { goal.play(wave, marks) } -> std::same_as<void>;
+};
+
 }  // namespace lichtmc

@@ -38,12 +38,6 @@ struct MappedReflectance {
   static double at(const Scene& scene, const Rays& rays, std::size_t i) { return scene.reflectance(rays, i); }
 };
 
-// A policy whose roulette is played before a flight, after the goal has collected light at the surface.
-template <class Policy>
-concept PlaysBeforeFlight = requires(Wave wave, std::uint8_t* marks, Ends ends) {
-  Policy::play(wave, marks, ends);
-};
-
 template <class Policy, class Reflectance, WalkGoal Goal>
 class Kernel {
  public:
@@ -67,7 +61,7 @@ class Kernel {
       survive_or_be_absorbed(goal);
       scatter(goal);
       goal.reflect(wave_, flight);
-      if constexpr (PlaysBeforeFlight<Policy>) play_before_flight(goal);
+      if constexpr (PlaysBeforeFlight<Goal>) play_before_flight(goal);
       const bool abandoned = flight % abandon_interval == 0 && abandon() && flight > abandon_after;
       if (abandoned || flight == max_flights_) cut_off(goal);
       if (abandoned) ended = false;
@@ -235,7 +229,7 @@ class Kernel {
     Rays& rays = wave_.rays;
     const std::size_t n = rays.size;
     std::array<std::uint8_t, batch_histories> marks{};
-    Policy::play(wave_, marks.data(), goal.ends());
+    goal.play(wave_, marks.data());
     std::size_t kept = 0;
     for (std::size_t i = 0; i < n; ++i) {
       if (marks[i] == 0) continue;
