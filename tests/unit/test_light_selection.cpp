@@ -1,4 +1,5 @@
 // Which emitter a light sample takes: cells of a room's surfaces, and the probabilities in them.
+#include <cmath>
 #include <cstdint>
 #include <random>
 #include <set>
