@@ -33,7 +33,8 @@ class BackwardGoal : public GoalBase {
         surface_light_(light, *scene.tracer, stream),
         ids_(batch_histories),
         origin_(batch_histories),
-        sample_(batch_histories),
+        round_(batch_histories),
+        number_(batch_histories),
         found_(batch_histories),
         forward_ratio_(batch_histories),
         factor_(batch_histories),
@@ -41,18 +42,19 @@ class BackwardGoal : public GoalBase {
         cosine_(whole_lanes(batch_histories)),
         cell_(batch_histories) {}
 
-  // Photon i will start from an origin, as its sample `sample`.
-  void prepare(std::size_t i, std::uint64_t origin, std::uint64_t sample) {
+  // Photon i will start from an origin, as walk `number` of a round.
+  void prepare(std::size_t i, std::uint64_t origin, std::uint64_t round, std::uint32_t number) {
     origin_[i] = origin;
-    sample_[i] = sample;
-    ids_[i] = sample * origins_->size() + origin;
+    round_[i] = round;
+    number_[i] = number;
+    ids_[i] = (round * group_ + number) * origins_->size() + origin;
   }
   void begin(BackwardCount& count) { count_ = &count; }
 
   // What photon i, which has ended, contributes to its origin, W/m² or lx.
   double irradiance(std::uint32_t i) const { return found_[i] * factor_[i]; }
   std::uint64_t origin(std::uint32_t i) const { return origin_[i]; }
-  std::uint64_t sample(std::uint32_t i) const { return sample_[i]; }
+  std::uint64_t round(std::uint32_t i) const { return round_[i]; }
 
   // The first flight leaves by Lambert's law within the field of view: the receiver weights radiance by the cosine.
   void start(Wave& wave, std::uint32_t n) {
@@ -60,11 +62,10 @@ class BackwardGoal : public GoalBase {
     std::uint64_t last_set = 0;
     ways_out_.clear();
     for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint64_t set = sample_[i] / group_ * origins_->size() + origin_[i];
+      const std::uint64_t set = round_[i] * origins_->size() + origin_[i];
       if (i == 0 || set != last_set) points_.begin(stream_, last_set = set);
       const OriginView view = leave_origin(i, wave.rays);
-      const auto number = static_cast<std::uint32_t>(sample_[i] % group_);
-      first_flights_.set(i, view, points_.polar(number), points_.azimuth(number));
+      first_flights_.set(i, view, points_.polar(number_[i]), points_.azimuth(number_[i]));
       if (view.way_out) ways_out_.push_back({i, *view.way_out});
       factor_[i] = view.squared_sine() * origins_->uncovered_share(origin_[i]);
       forward_ratio_[i] = 0.0;
@@ -144,7 +145,7 @@ class BackwardGoal : public GoalBase {
     // land() needs the geometry of each flight.
     wave.rays.set_direction(to, wave.rays.direction(from));
     wave.rays.length[to] = wave.rays.length[from];
-    direct_[to] = direct_[from];
+    if constexpr (!Policy::scores_every_impact) direct_[to] = direct_[from];
     cosine_[to] = cosine_[from];
     cell_[to] = cell_[from];
   }
@@ -154,7 +155,7 @@ class BackwardGoal : public GoalBase {
 
   OriginView leave_origin(std::size_t i, Rays& rays) const {
     if constexpr (Origins::is_extended) {
-      const auto number = static_cast<std::uint32_t>(sample_[i] % group_);
+      const std::uint32_t number = number_[i];
       return origins_->start(origin_[i], unit_open(points_.place(number, 0)), unit_open(points_.place(number, 1)), rays,
                              i);
     } else {
@@ -193,7 +194,8 @@ class BackwardGoal : public GoalBase {
   // By the number of the photon:
   std::vector<std::uint64_t> ids_;
   std::vector<std::uint64_t> origin_;
-  std::vector<std::uint64_t> sample_;
+  std::vector<std::uint64_t> round_;
+  std::vector<std::uint32_t> number_;  // of the walk in its round
   std::vector<double> found_;          // score so far, W/m² or lx
   std::vector<double> forward_ratio_;  // m², of its first impact, see DirectLight::sample_light()
   std::vector<double> factor_;         // squared sine of the half angle of the field of view (the fraction of a uniform
@@ -218,21 +220,24 @@ class PolicyBackwardWalk final : public BackwardWalk {
 
   void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,
                 const Abandon& abandon) override {
-    std::uint64_t round = 0;
-    walk(work, count, abandon, [&](std::uint64_t origin, std::uint64_t sample, double irradiance) {
-      round += scale_.score(irradiance);
-      if ((sample + 1) % group_ != 0) return;
-      sums[origin - work.first].add(std::min(round, BackwardScale::largest_sum));
-      round = 0;
+    std::uint64_t sum = 0;
+    std::uint32_t done = 0;  // walks of the round
+    walk(work, count, abandon, [&](std::uint32_t i) {
+      sum += scale_.score(goal_.irradiance(i));
+      if (++done < group_) return;
+      sums[goal_.origin(i) - work.first].add(std::min(sum, BackwardScale::largest_sum));
+      sum = 0;
+      done = 0;
     });
   }
 
   void collect(const WalkBlock& work, std::vector<double>& irradiance, BackwardCount& count,
                const Abandon& abandon) override {
     const std::uint64_t origins = work.last - work.first;
-    walk(work, count, abandon, [&](std::uint64_t origin, std::uint64_t sample, double found) {
-      const std::uint64_t round = (sample - work.first_sample) / group_;
-      irradiance[round * origins + (origin - work.first)] += found / group_;
+    const std::uint64_t first_round = work.first_sample / group_;
+    walk(work, count, abandon, [&](std::uint32_t i) {
+      const std::uint64_t round = goal_.round(i) - first_round;
+      irradiance[round * origins + (goal_.origin(i) - work.first)] += goal_.irradiance(i) / group_;
     });
   }
 
@@ -242,7 +247,7 @@ class PolicyBackwardWalk final : public BackwardWalk {
     return roulette_threshold(scene, light, scale.mean_irradiance());
   }
 
-  // Calls record(origin, sample, irradiance) for every walk, in the order of origins and samples.
+  // Calls record(photon) for every walk when it has ended, in the order of origins, rounds and walks in a round.
   template <class Record>
   void walk(const WalkBlock& work, BackwardCount& count, const Abandon& abandon, const Record& record) {
     assert(work.first_sample % group_ == 0 && work.last_sample % group_ == 0);  // no round is divided
@@ -250,13 +255,16 @@ class PolicyBackwardWalk final : public BackwardWalk {
     std::uint32_t n = 0;
     const auto fly = [&] {
       kernel_.fly(n, goal_, abandon);
-      for (std::uint32_t i = 0; i < n; ++i) record(goal_.origin(i), goal_.sample(i), goal_.irradiance(i));
+      for (std::uint32_t i = 0; i < n; ++i) record(i);
       n = 0;
     };
+    const std::uint64_t last_round = work.last_sample / group_;
     for (std::uint64_t origin = work.first; origin < work.last; ++origin) {
-      for (std::uint64_t sample = work.first_sample; sample < work.last_sample; ++sample) {
-        goal_.prepare(n++, origin, sample);
-        if (n == batch_histories) fly();
+      for (std::uint64_t round = work.first_sample / group_; round < last_round; ++round) {
+        for (std::uint32_t number = 0; number < group_; ++number) {
+          goal_.prepare(n++, origin, round, number);
+          if (n == batch_histories) fly();
+        }
       }
     }
     if (n > 0) fly();

@@ -1,5 +1,6 @@
 #include "walk/first_flights.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "chance/directions.hpp"
@@ -48,8 +49,11 @@ LICHTMC_LANES void aim_lanes(std::size_t n, const float* LICHTMC_APART normal_x,
 }  // namespace
 
 RoundPoints::RoundPoints(std::uint32_t group, bool has_place) : has_place_(has_place), points_(group) {
-  for (std::uint32_t j = 0; j < group; ++j)
-    points_[j] = {static_cast<std::uint32_t>((std::uint64_t{j} << 32) / group), {sobol(j, 0), sobol(j, 1)}};
+  for (std::uint32_t j = 0; j < group; ++j) {
+    const auto polar = static_cast<std::uint32_t>((std::uint64_t{j} << 32) / group);
+    points_[j] = {polar, j * golden, {sobol(j, 0), sobol(j, 1)}};
+  }
+  std::sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) { return a.azimuth < b.azimuth; });
 }
 
 void RoundPoints::begin(const Stream& stream, std::uint64_t set) {

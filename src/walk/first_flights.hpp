@@ -33,18 +33,19 @@ class RoundPoints {
 
   // Of walk `number` of the round.
   std::uint32_t polar(std::uint32_t number) const { return points_[number].polar + polar_shift_; }
-  std::uint32_t azimuth(std::uint32_t number) const { return number * golden + shift_[1]; }
+  std::uint32_t azimuth(std::uint32_t number) const { return points_[number].azimuth + shift_[1]; }
   std::uint32_t place(std::uint32_t number, std::size_t k) const { return points_[number].place[k] ^ place_shift_[k]; }
 
  private:
   static constexpr std::uint32_t golden = 1640531527;  // γ, in units of 2⁻³²
   struct Point {
     std::uint32_t polar = 0;
+    std::uint32_t azimuth = 0;
     std::array<std::uint32_t, 2> place{};
   };
 
   bool has_place_;
-  std::vector<Point> points_;
+  std::vector<Point> points_;  // by azimuth: neighbours are traced together, in similar directions
   Words shift_{};
   std::uint32_t polar_shift_ = 0;
   Words place_shift_{};
