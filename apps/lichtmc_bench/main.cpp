@@ -21,6 +21,7 @@
 #include "measure.hpp"
 #include "raw_embree.hpp"
 #include "rooms.hpp"
+#include "storey.hpp"
 #include "support/textbook_walk.hpp"
 
 namespace lichtmc::bench {
@@ -209,6 +210,15 @@ Measured backward_variance(const Options& options) {
           {{"median_point", found.median}, {"mean_of_relative_variances", found.mean}}};
 }
 
+Measured many_lamps(const Options& options) {
+  const Room one = storey_of_rooms(1, 1);
+  const Room storey = storey_of_rooms(5, 4);
+  const Ratio ratio = compare_speeds([&] { return points_to_one_percent(storey); },
+                                     [&] { return points_to_one_percent(one); }, options.turns());
+  return {"points to 1 % per second, 20 rooms with 240 lamps against one with 12", ratio.value, 0.5, true, "",
+          details_of(ratio, "storey_points_per_second", "room_points_per_second")};
+}
+
 // In a separate process: the peak memory of a process never decreases.
 Measured peak_memory() {
   const pid_t child = fork();
@@ -255,6 +265,7 @@ std::vector<Measured> measure_all(const Options& options) {
   add("estimators", [&] { return estimator(options, Estimator::absorption); });
   add("backward", [&] { return backward_speed(options); });
   add("backward", [&] { return backward_variance(options); });
+  add("lamps", [&] { return many_lamps(options); });
   std::vector<Measured> measured;
   for (std::size_t k = 0; k < all.size(); ++k) {
     std::cerr << "\r" << k + 1 << " of " << all.size() << "" << std::flush;
@@ -323,7 +334,7 @@ static int run_program(int argc, char** argv) {
   program.add_flag("--quick", options.quick, "Shorter turns: under a minute");
   program.add_option("--only", options.only, "One group of measurements")
       ->check(CLI::IsMember(
-          {"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators", "backward"}));
+          {"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators", "backward", "lamps"}));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
