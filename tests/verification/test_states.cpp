@@ -184,7 +184,7 @@ TEST_CASE("a sum without the backward walks from the receivers cannot be resumed
   const Room room = room_to_split(Furniture::none);
   Settings settings = settings_of(Estimator::collision, Engine::cuboid, 10'240, 1);
   settings.measured = Measured::all;
-  settings.receiver_walk = ReceiverWalk::backward;  // rounds of 16 walks from each of two receivers
+  settings.receiver_walk = ReceiverWalk::backward;  // rounds of 32 walks from each of two receivers
   const std::vector<State> parts{part(room, settings, 0, 10'240).state, part(room, settings, 10'240, 20'480).state,
                                  part(room, settings, 20'480, 30'720).state};
   // One of them was stopped before the receivers.
@@ -196,7 +196,7 @@ TEST_CASE("a sum without the backward walks from the receivers cannot be resumed
     const State sum = merge(some, {"a", "b", "c"});
     CHECK(result_of(room, sum).walk.histories == 30'720);
     CHECK_THROWS_WITH(resume(room, sum, settings),
-                      ContainsSubstring(missing == 0 ? "rounds 0 … 319" : "rounds 320 … 639"));
+                      ContainsSubstring(missing == 0 ? "rounds 0 … 159" : "rounds 160 … 319"));
   }
   Settings longer = settings;
   longer.photons = 40'960;
