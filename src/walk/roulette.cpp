@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t seed = 20211;  // any: the same room gives the same threshold
 constexpr double least = 0.15;
-constexpr double most = 0.65;
+constexpr double most = 0.6;
 constexpr double moment_per_weight = 16.0;
 
 // Goal: the sum of the direct irradiances at the first impacts.
