@@ -23,6 +23,7 @@ enum class Purpose : std::uint32_t {
   // Random shifts of quasi-random points (sobol.hpp); the "history" is the number of the set:
   shift = 8,        // of emission, words as there
   place_shift = 9,  // of place, words as there
+  receivers = 10,   // word 0: which receivers an impact serves, of those that it probably does not reach
 };
 
 class Stream {

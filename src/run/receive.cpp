@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -17,6 +18,7 @@
 #include "run/surface_results.hpp"
 #include "run/tile_light.hpp"
 #include "walk/backward.hpp"
+#include "walk/learn_reach.hpp"
 #include "walk/receiver_points.hpp"
 #include "walk/receiver_walk.hpp"
 #include "walk/tile_faces.hpp"
@@ -35,8 +37,8 @@ double error_at(const OriginEstimates& found, std::size_t k) {
   return std::hypot(found.indirect_error(k), (*found.direct)[k].standard_error);
 }
 
-// A standard error from few rounds is often too small: deviations in units of it follow Student's law. It is enlarged so
-// that three of it contain the mean as often as three of a normal distribution.
+// A standard error from few rounds is often too small: deviations in units of it follow Student's law. It is enlarged
+// so that three of it contain the mean as often as three of a normal distribution.
 double receiver_error(const OriginEstimates& found, std::size_t k) {
   constexpr double at = 3.0;
   const double factor = student_from_normal(at, static_cast<double>(found.rounds) - 1.0) / at;
@@ -150,7 +152,10 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   light.learn_selection(context.scene);
   const std::vector<ReferencePoint> points = receiver_points(room, tracer);
   const ReceiverBlocks blocks(points, tracer);
-  const ReceiverWalkParts parts{room, context.scene, light, points, blocks};
+  // Walks from the receivers have no use for it.
+  const bool only_walks = context.settings.receiver_walk == ReceiverWalk::backward;
+  const std::optional<LearnedReach> learned = only_walks ? std::nullopt : learn_reach(context.scene, points, blocks);
+  const ReceiverWalkParts parts{room, context.scene, light, points, blocks, learned ? &learned->reach : nullptr};
   const BackwardScale scale(room);
   const Stream stream(context.settings.seed, WalkDirection::backward);
   BackwardTask task;
@@ -159,7 +164,8 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   task.unit = scale.unit;
   task.block = ReceiverBlocks::size;
   task.choose = [&](BackwardTask& chosen, const std::vector<DirectIrradiance>& direct) {
-    ReceiverPlan found = choose_receiver_plan(room, context.scene, light, points, direct, context.settings);
+    ReceiverPlan found = choose_receiver_plan(room, context.scene, light, points, direct,
+                                              learned ? learned->served_share : 1.0, context.settings);
     chosen.plan = found.plan;
     chosen.candidates = {found.estimator};
     chosen.reason = std::move(found.reason);

@@ -13,8 +13,8 @@ namespace lichtmc {
 namespace {
 
 // The histories of a round for each receiver: few, because a standard error needs tens of rounds, also in short runs.
-// More photons in a set are spread more evenly: 32 have 0.7 times the variance of independent ones, 1024 have 0.35 times
-// (docs/performance.md).
+// More photons in a set are spread more evenly: 32 have 0.7 times the variance of independent ones, 1024 have 0.35
+// times (docs/performance.md).
 constexpr std::uint64_t histories_of_round = 8192;
 constexpr std::uint32_t most_of_kind = 32;
 
@@ -24,6 +24,7 @@ constexpr std::uint64_t walks_of_round = 32768;
 // A pilot ends after this work, some milliseconds: all pilots together take some hundredths of a second.
 constexpr double pilot_work = 1.5e4;
 constexpr std::size_t most_pilot_receivers = 128;
+static_assert(most_pilot_receivers <= ReceiverBlocks::size);
 
 // Work in units of one flight by Embree through a room of some thousand triangles (some 0.13 µs), measured by
 // lichtmc_bench. A room that casts no shadow is simple.
@@ -39,11 +40,16 @@ UnitCosts costs_of(const Scene& scene) {
   return {scene.engine == Engine::cuboid ? 0.25 : 0.5, 0.0, 0.0, 0.012};
 }
 
-double work_of(const BackwardCount& count, const UnitCosts& costs) {
+// The work of flights and of light samples.
+double work_of_walks(const BackwardCount& count, const UnitCosts& costs) {
   const TraceCount& traced = count.traced;
   return costs.flight * static_cast<double>(traced.rays - traced.shadow_rays) +
-         costs.shadow_ray * static_cast<double>(traced.shadow_rays - traced.bundled) +
-         costs.bundled_ray * static_cast<double>(traced.bundled) +
+         costs.shadow_ray * static_cast<double>(traced.shadow_rays - traced.bundled);
+}
+
+// The work of impacts that contribute to receivers.
+double work_of_connections(const BackwardCount& count, const UnitCosts& costs) {
+  return costs.bundled_ray * static_cast<double>(count.traced.bundled) +
          costs.connection * static_cast<double>(count.connections);
 }
 
@@ -56,15 +62,18 @@ std::uint32_t power_of_two_below(double value, std::uint32_t most) {
 }
 
 // The plan for receivers with `ratio` photons for each walk, or the nearest that is allowed; infinite: photons only, 0:
-// walks only.
-RoundPlan plan_with(double ratio, std::size_t receivers) {
+// walks only. served: the share of the receivers that an impact serves: only these count for photons.
+RoundPlan plan_with(double ratio, std::size_t receivers, double served) {
   const std::uint32_t most =
       power_of_two_below(static_cast<double>(histories_of_round) / static_cast<double>(receivers), most_of_kind);
   if (!(ratio > 0.0)) {
     const double walks = static_cast<double>(walks_of_round) / static_cast<double>(receivers);
     return {0, static_cast<std::uint32_t>(std::clamp(walks, 1.0, static_cast<double>(most_of_kind)))};
   }
-  if (std::isinf(ratio)) return {most, 0};
+  if (std::isinf(ratio)) {
+    const double photons = static_cast<double>(histories_of_round) / (served * static_cast<double>(receivers));
+    return {power_of_two_below(photons, most_of_kind), 0};
+  }
   if (ratio >= 1.0) {
     const std::uint32_t forward = std::max(most, power_of_two_below(ratio, most_of_kind));
     return {forward, std::max(1U, static_cast<std::uint32_t>(std::lround(forward / ratio)))};
@@ -85,8 +94,14 @@ struct Trial {
 class Pilots {
  public:
   Pilots(const Room& room, const Scene& scene, const DirectLight& light, const std::vector<ReferencePoint>& receivers,
-         const std::vector<DirectIrradiance>& direct, const Settings& settings)
-      : room_(room), scene_(scene), light_(light), settings_(settings), scale_(room), all_(receivers.size()),
+         const std::vector<DirectIrradiance>& direct, double served_share, const Settings& settings)
+      : room_(room),
+        scene_(scene),
+        light_(light),
+        settings_(settings),
+        scale_(room),
+        all_(receivers.size()),
+        served_share_(served_share),
         costs_(costs_of(scene)) {
     const std::size_t n = std::min(receivers.size(), most_pilot_receivers);
     for (std::size_t k = 0; k < n; ++k) {
@@ -109,33 +124,73 @@ class Pilots {
   }
 
  private:
+  struct Counts {
+    BackwardCount photons;  // from the emitters
+    BackwardCount walks;    // from the receivers
+
+    double work(const UnitCosts& costs) const {
+      return work_of_walks(photons, costs) + work_of_connections(photons, costs) + work_of_walks(walks, costs);
+    }
+  };
+
+  // Rounds for the sample, in which every impact serves all.
+  class Rounds {
+   public:
+    Rounds(const Pilots& pilots, const Settings& settings, const RoundPlan& plan)
+        : plan_(plan), receivers_((*pilots.blocks_)[0]), origins_(pilots.sample_, *pilots.scene_.tracer) {
+      if (plan.forward > 0)
+        photons_ = make_next_event(pilots.room_, pilots.scene_, pilots.light_, settings, plan, nullptr);
+      if (plan.backward > 0)
+        walks_ = make_backward_walk(pilots.scene_, pilots.light_, origins_, pilots.scale_, settings, plan);
+    }
+    void collect(std::uint64_t first, std::uint64_t rounds, std::vector<double>& irradiance, Counts& counts) const {
+      const Abandon never = [] { return false; };
+      if (photons_) photons_->simulate(receivers_, first, rounds, irradiance, counts.photons, never);
+      const WalkBlock walks{0, receivers_.size(), first * plan_.backward, (first + rounds) * plan_.backward};
+      if (walks_) walks_->collect(walks, irradiance, counts.walks, never);
+    }
+
+   private:
+    RoundPlan plan_;
+    const ReceiverLanes& receivers_;
+    ReceiverOrigins origins_;
+    std::unique_ptr<NextEvent> photons_;
+    std::unique_ptr<BackwardWalk> walks_;
+  };
+
+  // The work for all receivers of the room: photons fly once for every block of receivers, their impacts serve a share
+  // of them; walks start from each.
+  double work_for_all(const Counts& counts) const {
+    const double blocks = std::ceil(static_cast<double>(all_) / ReceiverBlocks::size);
+    const double times = static_cast<double>(all_) / static_cast<double>(sample_.size());
+    return blocks * work_of_walks(counts.photons, costs_) +
+           times * served_share_ * work_of_connections(counts.photons, costs_) +
+           times * work_of_walks(counts.walks, costs_);
+  }
+
   Trial run_rounds(const RoundPlan& plan, Estimator estimator) const {
     Settings settings = settings_;
     settings.estimator = estimator;
-    const ReceiverWalkParts parts{room_, scene_, light_, sample_, *blocks_};
-    const std::unique_ptr<BackwardWalk> walk = make_receiver_walk(parts, scale_, settings, plan);
+    const Rounds rounds(*this, settings, plan);
     const std::size_t n = sample_.size();
     std::vector<double> sums(n, 0.0);
     std::vector<double> squares(n, 0.0);
-    BackwardCount count;
-    std::uint64_t rounds = 0;
+    Counts counts;
+    std::uint64_t done = 0;
     constexpr std::uint64_t fewest_rounds = 8;
-    for (std::uint64_t step = fewest_rounds; rounds == 0 || work_of(count, costs_) < pilot_work;) {
+    for (std::uint64_t step = fewest_rounds; done == 0 || counts.work(costs_) < pilot_work;) {
       std::vector<double> irradiance(step * n, 0.0);
-      const std::uint64_t first = first_pilot_round + rounds;
-      walk->collect({0, n, first, first + step}, irradiance, count, [] { return false; });
-      rounds += step;
+      rounds.collect(first_pilot_round + done, step, irradiance, counts);
+      done += step;
       for (std::size_t k = 0; k < irradiance.size(); ++k) {
         sums[k % n] += irradiance[k];
         squares[k % n] += irradiance[k] * irradiance[k];
       }
-      if (count.impacts == 0) break;  // nothing meets a surface
-      step = std::min(rounds, std::max<std::uint64_t>(1, 16384 / plan.histories(n)));
+      if (counts.photons.impacts + counts.walks.impacts == 0) break;  // nothing meets a surface
+      step = std::min(done, std::max<std::uint64_t>(1, 16384 / plan.histories(n)));
     }
-    const auto done = static_cast<double>(rounds);
-    // Almost all of the work is for single receivers, of which the pilot has a part.
-    const double work = work_of(count, costs_) / done * static_cast<double>(all_) / static_cast<double>(n);
-    return {plan, estimator, relative_variance(sums, squares, done), work};
+    const auto number = static_cast<double>(done);
+    return {plan, estimator, relative_variance(sums, squares, number), work_for_all(counts) / number};
   }
 
   double relative_variance(const std::vector<double>& sums, const std::vector<double>& squares, double n) const {
@@ -156,7 +211,8 @@ class Pilots {
   const DirectLight& light_;
   const Settings& settings_;
   BackwardScale scale_;
-  std::size_t all_;  // receivers
+  std::size_t all_;      // receivers
+  double served_share_;  // of them, by an impact
   UnitCosts costs_;
   std::vector<ReferencePoint> sample_;  // of the receivers
   std::vector<double> direct_;
@@ -185,8 +241,8 @@ bool is_known(const Trial& trial) {
   return trial.cost() > 0.0 && std::isfinite(trial.cost());
 }
 
-// A pilot may miss rare large scores of photons near a receiver, or of walks near an emitter, which two-way walks do not
-// have: walks in one direction must be better by this factor.
+// A pilot may miss rare large scores of photons near a receiver, or of walks near an emitter, which two-way walks do
+// not have: walks in one direction must be better by this factor.
 constexpr double margin = 0.85;
 
 std::size_t best_of(const std::vector<Trial>& trials) {
@@ -216,9 +272,10 @@ std::string reason_of(const std::vector<Trial>& trials, std::size_t best) {
         least = std::min(least, trial.cost());
     }
     if (kind == walk_of(chosen.plan) || std::isinf(least)) continue;
-    text += std::string(listed ? ", " : "") + in_words(kind == ReceiverWalk::two_way    ? RoundPlan{1, 1}
-                                                       : kind == ReceiverWalk::backward ? RoundPlan{0, 1}
-                                                                                        : RoundPlan{1, 0}) +
+    text += std::string(listed ? ", " : "") +
+            in_words(kind == ReceiverWalk::two_way    ? RoundPlan{1, 1}
+                     : kind == ReceiverWalk::backward ? RoundPlan{0, 1}
+                                                      : RoundPlan{1, 0}) +
             (kind == ReceiverWalk::next_event ? " takes " : " take ") + short_number(least / chosen.cost()) +
             " times the work";
     listed = true;
@@ -251,18 +308,20 @@ double receiver_error_floor(const std::vector<double>& irradiances) {
 
 ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const DirectLight& light,
                                   const std::vector<ReferencePoint>& receivers,
-                                  const std::vector<DirectIrradiance>& direct, const Settings& settings) {
+                                  const std::vector<DirectIrradiance>& direct, double served_share,
+                                  const Settings& settings) {
   const ReceiverWalk walk = settings.receiver_walk;
   std::vector<Estimator> estimators = candidates_for(room, settings);
   // Weight comes first: receivers are points, so that a score is never a matter of hitting them or not.
   if (estimators.size() > 1) std::swap(estimators[0], estimators[1]);
   const double one_way = walk == ReceiverWalk::backward ? 0.0 : std::numeric_limits<double>::infinity();
+  const auto plan_of = [&](double ratio) { return plan_with(ratio, receivers.size(), served_share); };
   const bool fixed = walk == ReceiverWalk::backward || walk == ReceiverWalk::next_event;
-  if (fixed && estimators.size() == 1) return {plan_with(one_way, receivers.size()), estimators.front(), {}};
+  if (fixed && estimators.size() == 1) return {plan_of(one_way), estimators.front(), {}};
 
-  const Pilots pilots(room, scene, light, receivers, direct, settings);
-  const RoundPlan only_photons = plan_with(std::numeric_limits<double>::infinity(), receivers.size());
-  const RoundPlan only_walks = plan_with(0.0, receivers.size());
+  const Pilots pilots(room, scene, light, receivers, direct, served_share, settings);
+  const RoundPlan only_photons = plan_of(std::numeric_limits<double>::infinity());
+  const RoundPlan only_walks = plan_of(0.0);
   std::vector<Trial> trials;
   const Trial photons = pilots.run(only_photons, estimators.front());
   const Trial walks = pilots.run(only_walks, estimators.front());
@@ -272,13 +331,12 @@ ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const Di
     // Photons for each walk, if both take the same work.
     const double balanced = (walks.work / only_walks.backward) / (photons.work / only_photons.forward);
     for (const double share : {16.0, 4.0, 1.0, 0.25, 0.0625})
-      trials.push_back(pilots.run(plan_with(share * balanced, receivers.size()), estimators.front()));
+      trials.push_back(pilots.run(plan_of(share * balanced), estimators.front()));
   }
   std::size_t best = best_of(trials);
   if (best == trials.size()) {
     // Nothing scores: no surface reflects, or no light arrives.
-    return {plan_with(fixed ? one_way : walk == ReceiverWalk::automatic ? 0.0 : 1.0, receivers.size()),
-            estimators.front(), {}};
+    return {plan_of(fixed ? one_way : walk == ReceiverWalk::automatic ? 0.0 : 1.0), estimators.front(), {}};
   }
   const RoundPlan plan = trials[best].plan;
   for (std::size_t k = 1; k < estimators.size(); ++k) trials.push_back(pilots.run(plan, estimators[k]));

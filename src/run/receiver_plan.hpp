@@ -22,10 +22,12 @@ struct ReceiverPlan {
   std::string reason;  // a sentence; empty if nothing was left to choose
 };
 
-// Chooses what the settings leave open: the walk, its shares, the estimator. direct: of every receiver.
+// Chooses what the settings leave open: the walk, its shares, the estimator. direct: of every receiver. served_share:
+// of the receivers that an impact of a photon faces, those that it serves (learn_reach.hpp), on average.
 ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const DirectLight& light,
                                   const std::vector<ReferencePoint>& receivers,
-                                  const std::vector<DirectIrradiance>& direct, const Settings& settings);
+                                  const std::vector<DirectIrradiance>& direct, double served_share,
+                                  const Settings& settings);
 
 // The kind of walk that a plan is.
 ReceiverWalk walk_of(const RoundPlan& plan);

@@ -127,7 +127,8 @@ class EmbreeTracer final : public Tracer {
     count.shadow_rays += rays.size;
   }
 
-  void darken_blocked(const glm::vec3& start, const EndPoints& ends, float* value, TraceCount& count) const override;
+  void darken_blocked(const glm::vec3& start, const EndPoints& ends, std::size_t first, std::size_t last, float* value,
+                      TraceCount& count) const override;
 
   bool casts_shadows() const override { return casts_shadows_; }
 
@@ -313,8 +314,8 @@ void EmbreeTracer::load(RoomTriangles triangles) {
 }
 
 // Packets of 16 neighbours; those of which none is to be tested are left out.
-void EmbreeTracer::darken_blocked(const glm::vec3& start, const EndPoints& ends, float* value,
-                                  TraceCount& count) const {
+void EmbreeTracer::darken_blocked(const glm::vec3& start, const EndPoints& ends, std::size_t first_end,
+                                  std::size_t last_end, float* value, TraceCount& count) const {
   constexpr std::size_t size = 16;
   static_assert(most_lanes % size == 0);
   EmbreeQuery query;
@@ -326,7 +327,7 @@ void EmbreeTracer::darken_blocked(const glm::vec3& start, const EndPoints& ends,
   std::fill_n(packet.mask, size, 0xFFFFFFFF);
   alignas(64) std::array<int, size> valid{};
   std::uint64_t tested = 0;
-  for (std::size_t first = 0; first < ends.size; first += size) {
+  for (std::size_t first = first_end; first < last_end; first += size) {
     float* of_packet = value + first;
     int any = 0;
     for (std::size_t k = 0; k < size; ++k) {

@@ -98,9 +98,11 @@ class Tracer {
   // The same for one segment.
   virtual bool is_blocked(const glm::vec3& start, const glm::vec3& segment, TraceCount& count) const = 0;
 
-  // A bundle of segments with one start: sets value[k] to 0 where a surface lies between the start and end k. Ends with
-  // a value of 0 are not tested. Both ends of a segment must be free of surfaces. `value` has whole_lanes() elements.
-  virtual void darken_blocked(const glm::vec3& start, const EndPoints& ends, float* value, TraceCount& count) const;
+  // A bundle of segments with one start to ends first … last − 1: sets value[k] to 0 where a surface lies between the
+  // start and end k. Ends with a value of 0 are not tested. Both ends of a segment must be free of surfaces. `first` is a
+  // multiple of most_lanes; `value` belongs to all ends and has whole_lanes() elements.
+  virtual void darken_blocked(const glm::vec3& start, const EndPoints& ends, std::size_t first, std::size_t last,
+                              float* value, TraceCount& count) const;
 
   // Whether a surface can lie between an emitter and a point of the room. If not, the room is one closed convex shell
   // around all its emitters, and shadow rays are traced only from points outside.

@@ -18,8 +18,10 @@ template <class Policy>
 class NextEventGoal : public GoalBase {
  public:
   NextEventGoal(const Room& room, const Scene& scene, const DirectLight& light, const Stream& stream,
-                const RoundPlan& plan)
+                const RoundPlan& plan, const ReceiverReach* reach)
       : scene_(&scene),
+        stream_(stream),
+        reach_(reach),
         words_(stream, plan.forward),
         first_impact_(room, *scene.tracer, light),
         plan_(plan),
@@ -52,8 +54,7 @@ class NextEventGoal : public GoalBase {
   void start(Wave& wave, std::uint32_t n) {
     flight_ = 0;
     scene_->launcher->launch_all(words_, first_history_, n, wave.rays, wave.photon.data(), emitter_.data());
-    for (std::uint32_t i = 0; i < n; ++i)
-      from_[wave.photon[i]] = {wave.rays.facet[i], wave.rays.s[i], wave.rays.t[i]};
+    for (std::uint32_t i = 0; i < n; ++i) from_[wave.photon[i]] = {wave.rays.facet[i], wave.rays.s[i], wave.rays.t[i]};
     if (!Policy::scores_every_impact) std::fill(left_.begin(), left_.end(), Impact{});
   }
   Misses misses() const { return scene_->misses; }
@@ -101,7 +102,8 @@ class NextEventGoal : public GoalBase {
  private:
   // The part of a path that its end at the emitter determines: the same for all impacts of the photon.
   void set_ratios(const Wave& wave) {
-    const double per_area = plan_.backward / (static_cast<double>(plan_.forward) * receivers_->size_m() * receivers_->size_m());
+    const double per_area =
+        plan_.backward / (static_cast<double>(plan_.forward) * receivers_->size_m() * receivers_->size_m());
     for (std::size_t i = 0; i < wave.rays.size; ++i) {
       const std::uint32_t photon = wave.photon[i];
       ratio_[photon] = static_cast<float>(
@@ -120,6 +122,10 @@ class NextEventGoal : public GoalBase {
     impact.weight = Policy::carries_weight && Policy::scores_every_impact ? static_cast<float>(wave.weight[i]) : 1.0F;
     impact.backward_ratio = ratio_[photon];
     impact.round = photon / plan_.forward;
+    if (reach_ != nullptr) {
+      impact.cell = reach_->cell_of(scene_->tracer->world_point(glm::dvec3(impact.start)), glm::dvec3(impact.normal));
+      impact.turn = stream_.draw(first_history_ + photon, flight_, Purpose::receivers)[0] % ReceiverReach::one_in;
+    }
     return impact;
   }
 
@@ -133,12 +139,13 @@ class NextEventGoal : public GoalBase {
 
   // Light from the impacts to all receivers that see them.
   void contribute() {
-    count_->connections += impacts_.size() * receivers_->size();
-    receivers_->irradiate(impacts_, *scene_->tracer, value_, sums_, count_->traced);
+    count_->connections += receivers_->irradiate(impacts_, *scene_->tracer, reach_, value_, sums_, count_->traced);
     impacts_.clear();
   }
 
   const Scene* scene_;
+  Stream stream_;
+  const ReceiverReach* reach_;
   QuasiRandomWords words_;
   FirstImpact first_impact_;
   RoundPlan plan_;
@@ -161,8 +168,8 @@ template <class Policy, class Reflectance>
 class PolicyNextEvent final : public NextEvent {
  public:
   PolicyNextEvent(const Room& room, const Scene& scene, const DirectLight& light, std::uint64_t seed,
-                  const RoundPlan& plan, std::uint32_t max_flights)
-      : plan_(plan), goal_(room, scene, light, Stream(seed), plan), kernel_(scene, Stream(seed), max_flights) {}
+                  const RoundPlan& plan, const ReceiverReach* reach, std::uint32_t max_flights)
+      : plan_(plan), goal_(room, scene, light, Stream(seed), plan, reach), kernel_(scene, Stream(seed), max_flights) {}
 
   std::uint32_t rounds_at_a_time() const override { return batch_histories / plan_.forward; }
 
@@ -186,11 +193,12 @@ class PolicyNextEvent final : public NextEvent {
 }  // namespace
 
 std::unique_ptr<NextEvent> make_next_event(const Room& room, const Scene& scene, const DirectLight& light,
-                                           const Settings& settings, const RoundPlan& plan) {
+                                           const Settings& settings, const RoundPlan& plan,
+                                           const ReceiverReach* reach) {
   return choose_policy(settings.estimator, settings.max_bounces, scene.has_reflectance_maps(),
                        [&]<class Policy, class Reflectance>(std::uint32_t max_flights) -> std::unique_ptr<NextEvent> {
-                         return std::make_unique<PolicyNextEvent<Policy, Reflectance>>(room, scene, light, settings.seed,
-                                                                                       plan, max_flights);
+                         return std::make_unique<PolicyNextEvent<Policy, Reflectance>>(
+                             room, scene, light, settings.seed, plan, reach, max_flights);
                        });
 }
 

@@ -1,10 +1,10 @@
 // Next-event estimation: photons from the emitters, whose every impact contributes to every receiver.
 //
-// E(x) += Φ_w ρ/π · cos θ cos ψ/r² · V: Φ_w ρ the power that the impact reflects, θ and ψ the angles of the connection to
-// the normals of impact and receiver, V its visibility (M. H. Kalos, On the Estimation of Flux at a Point by Monte Carlo,
-// Nucl. Sci. Eng. 16 (1963) 111; F. J. López-Hernández et al., Opt. Eng. 39 (2000) 2775). One photon serves all
-// receivers, and shadow rays from one impact are a coherent bundle. 1/r² is unbounded near surfaces: together with walks
-// from the receivers, weighted by the balance heuristic, it is bounded.
+// E(x) += Φ_w ρ/π · cos θ cos ψ/r² · V: Φ_w ρ the power that the impact reflects, θ and ψ the angles of the connection
+// to the normals of impact and receiver, V its visibility (M. H. Kalos, On the Estimation of Flux at a Point by Monte
+// Carlo, Nucl. Sci. Eng. 16 (1963) 111; F. J. López-Hernández et al., Opt. Eng. 39 (2000) 2775). One photon serves all
+// receivers, and shadow rays from one impact are a coherent bundle. 1/r² is unbounded near surfaces: together with
+// walks from the receivers, weighted by the balance heuristic, it is bounded.
 //
 // First flights follow a randomised quasi-Monte Carlo sequence, with a new shift for every round.
 #pragma once
@@ -41,8 +41,9 @@ class NextEvent {
   NextEvent& operator=(const NextEvent&) = default;
 };
 
-// For one thread. plan.forward: a power of two, at most batch_histories. All references must outlive it.
+// For one thread. plan.forward: a power of two, at most batch_histories. reach: which receivers an impact serves; null:
+// all. All references must outlive it.
 std::unique_ptr<NextEvent> make_next_event(const Room& room, const Scene& scene, const DirectLight& light,
-                                           const Settings& settings, const RoundPlan& plan);
+                                           const Settings& settings, const RoundPlan& plan, const ReceiverReach* reach);
 
 }  // namespace lichtmc

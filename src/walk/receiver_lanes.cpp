@@ -13,17 +13,19 @@ namespace lichtmc {
 
 namespace {
 
-// Heights over a plane below this are rounding errors: some roundings of coordinates of about 1. A receiver that lies in
-// the plane of an impact gets nothing from it.
+// Heights over a plane below this are rounding errors: some roundings of coordinates of about 1. A receiver that lies
+// in the plane of an impact gets nothing from it.
 constexpr float least_height = 8.0F * 0x1p-24F;
 
-// The position of a point in a box along a curve that visits neighbours one after the other (G. M. Morton, 1966).
+// The position of a point in a box along a curve that visits neighbours one after the other (G. M. Morton, 1966):
+// through cubes, so that neighbours on the curve are close together also in an elongated box.
 std::uint64_t morton(const glm::dvec3& point, const Bounds& box) {
   constexpr int bits = 16;
-  const glm::dvec3 size = box.high - box.low;
+  const glm::dvec3 extent = box.high - box.low;
+  const double size = std::max({extent.x, extent.y, extent.z});
   std::uint64_t code = 0;
   for (int c = 0; c < 3; ++c) {
-    const double share = size[c] > 0.0 ? (point[c] - box.low[c]) / size[c] : 0.0;
+    const double share = size > 0.0 ? (point[c] - box.low[c]) / size : 0.0;
     const auto cell = static_cast<std::uint64_t>(share * ((1 << bits) - 1));
     for (int bit = 0; bit < bits; ++bit) code |= (cell >> bit & 1U) << (3 * bit + c);
   }
@@ -42,21 +44,22 @@ struct Lanes {
   const float* LICHTMC_APART spread;
 };
 
-// w G at receiver k, without shadows: G = cos θ cos ψ/(π r²), the radiance of a Lambertian impact of exitance 1 times the
-// projected solid angle. With walks from the receivers it is weighted by the balance heuristic, w G/(1 + ratio · G/sin² α):
-// their first flight reaches the impact with the density G/sin² α, α the half angle of the field of view.
+// w G at receiver k, without shadows: G = cos θ cos ψ/(π r²), the radiance of a Lambertian impact of exitance 1 times
+// the projected solid angle. With walks from the receivers it is weighted by the balance heuristic, w G/(1 + ratio ·
+// G/sin² α): their first flight reaches the impact with the density G/sin² α, α the half angle of the field of view.
 inline float irradiance_at(const Impact& impact, const Lanes& at, std::size_t k) {
   constexpr float inverse_pi = 0.318309886F;
   const float dx = at.x[k] - impact.point.x;
   const float dy = at.y[k] - impact.point.y;
   const float dz = at.z[k] - impact.point.z;
   const float squared = dx * dx + dy * dy + dz * dz;
-  const float height = dx * impact.normal.x + dy * impact.normal.y + dz * impact.normal.z;     // r cos θ, over the impact
+  const float height = dx * impact.normal.x + dy * impact.normal.y + dz * impact.normal.z;  // r cos θ, over the impact
   const float depth = -(dx * at.normal_x[k] + dy * at.normal_y[k] + dz * at.normal_z[k]);  // r cos ψ, over the receiver
-  const bool seen = (height > least_height) & (depth > least_height) &
-                    (depth * depth >= at.least_squared_cosine[k] * squared);
+  const bool seen =
+      (height > least_height) & (depth > least_height) & (depth * depth >= at.least_squared_cosine[k] * squared);
   const float projected = inverse_pi * height * depth;
-  const float value = impact.weight * projected / (squared * squared + impact.backward_ratio * at.spread[k] * projected);
+  const float value =
+      impact.weight * projected / (squared * squared + impact.backward_ratio * at.spread[k] * projected);
   return seen ? value : 0.0F;
 }
 
@@ -91,7 +94,7 @@ LICHTMC_LANES void irradiate_all_lanes(std::size_t n, const Impact* impacts, std
 
 ReceiverLanes::ReceiverLanes(const std::vector<ReferencePoint>& receivers, const Tracer& tracer, std::size_t first,
                              std::size_t last)
-    : number_(last - first) {
+    : first_(first), number_(last - first) {
   // The sides of the tracer's unit cube, as long as they are in the world.
   const glm::dmat3 axes(tracer.world_vector({1.0, 0.0, 0.0}), tracer.world_vector({0.0, 1.0, 0.0}),
                         tracer.world_vector({0.0, 0.0, 1.0}));
@@ -103,7 +106,8 @@ ReceiverLanes::ReceiverLanes(const std::vector<ReferencePoint>& receivers, const
   std::iota(number_.begin(), number_.end(), 0U);
   std::vector<std::uint64_t> codes(number_.size());
   for (const std::uint32_t k : number_) codes[k] = morton(receivers[first + k].point, box);
-  std::stable_sort(number_.begin(), number_.end(), [&](std::uint32_t a, std::uint32_t b) { return codes[a] < codes[b]; });
+  std::stable_sort(number_.begin(), number_.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return codes[a] < codes[b]; });
 
   const std::size_t whole = whole_lanes(number_.size());
   for (std::vector<float>& array : arrays_) array.resize(whole, 0.0F);
@@ -133,23 +137,52 @@ ReceiverLanes::ReceiverLanes(const std::vector<ReferencePoint>& receivers, const
 namespace {
 
 template <class Arrays>
-Lanes lanes_of(const Arrays& of) {
-  return {of[0].data(), of[1].data(), of[2].data(), of[3].data(), of[4].data(), of[5].data(), of[6].data(), of[7].data()};
+Lanes lanes_from(const Arrays& of, std::size_t first) {
+  return {of[0].data() + first, of[1].data() + first, of[2].data() + first, of[3].data() + first,
+          of[4].data() + first, of[5].data() + first, of[6].data() + first, of[7].data() + first};
 }
 
 }  // namespace
 
-void ReceiverLanes::irradiate(const std::vector<Impact>& impacts, const Tracer& tracer, std::vector<float>& value,
-                              std::vector<double>& sums, TraceCount& count) const {
+std::uint64_t ReceiverLanes::irradiate(const std::vector<Impact>& impacts, const Tracer& tracer,
+                                       const ReceiverReach* reach, std::vector<float>& value, std::vector<double>& sums,
+                                       TraceCount& count) const {
   const std::size_t n = whole_lanes(size());
-  const Lanes lanes = lanes_of(arrays_);
-  if (!tracer.casts_shadows()) return irradiate_all_lanes(n, impacts.data(), impacts.size(), lanes, sums.data());
-  value.resize(n);
-  for (const Impact& impact : impacts) {
-    if (irradiate_lanes(n, impact, lanes, value.data()) == 0) continue;
-    tracer.darken_blocked(impact.start, ends_, value.data(), count);
-    add_lanes(n, value.data(), sums.data() + impact.round * n);
+  if (!tracer.casts_shadows()) {
+    irradiate_all_lanes(n, impacts.data(), impacts.size(), lanes_from(arrays_, 0), sums.data());
+    return impacts.size() * size();
   }
+  value.resize(n);
+  std::uint64_t pairs = 0;
+  for (const Impact& impact : impacts) {
+    double* of_round = sums.data() + impact.round * n;
+    if (reach == nullptr) {
+      irradiate_some(impact, 0, size(), tracer, value.data(), of_round, count);
+      pairs += size();
+      continue;
+    }
+    Impact weighted = impact;
+    reach->choose(impact.cell, impact.turn, first_, size(), [&](std::size_t begin, std::size_t end, float factor) {
+      weighted.weight = factor * impact.weight;
+      irradiate_some(weighted, begin, end, tracer, value.data(), of_round, count);
+      pairs += end - begin;
+    });
+  }
+  return pairs;
+}
+
+void ReceiverLanes::irradiate_some(const Impact& impact, std::size_t begin, std::size_t end, const Tracer& tracer,
+                                   float* value, double* sums, TraceCount& count) const {
+  const std::size_t n = whole_lanes(end - begin);
+  if (irradiate_lanes(n, impact, lanes_from(arrays_, begin), value + begin) == 0) return;
+  tracer.darken_blocked(impact.start, ends_, begin, end, value, count);
+  add_lanes(n, value + begin, sums + begin);
+}
+
+void ReceiverLanes::irradiate_unshadowed(const Impact& impact, std::vector<float>& value) const {
+  const std::size_t n = whole_lanes(size());
+  value.resize(n);
+  irradiate_lanes(n, impact, lanes_from(arrays_, 0), value.data());
 }
 
 }  // namespace lichtmc

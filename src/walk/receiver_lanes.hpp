@@ -14,6 +14,7 @@
 #include "base/lanes.hpp"
 #include "tracer/rays.hpp"
 #include "tracer/tracer.hpp"
+#include "walk/receiver_reach.hpp"
 #include "walk/reference_point.hpp"
 
 namespace lichtmc {
@@ -28,6 +29,9 @@ struct Impact {
   // their first flight, divided by that of photons from the emitters; in the receivers' units of area. 0: no walks.
   float backward_ratio = 0.0F;
   std::uint32_t round = 0;
+  // Only where receivers are chosen (receiver_reach.hpp): the cell of the surfaces, and a random number below one_in.
+  std::uint32_t cell = 0;
+  std::uint32_t turn = 0;
 };
 
 class ReceiverLanes {
@@ -45,11 +49,24 @@ class ReceiverLanes {
   glm::vec3 point(const glm::vec3& in_tracer) const { return glm::vec3(to_lanes_ * glm::dvec3(in_tracer)); }
 
   // Adds the irradiance that impacts cause at every receiver, in units of the photon's power per size_m², to
-  // sums[round · whole_lanes(size()) + k], k the position in the arrays. value: memory for it; shadow rays are counted.
-  void irradiate(const std::vector<Impact>& impacts, const Tracer& tracer, std::vector<float>& value,
-                 std::vector<double>& sums, TraceCount& count) const;
+  // sums[round · whole_lanes(size()) + k], k the position in the arrays. reach: which receivers each impact serves;
+  // null: all. value: memory for it; shadow rays are counted. Returns the number of pairs of impact and receiver.
+  std::uint64_t irradiate(const std::vector<Impact>& impacts, const Tracer& tracer, const ReceiverReach* reach,
+                          std::vector<float>& value, std::vector<double>& sums, TraceCount& count) const;
+
+  // The irradiance by one impact without shadows; value[k] at position k, for whole_lanes(size()) positions.
+  void irradiate_unshadowed(const Impact& impact, std::vector<float>& value) const;
+  // Sets value[k] to 0 where a surface lies between the impact and the receiver at position k.
+  void darken_blocked(const Impact& impact, const Tracer& tracer, std::vector<float>& value, TraceCount& count) const {
+    tracer.darken_blocked(impact.start, ends_, 0, size(), value.data(), count);
+  }
 
  private:
+  // The receivers at positions begin … end − 1.
+  void irradiate_some(const Impact& impact, std::size_t begin, std::size_t end, const Tracer& tracer, float* value,
+                      double* sums, TraceCount& count) const;
+
+  std::size_t first_ = 0;
   glm::dmat3 to_lanes_{1.0};
   double size_m_ = 1.0;
   std::vector<std::uint32_t> number_;

@@ -9,10 +9,9 @@ namespace {
 
 class RoundWalk final : public BackwardWalk {
  public:
-  RoundWalk(const ReceiverWalkParts& parts, const BackwardScale& scale, const Settings& settings,
-               const RoundPlan& plan)
+  RoundWalk(const ReceiverWalkParts& parts, const BackwardScale& scale, const Settings& settings, const RoundPlan& plan)
       : blocks_(&parts.blocks), scale_(scale), plan_(plan), origins_(parts.receivers, *parts.scene.tracer) {
-    if (plan.forward > 0) forward_ = make_next_event(parts.room, parts.scene, parts.light, settings, plan);
+    if (plan.forward > 0) forward_ = make_next_event(parts.room, parts.scene, parts.light, settings, plan, parts.reach);
     if (plan.backward > 0) backward_ = make_backward_walk(parts.scene, parts.light, origins_, scale, settings, plan);
   }
 
@@ -33,7 +32,8 @@ class RoundWalk final : public BackwardWalk {
       assert(work.first % ReceiverBlocks::size == 0);
       const ReceiverLanes& receivers = (*blocks_)[work.first / ReceiverBlocks::size];
       assert(receivers.size() == work.last - work.first);
-      forward_->simulate(receivers, work.first_sample, work.last_sample - work.first_sample, irradiance, count, abandon);
+      forward_->simulate(receivers, work.first_sample, work.last_sample - work.first_sample, irradiance, count,
+                         abandon);
     }
     if (backward_) {
       const WalkBlock walks{work.first, work.last, work.first_sample * plan_.backward,

@@ -35,6 +35,7 @@ struct ReceiverWalkParts {
   const DirectLight& light;
   const std::vector<ReferencePoint>& receivers;
   const ReceiverBlocks& blocks;
+  const ReceiverReach* reach;  // null: impacts serve all receivers
 };
 
 // For one thread. In WalkBlock, origins are receivers, whose first is a multiple of ReceiverBlocks::size, within one
