@@ -30,8 +30,8 @@ constexpr std::uint32_t flights = 3;
 constexpr std::size_t photons_of_cell = 8;
 constexpr std::size_t points_of_cell = 32;  // at most
 
-// A part of the cells, from which the share of the pairs that do not see each other is estimated.
-constexpr std::size_t sampled_cells = 16;  // one in so many
+// Larger cells, from which the share of the pairs that do not see each other is estimated first, in some milliseconds.
+constexpr std::size_t trial_cells = 64;
 // Less would save less than half of the work, at the risk of more variance.
 constexpr double least_blind = 0.5;
 
@@ -110,6 +110,16 @@ class ReachTest {
     }
   }
 
+  void test_all() {
+    for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) test(cell);
+  }
+
+  // Of the pairs tested that face each other.
+  double blind_share() const { return facing_ > 0 ? static_cast<double>(blind_) / static_cast<double>(facing_) : 0.0; }
+  std::size_t clusters() const { return clusters_; }
+  std::vector<std::uint8_t> take_table() { return std::move(reached_); }
+
+ private:
   // Tests the pairs of a cell and all clusters.
   void test(std::uint32_t cell) {
     std::fill(faces_.begin(), faces_.end(), 0);
@@ -133,12 +143,6 @@ class ReachTest {
     }
   }
 
-  // Of the pairs tested that face each other.
-  double blind_share() const { return facing_ > 0 ? static_cast<double>(blind_) / static_cast<double>(facing_) : 0.0; }
-  std::size_t clusters() const { return clusters_; }
-  std::vector<std::uint8_t> take_table() { return std::move(reached_); }
-
- private:
   Impact impact_at(std::uint32_t point, const ReceiverLanes& receivers) const {
     Impact impact;
     impact.start = points_.starts[point];
@@ -167,6 +171,16 @@ class ReachTest {
   TraceCount count_;
 };
 
+double blind_share_of_trial(const Scene& scene, const std::vector<ReferencePoint>& receivers,
+                            const ReceiverBlocks& blocks, std::size_t cluster) {
+  const SurfacePoints points = mark_points(scene, trial_cells);
+  if (points.places.empty()) return 0.0;
+  const PlaceTree cells(points.places, points_of_cell, points_of_cell);
+  ReachTest test(*scene.tracer, points, cells, receivers, blocks, cluster);
+  test.test_all();
+  return test.blind_share();
+}
+
 }  // namespace
 
 std::optional<LearnedReach> learn_reach(const Scene& scene, const std::vector<ReferencePoint>& receivers,
@@ -174,16 +188,11 @@ std::optional<LearnedReach> learn_reach(const Scene& scene, const std::vector<Re
   if (receivers.size() < least_receivers || !scene.tracer->casts_shadows()) return std::nullopt;
   const std::size_t cluster = cluster_size_for(receivers.size());
   const std::size_t clusters = (receivers.size() + cluster - 1) / cluster;
+  if (blind_share_of_trial(scene, receivers, blocks, cluster) < least_blind) return std::nullopt;
   const SurfacePoints points = mark_points(scene, std::clamp(most_pairs / clusters, least_cells, most_cells));
-  if (points.places.empty()) return std::nullopt;
   PlaceTree cells(points.places, points_of_cell, points_of_cell);
-  const auto count = static_cast<std::uint32_t>(cells.size());
   ReachTest test(*scene.tracer, points, cells, receivers, blocks, cluster);
-  for (std::uint32_t cell = 0; cell < count; cell += sampled_cells) test.test(cell);
-  if (test.blind_share() < least_blind) return std::nullopt;
-  for (std::uint32_t cell = 0; cell < count; ++cell) {
-    if (cell % sampled_cells != 0) test.test(cell);
-  }
+  test.test_all();
   const double served = 1.0 - test.blind_share() * (1.0 - 1.0 / ReceiverReach::one_in);
   return LearnedReach{ReceiverReach(std::move(cells), cluster, clusters, test.take_table()), served};
 }

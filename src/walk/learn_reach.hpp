@@ -22,8 +22,8 @@ struct LearnedReach {
   double served_share = 1.0;  // of the pairs of impact and receiver that face each other, on average
 };
 
-// None where it does not pay: with few receivers, where nothing casts a shadow, or where most of a sample of pairs of
-// cell and cluster that face each other see each other. blocks: of the receivers.
+// None where it does not pay: with few receivers, where nothing casts a shadow, or where most pairs of cell and
+// cluster that face each other see each other. blocks: of the receivers.
 std::optional<LearnedReach> learn_reach(const Scene& scene, const std::vector<ReferencePoint>& receivers,
                                         const ReceiverBlocks& blocks);
 
