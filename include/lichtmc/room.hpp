@@ -136,6 +136,12 @@ struct Receiver {
   glm::dvec3 normal{0.0, 1.0, 0.0};  // axis of the field of view, any length but 0
   double half_angle_deg = 90.0;      // half angle of the field of view, 0 … 90
   double area_m2 = 1.0;              // for its gain H = E·A/Φ, ≥ 0
+  // A cell of a calculation grid: the irradiance is the mean over the parallelogram with these edges, in m, about the
+  // position. Both 0: the irradiance at the position.
+  glm::dvec3 cell_u{0.0};
+  glm::dvec3 cell_v{0.0};
+
+  bool is_cell() const { return cell_u != glm::dvec3(0.0) || cell_v != glm::dvec3(0.0); }
 };
 
 // Whether something has an influence on the figures.

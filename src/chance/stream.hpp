@@ -24,6 +24,8 @@ enum class Purpose : std::uint32_t {
   shift = 8,        // of emission, words as there
   place_shift = 9,  // of place, words as there
   receivers = 10,   // word 0: which receivers an impact serves, of those that it probably does not reach
+  cell = 11,        // words 0, 1: where in the cells of receivers an impact contributes
+  direct_cell = 12,  // words 0, 1: where in a cell direct light is computed
 };
 
 class Stream {

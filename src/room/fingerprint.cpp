@@ -83,6 +83,9 @@ class RoomChecksum {
     add(receiver.normal);
     sum_.add(receiver.half_angle_deg);
     sum_.add(receiver.area_m2);
+    if (!receiver.is_cell()) return;
+    add(receiver.cell_u);
+    add(receiver.cell_v);
   }
 
   template <class Thing>

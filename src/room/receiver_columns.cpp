@@ -67,8 +67,8 @@ std::vector<CsvField> fields_by(std::string_view row, char separator) {
 }
 
 bool begins_with_numbers(const std::vector<CsvField>& fields, char separator) {
-  if (fields.size() < receiver_numbers.size()) return false;
-  return std::all_of(fields.begin(), fields.begin() + receiver_numbers.size(), [separator](const CsvField& field) {
+  if (fields.size() < needed_numbers) return false;
+  return std::all_of(fields.begin(), fields.begin() + needed_numbers, [separator](const CsvField& field) {
     const std::string_view text = trimmed(field.text);
     const bool one_number = text.find_first_of(separator == ',' ? ",; \t" : "; \t") == std::string_view::npos;
     return looks_like_number(text) && one_number;
@@ -109,7 +109,7 @@ bool names_all_columns(const CsvRow& row) {
   for (const CsvField& field : row.fields) {
     if (const auto column = number_column(field.text)) found[*column] = true;
   }
-  return std::all_of(found.begin(), found.end(), [](bool is) { return is; });
+  return std::all_of(found.begin(), found.begin() + needed_numbers, [](bool is) { return is; });
 }
 
 ReceiverColumns columns_of(const CsvRow& heading, const std::string& where) {
@@ -126,7 +126,7 @@ ReceiverColumns columns_of(const CsvRow& heading, const std::string& where) {
     if (const auto number = number_column(text)) {
       if (found[*number]) twice(text);
       found[*number] = true;
-      check_unit(text, *number < 3, where);
+      check_unit(text, *number < 3 || *number >= needed_numbers, where);
       columns.numbers[*number] = k;
     } else if (name_of(text).column == "name") {
       if (columns.name) twice(text);
@@ -136,7 +136,8 @@ ReceiverColumns columns_of(const CsvRow& heading, const std::string& where) {
     }
   }
   std::string missing;
-  for (std::size_t k = 0; k < found.size(); ++k) {
+  columns.cells = std::any_of(found.begin() + needed_numbers, found.end(), [](bool is) { return is; });
+  for (std::size_t k = 0; k < (columns.cells ? found.size() : needed_numbers); ++k) {
     if (!found[k]) missing += (missing.empty() ? "" : ", ") + std::string(receiver_numbers[k]);
   }
   if (missing.empty()) return columns;
@@ -146,7 +147,7 @@ ReceiverColumns columns_of(const CsvRow& heading, const std::string& where) {
     others += (k > 0 ? ", " : "") + columns.ignored[k];
   if (columns.ignored.size() > shown) others += ", …";
   throw InputError(where + " is a heading without " + missing + (others.empty() ? "" : "; it has " + others) +
-                   " (allowed: x, y, z, nx, ny, nz in any order, other columns are not read). Name the columns of the "
+                   " (allowed: x, y, z, nx, ny, nz in any order, and for cells ux, uy, uz, vx, vy, vz; other columns are not read). Name the columns of the "
                    "position in metres and of the normal so.");
 }
 

@@ -12,10 +12,14 @@
 
 namespace lichtmc {
 
-inline constexpr std::array<std::string_view, 6> receiver_numbers{"x", "y", "z", "nx", "ny", "nz"};
+// Position, normal and, only with a heading, the edges of cells.
+inline constexpr std::array<std::string_view, 12> receiver_numbers{"x",  "y",  "z",  "nx", "ny", "nz",
+                                                                   "ux", "uy", "uz", "vx", "vy", "vz"};
+inline constexpr std::size_t needed_numbers = 6;  // the first of them
 
 struct ReceiverColumns {
-  std::array<std::size_t, 6> numbers{0, 1, 2, 3, 4, 5};  // of x, y, z, nx, ny, nz
+  std::array<std::size_t, receiver_numbers.size()> numbers{0, 1, 2, 3, 4, 5};  // of receiver_numbers
+  bool cells = false;                // it has the edges
   std::optional<std::size_t> name;
   std::size_t least = 6;             // number of fields of a row
   std::size_t most = 7;              // without a heading a row may have a name or not
@@ -33,7 +37,7 @@ bool looks_like_number(std::string_view text);
 bool names_all_columns(const CsvRow& row);
 
 // The columns that a heading names. `where` is its source and row, for messages. Throws InputError if a column is
-// missing, is named twice or has a unit that is not the metre.
+// missing, is named twice or has a unit that is not the metre, or if not all of the edges' columns are there.
 ReceiverColumns columns_of(const CsvRow& heading, const std::string& where);
 
 // The separator of a table, from its first row: the first of tab, semicolon, comma and blank by which it is a heading

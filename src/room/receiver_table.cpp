@@ -218,6 +218,9 @@ void TableReader::read_row(const CsvRow& row) {
   for (int k = 0; k < 3; ++k) {
     receiver.position[k] = number(row, static_cast<std::size_t>(k));
     receiver.normal[k] = number(row, static_cast<std::size_t>(k) + 3);
+    if (!columns_.cells) continue;
+    receiver.cell_u[k] = number(row, static_cast<std::size_t>(k) + 6);
+    receiver.cell_v[k] = number(row, static_cast<std::size_t>(k) + 9);
   }
   if (receiver.normal == glm::dvec3(0.0)) {
     throw InputError(where(row.line) +

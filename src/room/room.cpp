@@ -177,6 +177,23 @@ void check_shape(const Room& room, const Shape& shape, const std::string& of) {
           "Give the surface coordinates on a part of the map that is not black, or remove the emitter.");
 }
 
+// Its edges span a part of the plane at right angles to the normal.
+void check_cell(const Room& room, const Receiver& receiver) {
+  if (!receiver.is_cell()) return;
+  const glm::dvec3 across = glm::cross(receiver.cell_u, receiver.cell_v);
+  const double sides = glm::length(receiver.cell_u) * glm::length(receiver.cell_v);
+  constexpr double parallel = 1e-6;   // sine of the angle between the edges
+  constexpr double tilted = 1e-6;     // sine of the angle of their plane to that of the receiver
+  const double sine = glm::length(across) / sides;
+  require(std::isfinite(sides) && sine > parallel, room,
+          "sine of the angle between the edges of the cell of receiver " + in_quotes(receiver.name), sine,
+          "above 1e-6, with two edges of finite length", "Give two edges in different directions.");
+  const double tilt = glm::length(glm::cross(glm::normalize(across), glm::normalize(receiver.normal)));
+  require(tilt < tilted, room,
+          "sine of the angle between the normal of receiver " + in_quotes(receiver.name) + " and that of its cell", tilt,
+          "below 1e-6", "Give edges at right angles to the normal.");
+}
+
 void check_receiver(const Room& room, const Receiver& receiver) {
   const std::string of = "of receiver " + in_quotes(receiver.name);
   check_position(room, receiver.position, of);
@@ -184,6 +201,7 @@ void check_receiver(const Room& room, const Receiver& receiver) {
   require(receiver.half_angle_deg >= 0.0 && receiver.half_angle_deg <= 90.0, room,
           "field of view (half angle in degrees) " + of, receiver.half_angle_deg, "0 to 90",
           "Give the half angle; 90 is the whole hemisphere.");
+  check_cell(room, receiver);
   require(receiver.area_m2 >= 0.0 && std::isfinite(receiver.area_m2), room, "area in m² " + of, receiver.area_m2,
           "a finite number, 0 or more", "Give its sensitive area.");
 }

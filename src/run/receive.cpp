@@ -19,6 +19,7 @@
 #include "run/tile_light.hpp"
 #include "walk/backward.hpp"
 #include "walk/learn_reach.hpp"
+#include "walk/cell_light.hpp"
 #include "walk/receiver_points.hpp"
 #include "walk/receiver_walk.hpp"
 #include "walk/tile_faces.hpp"
@@ -174,6 +175,7 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
     const Receiver& receiver = room.receivers[k];
     if (receiver.half_angle_deg == 0.0) return {};  // its field of view is empty
     if (const auto emitter = light.emitter_at(reference_point_of(receiver))) refuse_on_emitter(room, k, *emitter);
+    if (receiver.is_cell()) return cell_irradiance(light, tracer, points[k], stream, k, count);
     return light.irradiance_at(points[k], stream, k, count);
   };
   task.make_walk = [&](const Settings& own, const RoundPlan& plan) {

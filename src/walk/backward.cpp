@@ -311,6 +311,27 @@ ReceiverOrigins::ReceiverOrigins(const std::vector<ReferencePoint>& receivers, c
   }
 }
 
+CellOrigins::CellOrigins(const std::vector<ReferencePoint>& receivers, const Tracer& tracer)
+    : points_(receivers, tracer) {
+  const glm::dvec3 origin = tracer.tracer_point(glm::dvec3(0.0));
+  for (const ReferencePoint& one : receivers)
+    edges_.push_back({glm::vec3(tracer.tracer_point(one.cell_u) - origin), glm::vec3(tracer.tracer_point(one.cell_v) - origin)});
+}
+
+OriginView CellOrigins::start(std::uint64_t receiver, double u, double v, Rays& rays, std::size_t i) const {
+  const OriginView view = points_.start(receiver, rays, i);
+  const Edges& edges = edges_[receiver];
+  rays.set_start(i, rays.start(i) + static_cast<float>(u - 0.5) * edges.u + static_cast<float>(v - 0.5) * edges.v);
+  return view;
+}
+
+std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
+                                                 const CellOrigins& origins, const BackwardScale& scale,
+                                                 const Settings& settings, const RoundPlan& plan) {
+  assert(plan.backward > 0);
+  return walk_from(scene, light, origins, scale, settings, plan);
+}
+
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
                                                  const ReceiverOrigins& origins, const BackwardScale& scale,
                                                  const Settings& settings, const RoundPlan& plan) {

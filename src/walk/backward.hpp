@@ -127,11 +127,34 @@ class ReceiverOrigins {
   std::vector<Place> places_;
 };
 
+// The same if some of the receivers are cells: walks start at places in them.
+class CellOrigins {
+ public:
+  CellOrigins(const std::vector<ReferencePoint>& receivers, const Tracer& tracer);
+
+  static constexpr std::uint32_t group = 1;
+  static constexpr bool is_extended = true;
+  std::size_t size() const { return points_.size(); }
+  static double uncovered_share(std::uint64_t /*receiver*/) { return 1.0; }
+  OriginView start(std::uint64_t receiver, double u, double v, Rays& rays, std::size_t i) const;
+
+ private:
+  struct Edges {
+    glm::vec3 u;  // tracer's coordinates
+    glm::vec3 v;
+  };
+  ReceiverOrigins points_;
+  std::vector<Edges> edges_;
+};
+
 // A walk for one thread, from receivers or from the faces of tiles; scene, light and origins must outlive it. plan: a
 // round has plan.backward walks from each receiver; if it has histories from the emitters too, each light sample has
 // its weight beside them (DirectLight::sample_light()).
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
                                                  const ReceiverOrigins& origins, const BackwardScale& scale,
+                                                 const Settings& settings, const RoundPlan& plan);
+std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
+                                                 const CellOrigins& origins, const BackwardScale& scale,
                                                  const Settings& settings, const RoundPlan& plan);
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light, const TileFaces& origins,
                                                  const BackwardScale& scale, const Settings& settings);

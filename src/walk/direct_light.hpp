@@ -47,6 +47,9 @@ class DirectLight {
   DirectIrradiance irradiance_at(const ReferencePoint& reference, const Stream& stream, std::uint64_t number,
                                  TraceCount& count) const;
 
+  // Its part by point emitters.
+  double irradiance_by_points(const ReferencePoint& reference, TraceCount& count) const;
+
   // The emitters with a flux above 0 that are not wholly covered by other faces in their plane.
   const std::vector<PointLight>& points() const { return points_; }
   const std::vector<AreaLight>& areas() const { return areas_; }
@@ -125,7 +128,6 @@ class DirectLight {
   static constexpr std::size_t no_source = std::numeric_limits<std::size_t>::max();
 
   std::vector<double> fluxes() const;
-  double irradiance_by_points(const ReferencePoint& reference, TraceCount& count) const;
   double probability(std::uint32_t cell, std::size_t source) const {
     return selection_ ? selection_->probability(cell, source) : 1.0;
   }

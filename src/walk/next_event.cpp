@@ -87,9 +87,10 @@ class NextEventGoal : public GoalBase {
       score_last(wave.photon[at[k]], 1.0 / (1.0 - scene_->reflectance_of[wave.surface[at[k]]]));
   }
 
-  void reflect(const Wave& wave, std::uint32_t /*flight*/) {
+  void reflect(const Wave& wave, std::uint32_t flight) {
     for (std::size_t i = 0; i < wave.rays.size; ++i) {
-      const Impact impact = impact_of(wave, i);
+      Impact impact = impact_of(wave, i);
+      if (receivers_->has_cells()) place_in_cells(wave.photon[i], flight, impact);
       if constexpr (Policy::scores_every_impact) {
         impacts_.push_back(impact);
       } else {
@@ -127,6 +128,12 @@ class NextEventGoal : public GoalBase {
       impact.turn = stream_.draw(first_history_ + photon, flight_, Purpose::receivers)[0] % ReceiverReach::one_in;
     }
     return impact;
+  }
+
+  void place_in_cells(std::uint32_t photon, std::uint32_t flight, Impact& impact) const {
+    const Words words = stream_.draw(first_history_ + photon, flight, Purpose::cell);
+    impact.in_cell_u = static_cast<float>(unit_open(words[0]) - 0.5);
+    impact.in_cell_v = static_cast<float>(unit_open(words[1]) - 0.5);
   }
 
   void score_last(std::uint32_t photon, double factor) {

@@ -90,6 +90,12 @@ LICHTMC_LANES void irradiate_all_lanes(std::size_t n, const Impact* impacts, std
   }
 }
 
+// Positions shifted within cells.
+LICHTMC_LANES void shift_lanes(std::size_t n, const float* LICHTMC_APART from, const float* LICHTMC_APART u,
+                               const float* LICHTMC_APART v, float share_u, float share_v, float* LICHTMC_APART to) {
+  for (std::size_t k = 0; k < n; ++k) to[k] = from[k] + share_u * u[k] + share_v * v[k];
+}
+
 }  // namespace
 
 ReceiverLanes::ReceiverLanes(const std::vector<ReferencePoint>& receivers, const Tracer& tracer, std::size_t first,
@@ -131,6 +137,19 @@ ReceiverLanes::ReceiverLanes(const std::vector<ReferencePoint>& receivers, const
                                             1.0 / squared_sine};
     for (std::size_t c = 0; c < arrays_.size(); ++c) arrays_[c][k] = static_cast<float>(of_receiver[c]);
     ends_.set(k, end);
+    if (receiver.is_cell()) set_edges(k, receiver, tracer);
+  }
+}
+
+void ReceiverLanes::set_edges(std::size_t k, const ReferencePoint& receiver, const Tracer& tracer) {
+  edges_.resize(12);
+  for (std::vector<float>& edge : edges_) edge.resize(whole_lanes(size()), 0.0F);
+  const glm::dvec3 origin = tracer.tracer_point(glm::dvec3(0.0));
+  const glm::dvec3 u = tracer.tracer_point(receiver.cell_u) - origin;
+  const glm::dvec3 v = tracer.tracer_point(receiver.cell_v) - origin;
+  const std::array<glm::dvec3, 4> all{to_lanes_ * u, to_lanes_ * v, u, v};
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    for (int c = 0; c < 3; ++c) edges_[3 * e + static_cast<std::size_t>(c)][k] = static_cast<float>(all[e][c]);
   }
 }
 
@@ -148,6 +167,7 @@ std::uint64_t ReceiverLanes::irradiate(const std::vector<Impact>& impacts, const
                                        const ReceiverReach* reach, std::vector<float>& value, std::vector<double>& sums,
                                        TraceCount& count) const {
   const std::size_t n = whole_lanes(size());
+  if (has_cells()) return irradiate_cells(impacts, tracer, value, sums, count);
   if (!tracer.casts_shadows()) {
     irradiate_all_lanes(n, impacts.data(), impacts.size(), lanes_from(arrays_, 0), sums.data());
     return impacts.size() * size();
@@ -183,6 +203,31 @@ void ReceiverLanes::irradiate_unshadowed(const Impact& impact, std::vector<float
   const std::size_t n = whole_lanes(size());
   value.resize(n);
   irradiate_lanes(n, impact, lanes_from(arrays_, 0), value.data());
+}
+
+// As irradiate(), with receivers shifted within their cells.
+std::uint64_t ReceiverLanes::irradiate_cells(const std::vector<Impact>& impacts, const Tracer& tracer,
+                                             std::vector<float>& value, std::vector<double>& sums,
+                                             TraceCount& count) const {
+  const std::size_t n = whole_lanes(size());
+  value.resize(n);
+  std::array<std::vector<float>, 8> shifted = arrays_;
+  EndPoints ends = ends_;
+  const auto shift = [&](const std::vector<float>& from, std::size_t u, const Impact& by, std::vector<float>& to) {
+    shift_lanes(n, from.data(), edges_[u].data(), edges_[u + 3].data(), by.in_cell_u, by.in_cell_v, to.data());
+  };
+  for (const Impact& impact : impacts) {
+    for (std::size_t c = 0; c < 3; ++c) shift(arrays_[c], c, impact, shifted[c]);
+    if (irradiate_lanes(n, impact, lanes_from(shifted, 0), value.data()) == 0) continue;
+    if (tracer.casts_shadows()) {
+      shift(ends_.x, 6, impact, ends.x);
+      shift(ends_.y, 7, impact, ends.y);
+      shift(ends_.z, 8, impact, ends.z);
+      tracer.darken_blocked(impact.start, ends, 0, size(), value.data(), count);
+    }
+    add_lanes(n, value.data(), sums.data() + impact.round * n);
+  }
+  return impacts.size() * size();
 }
 
 }  // namespace lichtmc

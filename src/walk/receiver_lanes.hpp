@@ -32,6 +32,9 @@ struct Impact {
   // Only where receivers are chosen (receiver_reach.hpp): the cell of the surfaces, and a random number below one_in.
   std::uint32_t cell = 0;
   std::uint32_t turn = 0;
+  // Where in the cells of receivers it contributes, −½ … ½ along their edges.
+  float in_cell_u = 0.0F;
+  float in_cell_v = 0.0F;
 };
 
 class ReceiverLanes {
@@ -43,6 +46,8 @@ class ReceiverLanes {
   std::size_t size() const { return number_.size(); }
   // The receiver at position k of the arrays, counted from `first`.
   std::uint32_t number(std::size_t k) const { return number_[k]; }
+  // Whether a receiver is a cell: then impacts have places in cells.
+  bool has_cells() const { return !edges_.empty(); }
   // m: the unit of length.
   double size_m() const { return size_m_; }
   // A point in the tracer's coordinates → the receivers' coordinates.
@@ -66,6 +71,11 @@ class ReceiverLanes {
   void irradiate_some(const Impact& impact, std::size_t begin, std::size_t end, const Tracer& tracer, float* value,
                       double* sums, TraceCount& count) const;
 
+  // As irradiate(), with receivers shifted within their cells. All are served.
+  std::uint64_t irradiate_cells(const std::vector<Impact>& impacts, const Tracer& tracer, std::vector<float>& value,
+                                std::vector<double>& sums, TraceCount& count) const;
+  void set_edges(std::size_t k, const ReferencePoint& receiver, const Tracer& tracer);
+
   std::size_t first_ = 0;
   glm::dmat3 to_lanes_{1.0};
   double size_m_ = 1.0;
@@ -73,6 +83,8 @@ class ReceiverLanes {
   // Position, normal, squared least cosine of the field of view, 1/sin² of its half angle.
   std::array<std::vector<float>, 8> arrays_;
   EndPoints ends_;  // of shadow rays
+  // Only if a receiver is a cell: its edges, u and then v, in the receivers' and then in the tracer's coordinates.
+  std::vector<std::vector<float>> edges_;
 };
 
 }  // namespace lichtmc

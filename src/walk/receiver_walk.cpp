@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 namespace lichtmc {
 
@@ -10,9 +11,15 @@ namespace {
 class RoundWalk final : public BackwardWalk {
  public:
   RoundWalk(const ReceiverWalkParts& parts, const BackwardScale& scale, const Settings& settings, const RoundPlan& plan)
-      : blocks_(&parts.blocks), scale_(scale), plan_(plan), origins_(parts.receivers, *parts.scene.tracer) {
+      : blocks_(&parts.blocks), scale_(scale), plan_(plan), points_(parts.receivers, *parts.scene.tracer) {
     if (plan.forward > 0) forward_ = make_next_event(parts.room, parts.scene, parts.light, settings, plan, parts.reach);
-    if (plan.backward > 0) backward_ = make_backward_walk(parts.scene, parts.light, origins_, scale, settings, plan);
+    if (plan.backward == 0) return;
+    if (std::any_of(parts.receivers.begin(), parts.receivers.end(), [](const auto& one) { return one.is_cell(); })) {
+      cells_.emplace(parts.receivers, *parts.scene.tracer);
+      backward_ = make_backward_walk(parts.scene, parts.light, *cells_, scale, settings, plan);
+    } else {
+      backward_ = make_backward_walk(parts.scene, parts.light, points_, scale, settings, plan);
+    }
   }
 
   void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,
@@ -61,7 +68,8 @@ class RoundWalk final : public BackwardWalk {
   const ReceiverBlocks* blocks_;
   BackwardScale scale_;
   RoundPlan plan_;
-  ReceiverOrigins origins_;
+  ReceiverOrigins points_;
+  std::optional<CellOrigins> cells_;  // only if a receiver is a cell
   std::unique_ptr<NextEvent> forward_;
   std::unique_ptr<BackwardWalk> backward_;
   std::vector<double> irradiance_;  // by round and receiver

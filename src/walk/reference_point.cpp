@@ -15,6 +15,8 @@ ReferencePoint reference_point_of(const Receiver& receiver) {
   ReferencePoint reference{receiver.position, glm::normalize(scaled), 0.0};
   if (receiver.half_angle_deg < 90.0)
     reference.least_cosine = std::cos(receiver.half_angle_deg * std::numbers::pi / 180.0);
+  reference.cell_u = receiver.cell_u;
+  reference.cell_v = receiver.cell_v;
   return reference;
 }
 

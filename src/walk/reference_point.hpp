@@ -22,6 +22,20 @@ struct ReferencePoint {
   // the tracer's coordinates) in which no surface lies. Reflected light and area lights do not reach such a point.
   std::optional<glm::dvec3> way_out = std::nullopt;
 
+  // Of a cell (Receiver::is_cell()): `point` is its middle.
+  glm::dvec3 cell_u{0.0};  // m
+  glm::dvec3 cell_v{0.0};
+
+  bool is_cell() const { return cell_u != glm::dvec3(0.0) || cell_v != glm::dvec3(0.0); }
+  // The reference point at a point of the cell, by s and t in [0, 1).
+  ReferencePoint in_cell(double s, double t, const Tracer& tracer) const {
+    const glm::dvec3 shift = (s - 0.5) * cell_u + (t - 0.5) * cell_v;
+    ReferencePoint moved = *this;
+    moved.point += shift;
+    if (start) moved.start = *start + (tracer.tracer_point(point + shift) - tracer.tracer_point(point));
+    return moved;
+  }
+
   // The fraction of the irradiance by a hemisphere of uniform radiance that comes from the field of view.
   double squared_sine() const { return (1.0 - least_cosine) * (1.0 + least_cosine); }
 };

@@ -200,3 +200,48 @@ TEST_CASE("receiver walks: close to surfaces two-way walks have no rare large sc
   CHECK(low.agrees);
   CHECK(below.receiver_results[0].standard_error < 0.005 * below.receiver_results[0].indirect);
 }
+
+TEST_CASE("receiver walks: a cell has the mean over its area, by all walks") {
+  Room room = partitioned();
+  const glm::dvec3 u(0.9, 0.0, 0.3);
+  const glm::dvec3 v(-0.2, 0.0, 0.6);
+  const glm::dvec3 middle(2.0, 0.8, 3.2);
+  // The mean of points in strata of the cell.
+  constexpr int n = 12;
+  for (int i = 0; i < n * n; ++i)
+    room.receivers.push_back(at(middle + ((i % n + 0.5) / n - 0.5) * u + ((i / n + 0.5) / n - 0.5) * v, {0, 1, 0}));
+  const Result points = simulate(room, receivers_by(ReceiverWalk::backward, Estimator::weight, 6e5, 51));
+  Compared mean;
+  for (const ReceiverResult& one : points.receiver_results) {
+    mean.expected += one.irradiance / (n * n);
+    mean.expected_error = std::hypot(mean.expected_error, one.standard_error / (n * n));
+  }
+  room.receivers = {at(middle, {0, 1, 0})};
+  room.receivers[0].cell_u = u;
+  room.receivers[0].cell_v = v;
+  const double at_middle = points.receiver_results[n / 2 * n + n / 2].irradiance;
+  for (const ReceiverWalk walk : {ReceiverWalk::next_event, ReceiverWalk::two_way, ReceiverWalk::backward}) {
+    const Result cell = simulate(room, receivers_by(walk, Estimator::weight, 2e5, 52));
+    mean.value = cell.receiver_results[0].irradiance;
+    mean.standard_error = cell.receiver_results[0].standard_error;
+    const Verdict verdict = compare({mean});
+    INFO(to_string(walk) << ": " << verdict.text << "; at the middle " << at_middle);
+    WARN(to_string(walk) << ": " << verdict.text << "; at the middle " << at_middle);
+    CHECK(verdict.agrees);
+    CHECK(verdict.smallest_bias < 0.02);
+    Compared of_point = mean;
+    of_point.expected = at_middle;
+    CHECK_FALSE(compare({of_point}).agrees);
+  }
+}
+
+TEST_CASE("receiver walks: cells without two edges at right angles to the normal are refused") {
+  Room room = unit_cube(0.5, paper_emitter());
+  room.receivers = {at({0.5, 0.2, 0.5}, {0, 1, 0})};
+  room.receivers[0].cell_u = {0.1, 0.0, 0.0};
+  CHECK_THROWS_WITH(check_room(room), ContainsSubstring("edges of the cell"));
+  room.receivers[0].cell_v = {0.0, 0.1, 0.0};
+  CHECK_THROWS_WITH(check_room(room), ContainsSubstring("right angles"));
+  room.receivers[0].cell_v = {0.0, 0.0, 0.1};
+  CHECK_NOTHROW(check_room(room));
+}
