@@ -210,6 +210,7 @@ class Pilots {
   const Scene& scene_;
   const DirectLight& light_;
   const Settings& settings_;
+  const Abandon& stop_;
   BackwardScale scale_;
   std::size_t all_;      // receivers
   double served_share_;  // of them, by an impact
@@ -325,6 +326,8 @@ ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const Di
   std::vector<Trial> trials;
   const Trial photons = pilots.run(only_photons, estimators.front());
   const Trial walks = pilots.run(only_walks, estimators.front());
+  if (std::isnan(photons.variance) || std::isnan(walks.variance))
+    return {plan_with(fixed ? one_way : 1.0, receivers.size()), estimators.front(), {}};
   if (walk == ReceiverWalk::automatic || walk == ReceiverWalk::next_event) trials.push_back(photons);
   if (walk == ReceiverWalk::automatic || walk == ReceiverWalk::backward) trials.push_back(walks);
   if (!fixed && walks.work > 0.0 && photons.work > 0.0) {
