@@ -166,7 +166,8 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   task.block = ReceiverBlocks::size;
   task.choose = [&](BackwardTask& chosen, const std::vector<DirectIrradiance>& direct) {
     ReceiverPlan found = choose_receiver_plan(room, context.scene, light, points, direct,
-                                              learned ? learned->served_share : 1.0, context.settings);
+                                              learned ? learned->served_share : 1.0, context.settings,
+                                              [&] { return context.watch.would_stop(); });
     chosen.plan = found.plan;
     chosen.candidates = {found.estimator};
     chosen.reason = std::move(found.reason);

@@ -24,6 +24,8 @@ constexpr std::uint64_t walks_of_round = 32768;
 // A pilot ends after this work, some milliseconds: all pilots together take some hundredths of a second.
 constexpr double pilot_work = 1.5e4;
 constexpr std::size_t most_pilot_receivers = 128;
+// A pilot with this work is given up: the room absorbs almost nothing.
+constexpr double endless_work = 100.0 * pilot_work;
 static_assert(most_pilot_receivers <= ReceiverBlocks::size);
 
 // Work in units of one flight by Embree through a room of some thousand triangles (some 0.13 µs), measured by
@@ -94,11 +96,13 @@ struct Trial {
 class Pilots {
  public:
   Pilots(const Room& room, const Scene& scene, const DirectLight& light, const std::vector<ReferencePoint>& receivers,
-         const std::vector<DirectIrradiance>& direct, double served_share, const Settings& settings)
+         const std::vector<DirectIrradiance>& direct, double served_share, const Settings& settings,
+         const Abandon& stop)
       : room_(room),
         scene_(scene),
         light_(light),
         settings_(settings),
+        stop_(stop),
         scale_(room),
         all_(receivers.size()),
         served_share_(served_share),
@@ -143,11 +147,11 @@ class Pilots {
       if (plan.backward > 0)
         walks_ = make_backward_walk(pilots.scene_, pilots.light_, origins_, pilots.scale_, settings, plan);
     }
-    void collect(std::uint64_t first, std::uint64_t rounds, std::vector<double>& irradiance, Counts& counts) const {
-      const Abandon never = [] { return false; };
-      if (photons_) photons_->simulate(receivers_, first, rounds, irradiance, counts.photons, never);
+    void collect(std::uint64_t first, std::uint64_t rounds, std::vector<double>& irradiance, Counts& counts,
+                 const Abandon& abandon) const {
+      if (photons_) photons_->simulate(receivers_, first, rounds, irradiance, counts.photons, abandon);
       const WalkBlock walks{0, receivers_.size(), first * plan_.backward, (first + rounds) * plan_.backward};
-      if (walks_) walks_->collect(walks, irradiance, counts.walks, never);
+      if (walks_) walks_->collect(walks, irradiance, counts.walks, abandon);
     }
 
    private:
@@ -180,7 +184,12 @@ class Pilots {
     constexpr std::uint64_t fewest_rounds = 8;
     for (std::uint64_t step = fewest_rounds; done == 0 || counts.work(costs_) < pilot_work;) {
       std::vector<double> irradiance(step * n, 0.0);
-      rounds.collect(first_pilot_round + done, step, irradiance, counts);
+      bool abandoned = false;
+      rounds.collect(first_pilot_round + done, step, irradiance, counts, [&] {
+        abandoned = abandoned || stop_() || counts.work(costs_) > endless_work;
+        return abandoned;
+      });
+      if (abandoned) return {plan, estimator, std::numeric_limits<double>::quiet_NaN(), 0.0};
       done += step;
       for (std::size_t k = 0; k < irradiance.size(); ++k) {
         sums[k % n] += irradiance[k];
@@ -310,7 +319,7 @@ double receiver_error_floor(const std::vector<double>& irradiances) {
 ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const DirectLight& light,
                                   const std::vector<ReferencePoint>& receivers,
                                   const std::vector<DirectIrradiance>& direct, double served_share,
-                                  const Settings& settings) {
+                                  const Settings& settings, const Abandon& stop) {
   const ReceiverWalk walk = settings.receiver_walk;
   std::vector<Estimator> estimators = candidates_for(room, settings);
   // Weight comes first: receivers are points, so that a score is never a matter of hitting them or not.
@@ -320,14 +329,14 @@ ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const Di
   const bool fixed = walk == ReceiverWalk::backward || walk == ReceiverWalk::next_event;
   if (fixed && estimators.size() == 1) return {plan_of(one_way), estimators.front(), {}};
 
-  const Pilots pilots(room, scene, light, receivers, direct, served_share, settings);
+  const Pilots pilots(room, scene, light, receivers, direct, served_share, settings, stop);
   const RoundPlan only_photons = plan_of(std::numeric_limits<double>::infinity());
   const RoundPlan only_walks = plan_of(0.0);
   std::vector<Trial> trials;
   const Trial photons = pilots.run(only_photons, estimators.front());
   const Trial walks = pilots.run(only_walks, estimators.front());
   if (std::isnan(photons.variance) || std::isnan(walks.variance))
-    return {plan_with(fixed ? one_way : 1.0, receivers.size()), estimators.front(), {}};
+    return {plan_of(fixed ? one_way : 1.0), estimators.front(), {}};
   if (walk == ReceiverWalk::automatic || walk == ReceiverWalk::next_event) trials.push_back(photons);
   if (walk == ReceiverWalk::automatic || walk == ReceiverWalk::backward) trials.push_back(walks);
   if (!fixed && walks.work > 0.0 && photons.work > 0.0) {

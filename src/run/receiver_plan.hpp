@@ -23,11 +23,12 @@ struct ReceiverPlan {
 };
 
 // Chooses what the settings leave open: the walk, its shares, the estimator. direct: of every receiver. served_share:
-// of the receivers that an impact of a photon faces, those that it serves (learn_reach.hpp), on average.
+// of the receivers that an impact of a photon faces, those that it serves (learn_reach.hpp), on average. If `stop` ends a pilot, the choice is of no
+// use; in rooms that absorb almost nothing, where pilots would not end, it is made without them.
 ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const DirectLight& light,
                                   const std::vector<ReferencePoint>& receivers,
                                   const std::vector<DirectIrradiance>& direct, double served_share,
-                                  const Settings& settings);
+                                  const Settings& settings, const Abandon& stop);
 
 // The kind of walk that a plan is.
 ReceiverWalk walk_of(const RoundPlan& plan);

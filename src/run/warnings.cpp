@@ -1,6 +1,7 @@
 #include "run/warnings.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -39,6 +40,30 @@ bool reflects_all(const Room& room) {
   const HighestReflectance highest(room);
   return std::any_of(room.surfaces.begin(), room.surfaces.end(),
                      [&highest](const Surface& surface) { return highest.of(surface) == 1.0; });
+}
+
+// Receivers whose standard error is far above that of most: rare large scores, from surfaces close to a receiver or to an
+// emitter. Their errors are known only when such scores have come.
+std::optional<Advised> uncertain_errors(const Result& result) {
+  constexpr double far_above = 5.0;
+  constexpr double noticeable = 0.01;
+  std::vector<double> relative;
+  for (const ReceiverResult& one : result.receiver_results)
+    relative.push_back(one.irradiance > 0.0 ? one.standard_error / one.irradiance : 0.0);
+  if (relative.size() < 2) return std::nullopt;
+  std::vector<double> sorted = relative;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  const double limit = std::max(noticeable, far_above * sorted[sorted.size() / 2]);
+  const auto worst = std::max_element(relative.begin(), relative.end());
+  const auto count = static_cast<std::size_t>(
+      std::count_if(relative.begin(), relative.end(), [limit](double error) { return error > limit; }));
+  if (count == 0) return std::nullopt;
+  const std::string name = in_quotes(result.receivers[static_cast<std::size_t>(worst - relative.begin())].name);
+  return Advised{to_text(count, "receiver") + " (of the largest error: " + name + ", " + percent(*worst) +
+                     ") " + (count == 1 ? "has" : "have") +
+                     " more than five times the standard error of most: rare large contributions from surfaces within "
+                     "centimetres of the receiver, or of an emitter.",
+                 "Such errors become reliable only in longer runs; with --receiver-walk two-way they are smallest."};
 }
 
 }  // namespace
@@ -148,6 +173,7 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result) {
     warnings.push_back(to_text(result.lost_histories, "photon") + " of " + std::to_string(result.walk.histories) +
                        " left a closed room by a numerical error: their power is reported as lost.");
   }
+  if (const auto uncertain = uncertain_errors(result)) warnings.push_back(uncertain->what + " " + uncertain->advice);
   for (const CoverWarning& covered : covered_emitters(room, result.covers))
     warnings.push_back(covered.what + " " + covered.advice);
   for (const CoverWarning& tie :
