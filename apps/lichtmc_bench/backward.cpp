@@ -1,12 +1,11 @@
 #include "backward.hpp"
 
-#include <string>
 #include <vector>
 
-#include "lichtmc/gltf.hpp"
 #include "lichtmc/tiles.hpp"
 #include "measure.hpp"
 #include "plain_backward.hpp"
+#include "points.hpp"
 #include "walk/backward.hpp"
 #include "walk/receiver_points.hpp"
 
@@ -15,18 +14,6 @@ namespace lichtmc::bench {
 namespace {
 
 constexpr std::uint32_t walks_in_round = 32;
-
-// 1044 points at the height of desks; the lamps of the room are replaced by one.
-Room furnished_room() {
-  Room room = read_gltf(std::string(LICHTMC_SCENES) + "/living_room.glb");
-  room.emitters = {{"lamp", 1000.0, IsotropicEmitter{{2.5, 2.2, 2.0}}}};
-  room.receivers.clear();
-  for (int j = 0; j < 29; ++j) {
-    for (int i = 0; i < 36; ++i)
-      room.receivers.push_back({"point", {0.115 + 0.142 * i, 0.85, 0.104 + 0.142 * j}, {0, 1, 0}, 90.0, 1.0});
-  }
-  return room;
-}
 
 Settings settings_of_walk() {
   Settings settings;

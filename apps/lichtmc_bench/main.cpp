@@ -19,6 +19,7 @@
 #include "lichtmc/simulate.hpp"
 #include "lichtmc/version.hpp"
 #include "measure.hpp"
+#include "points.hpp"
 #include "raw_embree.hpp"
 #include "rooms.hpp"
 #include "storey.hpp"
@@ -237,6 +238,22 @@ Measured peak_memory() {
   return {"peak memory, 1 M tiles, 2 threads", status == 0 ? megabytes : 1e9, 300.0, false, "MB", {}};
 }
 
+// Of the rms and of the median receiver, the medians of some turns.
+std::vector<Measured> points(const Options& options, const std::string& what, const Room& room, Engine engine,
+                             std::uint64_t histories, std::uint64_t plain_walks, double rms_bar, double median_bar) {
+  std::vector<double> rms;
+  std::vector<double> middle;
+  for (int turn = 0; turn < (options.quick ? 1 : 3); ++turn) {
+    const TimeRatio ratio = time_of_points(room, engine, histories, plain_walks);
+    rms.push_back(ratio.rms);
+    middle.push_back(ratio.median);
+  }
+  std::vector<Measured> measured{{what + ", time to 1 % against the plain backward walk", median(rms), rms_bar, true, "",
+                                  {{"ratios", rms}}}};
+  if (median_bar > 0.0) measured.push_back({what + ", median point", median(middle), median_bar, true, "", {{"ratios", middle}}});
+  return measured;
+}
+
 std::vector<Measured> measure_all(const Options& options) {
   std::vector<std::function<Measured()>> all;
   const auto add = [&](const std::string& group, const std::function<Measured()>& one) {
@@ -267,6 +284,13 @@ std::vector<Measured> measure_all(const Options& options) {
   add("backward", [&] { return backward_variance(options); });
   add("lamps", [&] { return many_lamps(options); });
   std::vector<Measured> measured;
+  if (options.only.empty() || options.only == "points") {
+    for (const auto& of : {points(options, "1044 points of a furnished room", furnished_room(), Engine::embree, 20'000'000, 400,
+                                  10.0, 40.0),
+                           points(options, "20 points of an empty room, Embree", empty_room(), Engine::embree, 20'000'000, 40'000, 5.0, 0.0),
+                           points(options, "20 points of an empty room, closed form", empty_room(), Engine::cuboid, 40'000'000, 80'000, 8.0, 0.0)})
+      measured.insert(measured.end(), of.begin(), of.end());
+  }
   for (std::size_t k = 0; k < all.size(); ++k) {
     std::cerr << "\r" << k + 1 << " of " << all.size() << "" << std::flush;
     measured.push_back(all[k]());

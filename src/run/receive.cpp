@@ -136,6 +136,13 @@ std::vector<ReceiverResult> receiver_results(const Room& room, const OriginEstim
   return results;
 }
 
+// A tenth of the target error: its square adds a hundredth to the variance.
+SamplingAccuracy direct_accuracy(const Settings& settings) {
+  SamplingAccuracy accuracy;
+  if (settings.target_error) accuracy.relative = std::clamp(0.1 * *settings.target_error, accuracy.relative, 0.01);
+  return accuracy;
+}
+
 }  // namespace
 
 void check_receiver_rounds(const Room& room, const Settings& settings) {
@@ -164,6 +171,7 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   task.origins = room.receivers.size();
   task.unit = scale.unit;
   task.block = ReceiverBlocks::size;
+  const SamplingAccuracy accuracy = direct_accuracy(context.settings);
   task.choose = [&](BackwardTask& chosen, const std::vector<DirectIrradiance>& direct) {
     ReceiverPlan found = choose_receiver_plan(room, context.scene, light, points, direct,
                                               learned ? learned->served_share : 1.0, context.settings,
@@ -176,8 +184,8 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
     const Receiver& receiver = room.receivers[k];
     if (receiver.half_angle_deg == 0.0) return {};  // its field of view is empty
     if (const auto emitter = light.emitter_at(reference_point_of(receiver))) refuse_on_emitter(room, k, *emitter);
-    if (receiver.is_cell()) return cell_irradiance(light, tracer, points[k], stream, k, count);
-    return light.irradiance_at(points[k], stream, k, count);
+    if (receiver.is_cell()) return cell_irradiance(light, tracer, points[k], stream, k, accuracy, count);
+    return light.irradiance_at(points[k], stream, k, count, accuracy);
   };
   task.make_walk = [&](const Settings& own, const RoundPlan& plan) {
     return make_receiver_walk(parts, scale, own, plan);

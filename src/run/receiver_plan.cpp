@@ -162,6 +162,8 @@ class Pilots {
     std::unique_ptr<BackwardWalk> walks_;
   };
 
+  struct GivenUp {};
+
   // The work for all receivers of the room: photons fly once for every block of receivers, their impacts serve a share
   // of them; walks start from each.
   double work_for_all(const Counts& counts) const {
@@ -184,12 +186,15 @@ class Pilots {
     constexpr std::uint64_t fewest_rounds = 8;
     for (std::uint64_t step = fewest_rounds; done == 0 || counts.work(costs_) < pilot_work;) {
       std::vector<double> irradiance(step * n, 0.0);
-      bool abandoned = false;
-      rounds.collect(first_pilot_round + done, step, irradiance, counts, [&] {
-        abandoned = abandoned || stop_() || counts.work(costs_) > endless_work;
-        return abandoned;
-      });
-      if (abandoned) return {plan, estimator, std::numeric_limits<double>::quiet_NaN(), 0.0};
+      try {
+        rounds.collect(first_pilot_round + done, step, irradiance, counts, [&]() -> bool {
+          // Walks obey only after many flights, because runs need their ends; of a pilot nothing is kept.
+          if (stop_() || counts.work(costs_) > endless_work) throw GivenUp();
+          return false;
+        });
+      } catch (const GivenUp&) {
+        return {plan, estimator, std::numeric_limits<double>::quiet_NaN(), 0.0};
+      }
       done += step;
       for (std::size_t k = 0; k < irradiance.size(); ++k) {
         sums[k % n] += irradiance[k];

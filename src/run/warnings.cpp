@@ -47,11 +47,14 @@ bool reflects_all(const Room& room) {
 std::optional<Advised> uncertain_errors(const Result& result) {
   constexpr double far_above = 5.0;
   constexpr double noticeable = 0.01;
+  constexpr std::size_t few = 8;  // receivers, of which none is like most
   std::vector<double> relative;
-  for (const ReceiverResult& one : result.receiver_results)
+  std::vector<double> sorted;
+  for (const ReceiverResult& one : result.receiver_results) {
     relative.push_back(one.irradiance > 0.0 ? one.standard_error / one.irradiance : 0.0);
-  if (relative.size() < 2) return std::nullopt;
-  std::vector<double> sorted = relative;
+    if (one.irradiance > 0.0) sorted.push_back(relative.back());
+  }
+  if (sorted.size() < few) return std::nullopt;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
   const double limit = std::max(noticeable, far_above * sorted[sorted.size() / 2]);
   const auto worst = std::max_element(relative.begin(), relative.end());

@@ -9,11 +9,12 @@ namespace {
 
 // The mean by point emitters: two points in each of n × n strata. The difference of the two gives the error.
 DirectIrradiance by_points(const DirectLight& light, const Tracer& tracer, const ReferencePoint& cell,
-                           const Stream& stream, std::uint64_t number, TraceCount& count) {
+                           const Stream& stream, std::uint64_t number, const SamplingAccuracy& accuracy,
+                           TraceCount& count) {
   if (light.points().empty()) return {};
-  constexpr SamplingAccuracy accuracy{.most = 8192};
+  constexpr std::uint32_t most = 8192;
   DirectIrradiance mean;
-  for (std::uint32_t n = 4; 2 * n * n <= accuracy.most; n *= 2) {
+  for (std::uint32_t n = 4; 2 * n * n <= most; n *= 2) {
     double sum = 0.0;
     double squares = 0.0;
     for (std::uint32_t k = 0; k < n * n; ++k) {
@@ -38,8 +39,9 @@ DirectIrradiance by_points(const DirectLight& light, const Tracer& tracer, const
 }  // namespace
 
 DirectIrradiance cell_irradiance(const DirectLight& light, const Tracer& tracer, const ReferencePoint& cell,
-                                 const Stream& stream, std::uint64_t number, TraceCount& count) {
-  DirectIrradiance sum = by_points(light, tracer, cell, stream, number, count);
+                                 const Stream& stream, std::uint64_t number, const SamplingAccuracy& accuracy,
+                                 TraceCount& count) {
+  DirectIrradiance sum = by_points(light, tracer, cell, stream, number, accuracy, count);
   double variance = sum.standard_error * sum.standard_error;
   for (std::size_t k = 0; k < light.areas().size() && !cell.way_out; ++k) {
     const std::uint64_t own = number * light.areas().size() + k;
@@ -47,7 +49,7 @@ DirectIrradiance cell_irradiance(const DirectLight& light, const Tracer& tracer,
       const Words words = stream.draw(own, sample, Purpose::direct_place);
       return cell.in_cell(unit_open(words[0]), unit_open(words[1]), tracer);
     };
-    const DirectIrradiance part = sample_area_light(light.areas()[k], tracer, anywhere, stream, own, {}, count);
+    const DirectIrradiance part = sample_area_light(light.areas()[k], tracer, anywhere, stream, own, accuracy, count);
     sum.value += part.value;
     variance += part.standard_error * part.standard_error;
   }

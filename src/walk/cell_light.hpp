@@ -11,9 +11,10 @@
 
 namespace lichtmc {
 
-// With a standard error of at most 0.1 % of it, as far as some thousand points give it. Samples depend on (seed, number)
+// With the accuracy asked for, as far as some thousand points give it. Samples depend on (seed, number)
 // only; shadow rays are counted.
 DirectIrradiance cell_irradiance(const DirectLight& light, const Tracer& tracer, const ReferencePoint& cell,
-                                 const Stream& stream, std::uint64_t number, TraceCount& count);
+                                 const Stream& stream, std::uint64_t number, const SamplingAccuracy& accuracy,
+                                 TraceCount& count);
 
 }  // namespace lichtmc

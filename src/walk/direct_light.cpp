@@ -77,7 +77,7 @@ void DirectLight::learn_selection(const Scene& scene) {
 }
 
 DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, const Stream& stream, std::uint64_t number,
-                                            TraceCount& count) const {
+                                            TraceCount& count, const SamplingAccuracy& accuracy) const {
   DirectIrradiance sum;
   double variance = 0.0;
   sum.value = irradiance_by_points(reference, count);
@@ -89,14 +89,14 @@ DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, con
     }
     if (is_near(areas_[k], reference)) {
       const DirectIrradiance part =
-          sample_near_light(areas_[k], *tracer_, reference, stream, number * areas_.size() + k, count);
+          sample_near_light(areas_[k], *tracer_, reference, stream, number * areas_.size() + k, accuracy, count);
       sum.value += part.value;
       variance += part.standard_error * part.standard_error;
       continue;
     }
     const auto same_point = [&reference](std::uint32_t) { return reference; };
     const DirectIrradiance part =
-        sample_area_light(areas_[k], *tracer_, same_point, stream, number * areas_.size() + k, {}, count);
+        sample_area_light(areas_[k], *tracer_, same_point, stream, number * areas_.size() + k, accuracy, count);
     sum.value += part.value;
     variance += part.standard_error * part.standard_error;
   }

@@ -44,8 +44,9 @@ class DirectLight {
   void learn_selection(const Scene& scene);
 
   // The direct irradiance at a receiver. Samples of area lights depend on (seed, number) only. Shadow rays are counted.
+  // accuracy: of the parts that are sampled.
   DirectIrradiance irradiance_at(const ReferencePoint& reference, const Stream& stream, std::uint64_t number,
-                                 TraceCount& count) const;
+                                 TraceCount& count, const SamplingAccuracy& accuracy = {}) const;
 
   // Its part by point emitters.
   double irradiance_by_points(const ReferencePoint& reference, TraceCount& count) const;

@@ -33,8 +33,7 @@ class NearLightSampler {
         view_(reference.squared_sine()),
         complement_(light.has_closed_form() && light.triangles() <= most_triangles && reference.least_cosine <= 0.0) {}
 
-  DirectIrradiance sample() {
-    const SamplingAccuracy accuracy;
+  DirectIrradiance sample(const SamplingAccuracy& accuracy) {
     const double unshadowed = complement_ ? light_.polygon_irradiance(reference_) : 0.0;
     std::uint32_t samples = 0;
     DirectIrradiance result;
@@ -119,9 +118,10 @@ bool is_near(const AreaLight& light, const ReferencePoint& reference) {
 }
 
 DirectIrradiance sample_near_light(const AreaLight& light, const Tracer& tracer, const ReferencePoint& reference,
-                                   const Stream& stream, std::uint64_t number, TraceCount& count) {
+                                   const Stream& stream, std::uint64_t number, const SamplingAccuracy& accuracy,
+                                   TraceCount& count) {
   if (!light.reaches_above_horizon(reference)) return {};
-  return NearLightSampler(light, tracer, reference, stream, number, count).sample();
+  return NearLightSampler(light, tracer, reference, stream, number, count).sample(accuracy);
 }
 
 }  // namespace lichtmc

@@ -22,9 +22,10 @@ namespace lichtmc {
 // times the density of a sample uniform over its area. Then fewer than a tenth of those samples fall on this part.
 bool is_near(const AreaLight& light, const ReferencePoint& reference);
 
-// The irradiance, by 64 to 16 384 flights until the standard error is below 0.1 %. Random words depend on (seed,
+// The irradiance, by 64 to 16 384 flights until the standard error is small enough. Random words depend on (seed,
 // number) only.
 DirectIrradiance sample_near_light(const AreaLight& light, const Tracer& tracer, const ReferencePoint& reference,
-                                   const Stream& stream, std::uint64_t number, TraceCount& count);
+                                   const Stream& stream, std::uint64_t number, const SamplingAccuracy& accuracy,
+                                   TraceCount& count);
 
 }  // namespace lichtmc
