@@ -358,7 +358,7 @@ static int run_program(int argc, char** argv) {
   program.add_flag("--quick", options.quick, "Shorter turns: under a minute");
   program.add_option("--only", options.only, "One group of measurements")
       ->check(CLI::IsMember(
-          {"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators", "backward", "lamps"}));
+          {"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators", "backward", "lamps", "points"}));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
