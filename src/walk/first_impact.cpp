@@ -13,10 +13,8 @@ FirstImpact::FirstImpact(const Room& room, const Tracer& tracer, const DirectLig
 
 double FirstImpact::backward_over_forward(std::size_t emitter, const StartOnFacet& from, const Rays& rays,
                                           std::size_t i) const {
-  const Facet& facet = tracer_->facets()[rays.facet[i]];
-  const glm::dvec3 normal = world_normal(*tracer_, facet);
   const glm::dvec3 end(rays.start(i) + rays.length[i] * rays.direction(i));
-  const ReferencePoint reference{tracer_->world_point(end), rays.behind[i] != 0 ? -normal : normal, 0.0};
+  const ReferencePoint reference{tracer_->world_point(end), hit_normal(*tracer_, rays, i), 0.0};
   const LightSource& source = light_->source_of(emitter);
   const double q = light_->selection_probability(source, reference);
   if (!source.is_area) {

@@ -5,9 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "walk/kernel.hpp"
-#include "walk/never_absorbed.hpp"
-#include "walk/visibility.hpp"
+#include "walk/marked_points.hpp"
 
 namespace lichtmc {
 
@@ -35,14 +33,9 @@ constexpr std::size_t trial_cells = 64;
 // Less would save less than half of the work, at the risk of more variance.
 constexpr double least_blind = 0.5;
 
-struct SurfacePoints {
-  std::vector<Place> places;
-  std::vector<glm::vec3> starts;  // off the surface, tracer's coordinates
-};
-
 class SurfacePointsGoal : public GoalBase {
  public:
-  SurfacePointsGoal(const Scene& scene, const Stream& stream, SurfacePoints& points)
+  SurfacePointsGoal(const Scene& scene, const Stream& stream, MarkedPoints& points)
       : scene_(scene), stream_(stream), points_(points) {}
 
   void begin(std::uint64_t first_history) { first_history_ = first_history; }
@@ -51,33 +44,19 @@ class SurfacePointsGoal : public GoalBase {
   }
   Misses misses() const { return scene_.misses; }
 
-  void reflect(const Wave& wave, std::uint32_t /*flight*/) {
-    const Tracer& tracer = *scene_.tracer;
-    for (std::size_t i = 0; i < wave.rays.size; ++i) {
-      const glm::vec3 start = wave.rays.start(i);
-      const glm::dvec3 normal = world_normal(tracer, tracer.facets()[wave.rays.facet[i]]);
-      points_.places.push_back({tracer.world_point(glm::dvec3(start)), wave.rays.behind[i] != 0 ? -normal : normal});
-      points_.starts.push_back(start);
-    }
-  }
+  void reflect(const Wave& wave, std::uint32_t /*flight*/) { points_.mark(wave, *scene_.tracer); }
 
  private:
   const Scene& scene_;
   const Stream& stream_;
-  SurfacePoints& points_;
+  MarkedPoints& points_;
 };
 
-SurfacePoints mark_points(const Scene& scene, std::size_t cells) {
+MarkedPoints mark_points(const Scene& scene, std::size_t cells) {
   const Stream stream(seed);
-  SurfacePoints points;
+  MarkedPoints points;
   SurfacePointsGoal goal(scene, stream, points);
-  Kernel<NeverAbsorbedPolicy, SurfaceReflectance, SurfacePointsGoal> kernel(scene, stream, flights);
-  const std::uint64_t all = photons_of_cell * cells;
-  for (std::uint64_t first = 0; first < all; first += batch_histories) {
-    goal.begin(first);
-    kernel.fly(static_cast<std::uint32_t>(std::min<std::uint64_t>(batch_histories, all - first)), goal,
-               [] { return false; });
-  }
+  fly_unabsorbed(scene, stream, flights, photons_of_cell * cells, goal);
   return points;
 }
 
@@ -90,7 +69,7 @@ std::size_t cluster_size_for(std::size_t receivers) {
 
 class ReachTest {
  public:
-  ReachTest(const Tracer& tracer, const SurfacePoints& points, const PlaceTree& cells,
+  ReachTest(const Tracer& tracer, const MarkedPoints& points, const PlaceTree& cells,
             const std::vector<ReferencePoint>& receivers, const ReceiverBlocks& blocks, std::size_t cluster)
       : tracer_(tracer),
         points_(points),
@@ -159,7 +138,7 @@ class ReachTest {
   }
 
   const Tracer& tracer_;
-  const SurfacePoints& points_;
+  const MarkedPoints& points_;
   const PlaceTree& cells_;
   std::size_t clusters_;
   std::vector<ReceiverLanes> picks_;  // each has one receiver of every cluster
@@ -173,7 +152,7 @@ class ReachTest {
 
 double blind_share_of_trial(const Scene& scene, const std::vector<ReferencePoint>& receivers,
                             const ReceiverBlocks& blocks, std::size_t cluster) {
-  const SurfacePoints points = mark_points(scene, trial_cells);
+  const MarkedPoints points = mark_points(scene, trial_cells);
   if (points.places.empty()) return 0.0;
   const PlaceTree cells(points.places, points_of_cell, points_of_cell);
   ReachTest test(*scene.tracer, points, cells, receivers, blocks, cluster);
@@ -189,7 +168,7 @@ std::optional<LearnedReach> learn_reach(const Scene& scene, const std::vector<Re
   const std::size_t cluster = cluster_size_for(receivers.size());
   const std::size_t clusters = (receivers.size() + cluster - 1) / cluster;
   if (blind_share_of_trial(scene, receivers, blocks, cluster) < least_blind) return std::nullopt;
-  const SurfacePoints points = mark_points(scene, std::clamp(most_pairs / clusters, least_cells, most_cells));
+  const MarkedPoints points = mark_points(scene, std::clamp(most_pairs / clusters, least_cells, most_cells));
   PlaceTree cells(points.places, points_of_cell, points_of_cell);
   ReachTest test(*scene.tracer, points, cells, receivers, blocks, cluster);
   test.test_all();

@@ -7,9 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "walk/kernel.hpp"
-#include "walk/never_absorbed.hpp"
-#include "walk/visibility.hpp"
+#include "walk/marked_points.hpp"
 
 namespace lichtmc {
 
@@ -35,15 +33,10 @@ constexpr double negligible = 1e-3;
 // Of the weights of a cell, this share that belongs to the weakest emitters is left to the other choices.
 constexpr double left_out = 0.005;
 
-// Where a photon has arrived first.
-struct Arrival {
-  std::uint32_t emitter = 0;
-  glm::vec3 start{0.0F};  // off the surface, tracer's coordinates
-};
-
+// Where photons have arrived first.
 struct Arrivals {
-  std::vector<Place> places;
-  std::vector<Arrival> of;
+  MarkedPoints points;
+  std::vector<std::uint32_t> emitters;  // of the photon at each point
 };
 
 class ArrivalsGoal : public GoalBase {
@@ -59,13 +52,9 @@ class ArrivalsGoal : public GoalBase {
   Misses misses() const { return scene_.misses; }
 
   void reflect(const Wave& wave, std::uint32_t /*flight*/) {
-    const Tracer& tracer = *scene_.tracer;
-    for (std::size_t i = 0; i < wave.rays.size; ++i) {
-      const glm::vec3 start = wave.rays.start(i);
-      const glm::dvec3 normal = world_normal(tracer, tracer.facets()[wave.rays.facet[i]]);
-      arrivals_.places.push_back({tracer.world_point(glm::dvec3(start)), wave.rays.behind[i] != 0 ? -normal : normal});
-      arrivals_.of.push_back({static_cast<std::uint32_t>((first_history_ + wave.photon[i]) / each_), start});
-    }
+    arrivals_.points.mark(wave, *scene_.tracer);
+    for (std::size_t i = 0; i < wave.rays.size; ++i)
+      arrivals_.emitters.push_back(static_cast<std::uint32_t>((first_history_ + wave.photon[i]) / each_));
   }
 
  private:
@@ -81,13 +70,7 @@ Arrivals first_arrivals(const Scene& scene, const Stream& stream, const std::vec
   const std::size_t each = std::clamp<std::size_t>(most_in_all / emitters.size(), 1, wanted);
   Arrivals arrivals;
   ArrivalsGoal goal(scene, stream, emitters, each, arrivals);
-  Kernel<NeverAbsorbedPolicy, SurfaceReflectance, ArrivalsGoal> kernel(scene, stream, 1);
-  const std::uint64_t all = each * emitters.size();
-  for (std::uint64_t first = 0; first < all; first += batch_histories) {
-    goal.begin(first);
-    kernel.fly(static_cast<std::uint32_t>(std::min<std::uint64_t>(batch_histories, all - first)), goal,
-               [] { return false; });
-  }
+  fly_unabsorbed(scene, stream, 1, each * emitters.size(), goal);
   return arrivals;
 }
 
@@ -131,21 +114,22 @@ class LightTest {
 
   // The irradiance by each candidate; if something may cast a shadow, shadow rays to them.
   void test(std::uint32_t point, const std::vector<std::uint32_t>& candidates) {
-    const ReferencePoint reference{arrivals_.places[point].point, arrivals_.places[point].normal};
-    const Arrival& arrival = arrivals_.of[point];
-    const double known = sample(arrival.emitter, reference, point).irradiance;
+    const Place& place = arrivals_.points.places[point];
+    const ReferencePoint reference{place.point, place.normal};
+    const glm::vec3& from = arrivals_.points.starts[point];
+    const double known = sample(arrivals_.emitters[point], reference, point).irradiance;
     for (const std::uint32_t emitter : candidates) {
       const LightSample light = sample(emitter, reference, point);
       if (!(light.irradiance > negligible * known)) continue;
       const double square = light.irradiance * light.irradiance;
-      const glm::dvec3 start(arrival.start);
+      const glm::dvec3 start(from);
       const auto segment = tracer_.casts_shadows() ? shadow_segment(tracer_, start, light.target) : std::nullopt;
       if (!segment) {
         squares_[emitter] += square;
         continue;
       }
       tested_.push_back({emitter, square});
-      rays_.add(arrival.start, *segment);
+      rays_.add(from, *segment);
     }
   }
 
@@ -227,7 +211,7 @@ class Regions {
     double sum = 0.0;
     for (const std::uint32_t one : regions) {
       for (const std::uint32_t k : cells_.members(cells_.cells_of_region(one))) {
-        const std::uint32_t emitter = arrivals_.of[k].emitter;
+        const std::uint32_t emitter = arrivals_.emitters[k];
         if (power_[emitter] == 0.0) arriving.push_back({emitter, 0.0});
         power_[emitter] += fluxes_[emitter];
         sum += fluxes_[emitter];
@@ -272,7 +256,7 @@ LightSelection::CellTable table_of_cell(const std::vector<Light>& light, double 
 LightSelection learn_selection(const Scene& scene, const LearnedEmitters& emitters) {
   const Stream stream(seed);
   const Arrivals arrivals = first_arrivals(scene, stream, emitters.in_room);
-  PlaceTree cells(arrivals.places, points_of_cell, points_of_region);
+  PlaceTree cells(arrivals.points.places, points_of_cell, points_of_region);
   LightTest test(scene, emitters, arrivals, stream);
   Regions regions(cells, arrivals, emitters.fluxes);
   LightSelection::Tables tables;

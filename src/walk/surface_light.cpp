@@ -62,8 +62,7 @@ void SurfaceLight::sample(const Wave& wave, std::uint32_t flight, const double* 
 }
 
 ReferencePoint SurfaceLight::reference_at(const Rays& rays, std::size_t i) const {
-  const glm::dvec3 normal = world_normal(*tracer_, tracer_->facets()[rays.facet[i]]);
-  return {tracer_->world_point(glm::dvec3(rays.start(i))), rays.behind[i] != 0 ? -normal : normal, 0.0};
+  return {tracer_->world_point(glm::dvec3(rays.start(i))), hit_normal(*tracer_, rays, i), 0.0};
 }
 
 void SurfaceLight::find_cells(const Rays& rays) {

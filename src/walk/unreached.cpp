@@ -175,9 +175,8 @@ class DarkWalks : public GoalBase {
     const Tracer& tracer = *scene_.tracer;
     for (std::size_t i = 0; i < wave.rays.size; ++i) {
       const glm::vec3 start = wave.rays.start(i);
-      const glm::dvec3 normal = world_normal(tracer, tracer.facets()[wave.rays.facet[i]]);
       look_for_light(wave.photon[i], flight, start,
-                     {tracer.world_point(glm::dvec3(start)), wave.rays.behind[i] != 0 ? -normal : normal, 0.0, {}, {}});
+                     {tracer.world_point(glm::dvec3(start)), hit_normal(tracer, wave.rays, i), 0.0, {}, {}});
     }
   }
 

@@ -41,6 +41,12 @@ inline glm::dvec3 world_normal(const Tracer& tracer, const Facet& facet) {
   return glm::normalize(tracer.world_vector(glm::dvec3(facet.normal)));
 }
 
+// Normal of the side that flight i has hit, in the world, length 1.
+inline glm::dvec3 hit_normal(const Tracer& tracer, const Rays& rays, std::size_t i) {
+  const glm::dvec3 normal = world_normal(tracer, tracer.facets()[rays.facet[i]]);
+  return rays.behind[i] != 0 ? -normal : normal;
+}
+
 // A flight that has ended on a surface: its length and the cosine of its angle to the surface's normal.
 struct FlightGeometry {
   double length_m = 0.0;
