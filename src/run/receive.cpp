@@ -18,8 +18,8 @@
 #include "run/surface_results.hpp"
 #include "run/tile_light.hpp"
 #include "walk/backward.hpp"
-#include "walk/learn_reach.hpp"
 #include "walk/cell_light.hpp"
+#include "walk/learn_reach.hpp"
 #include "walk/receiver_points.hpp"
 #include "walk/receiver_walk.hpp"
 #include "walk/tile_faces.hpp"
@@ -163,7 +163,7 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   // Walks from the receivers have no use for it.
   const bool only_walks = context.settings.receiver_walk == ReceiverWalk::backward;
   const std::optional<LearnedReach> learned = only_walks ? std::nullopt : learn_reach(context.scene, points, blocks);
-  const ReceiverWalkParts parts{room, context.scene, light, points, blocks, learned ? &learned->reach : nullptr};
+  const ReceiverWalkParts parts{room, context.scene, light, blocks, learned ? &learned->reach : nullptr};
   const BackwardScale scale(room);
   const Stream stream(context.settings.seed, WalkDirection::backward);
   BackwardTask task;

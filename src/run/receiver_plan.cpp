@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 
 #include "base/message.hpp"
 #include "run/pilot.hpp"
@@ -93,6 +96,15 @@ struct Trial {
   double cost() const { return variance * work; }
 };
 
+// Those of the receivers of a pilot, which are spread evenly over all.
+template <class OfReceiver>
+std::vector<OfReceiver> sample_of(const std::vector<OfReceiver>& all) {
+  const std::size_t n = std::min(all.size(), most_pilot_receivers);
+  std::vector<OfReceiver> sample;
+  for (std::size_t k = 0; k < n; ++k) sample.push_back(all[k * all.size() / n]);
+  return sample;
+}
+
 class Pilots {
  public:
   Pilots(const Room& room, const Scene& scene, const DirectLight& light, const std::vector<ReferencePoint>& receivers,
@@ -106,14 +118,9 @@ class Pilots {
         scale_(room),
         all_(receivers.size()),
         served_share_(served_share),
-        costs_(costs_of(scene)) {
-    const std::size_t n = std::min(receivers.size(), most_pilot_receivers);
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t from = k * receivers.size() / n;
-      sample_.push_back(receivers[from]);
-      direct_.push_back(direct[from].value);
-    }
-    blocks_ = std::make_unique<ReceiverBlocks>(sample_, *scene.tracer);
+        costs_(costs_of(scene)),
+        blocks_(sample_of(receivers), *scene.tracer) {
+    for (const DirectIrradiance& one : sample_of(direct)) direct_.push_back(one.value);
   }
 
   // The variance of a round of the plan, from smaller rounds with the same shares: of histories without quasi-random
@@ -137,38 +144,13 @@ class Pilots {
     }
   };
 
-  // Rounds for the sample, in which every impact serves all.
-  class Rounds {
-   public:
-    Rounds(const Pilots& pilots, const Settings& settings, const RoundPlan& plan)
-        : plan_(plan), receivers_((*pilots.blocks_)[0]), origins_(pilots.sample_, *pilots.scene_.tracer) {
-      if (plan.forward > 0)
-        photons_ = make_next_event(pilots.room_, pilots.scene_, pilots.light_, settings, plan, nullptr);
-      if (plan.backward > 0)
-        walks_ = make_backward_walk(pilots.scene_, pilots.light_, origins_, pilots.scale_, settings, plan);
-    }
-    void collect(std::uint64_t first, std::uint64_t rounds, std::vector<double>& irradiance, Counts& counts,
-                 const Abandon& abandon) const {
-      if (photons_) photons_->simulate(receivers_, first, rounds, irradiance, counts.photons, abandon);
-      const WalkBlock walks{0, receivers_.size(), first * plan_.backward, (first + rounds) * plan_.backward};
-      if (walks_) walks_->collect(walks, irradiance, counts.walks, abandon);
-    }
-
-   private:
-    RoundPlan plan_;
-    const ReceiverLanes& receivers_;
-    ReceiverOrigins origins_;
-    std::unique_ptr<NextEvent> photons_;
-    std::unique_ptr<BackwardWalk> walks_;
-  };
-
   struct GivenUp {};
 
   // The work for all receivers of the room: photons fly once for every block of receivers, their impacts serve a share
   // of them; walks start from each.
   double work_for_all(const Counts& counts) const {
     const double blocks = std::ceil(static_cast<double>(all_) / ReceiverBlocks::size);
-    const double times = static_cast<double>(all_) / static_cast<double>(sample_.size());
+    const double times = static_cast<double>(all_) / static_cast<double>(direct_.size());
     return blocks * work_of_walks(counts.photons, costs_) +
            times * served_share_ * work_of_connections(counts.photons, costs_) +
            times * work_of_walks(counts.walks, costs_);
@@ -177,8 +159,9 @@ class Pilots {
   Trial run_rounds(const RoundPlan& plan, Estimator estimator) const {
     Settings settings = settings_;
     settings.estimator = estimator;
-    const Rounds rounds(*this, settings, plan);
-    const std::size_t n = sample_.size();
+    // Every impact serves all receivers of the sample.
+    ReceiverRounds rounds({room_, scene_, light_, blocks_, nullptr}, scale_, settings, plan);
+    const std::size_t n = direct_.size();
     std::vector<double> sums(n, 0.0);
     std::vector<double> squares(n, 0.0);
     Counts counts;
@@ -187,7 +170,8 @@ class Pilots {
     for (std::uint64_t step = fewest_rounds; done == 0 || counts.work(costs_) < pilot_work;) {
       std::vector<double> irradiance(step * n, 0.0);
       try {
-        rounds.collect(first_pilot_round + done, step, irradiance, counts, [&]() -> bool {
+        const std::uint64_t first = first_pilot_round + done;
+        rounds.collect({0, n, first, first + step}, irradiance, counts.photons, counts.walks, [&]() -> bool {
           // Walks obey only after many flights, because runs need their ends; of a pilot nothing is kept.
           if (stop_() || counts.work(costs_) > endless_work) throw GivenUp();
           return false;
@@ -229,13 +213,12 @@ class Pilots {
   std::size_t all_;      // receivers
   double served_share_;  // of them, by an impact
   UnitCosts costs_;
-  std::vector<ReferencePoint> sample_;  // of the receivers
+  ReceiverBlocks blocks_;  // a sample of the receivers: one block
   std::vector<double> direct_;
-  std::unique_ptr<ReceiverBlocks> blocks_;
 };
 
-std::string in_words(const RoundPlan& plan) {
-  switch (walk_of(plan)) {
+std::string in_words(ReceiverWalk walk) {
+  switch (walk) {
     case ReceiverWalk::next_event:
       return "next-event estimation";
     case ReceiverWalk::backward:
@@ -275,10 +258,12 @@ std::size_t best_of(const std::vector<Trial>& trials) {
 // Why a plan was chosen, beside the cheapest of each other kind.
 std::string reason_of(const std::vector<Trial>& trials, std::size_t best) {
   const Trial& chosen = trials[best];
-  std::string text = in_words(chosen.plan) + shares(chosen.plan) + " with the estimator '" +
-                     std::string(to_string(chosen.estimator)) + "' were chosen for the receivers: for the same error, ";
-  text[0] = static_cast<char>(std::toupper(text[0]));
-  if (walk_of(chosen.plan) == ReceiverWalk::next_event) text.replace(text.find(" were "), 6, " was ");
+  const ReceiverWalk chosen_kind = walk_of(chosen.plan);
+  std::string text = in_words(chosen_kind) + shares(chosen.plan) + " with the estimator '" +
+                     std::string(to_string(chosen.estimator)) +
+                     (chosen_kind == ReceiverWalk::next_event ? "' was" : "' were") +
+                     " chosen for the receivers: for the same error, ";
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   bool listed = false;
   for (const ReceiverWalk kind : {ReceiverWalk::two_way, ReceiverWalk::next_event, ReceiverWalk::backward}) {
     double least = std::numeric_limits<double>::infinity();
@@ -286,11 +271,8 @@ std::string reason_of(const std::vector<Trial>& trials, std::size_t best) {
       if (walk_of(trial.plan) == kind && trial.estimator == chosen.estimator && is_known(trial))
         least = std::min(least, trial.cost());
     }
-    if (kind == walk_of(chosen.plan) || std::isinf(least)) continue;
-    text += std::string(listed ? ", " : "") +
-            in_words(kind == ReceiverWalk::two_way    ? RoundPlan{1, 1}
-                     : kind == ReceiverWalk::backward ? RoundPlan{0, 1}
-                                                      : RoundPlan{1, 0}) +
+    if (kind == chosen_kind || std::isinf(least)) continue;
+    text += std::string(listed ? ", " : "") + in_words(kind) +
             (kind == ReceiverWalk::next_event ? " takes " : " take ") + short_number(least / chosen.cost()) +
             " times the work";
     listed = true;
@@ -337,16 +319,18 @@ ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const Di
   const Pilots pilots(room, scene, light, receivers, direct, served_share, settings, stop);
   const RoundPlan only_photons = plan_of(std::numeric_limits<double>::infinity());
   const RoundPlan only_walks = plan_of(0.0);
+  std::optional<Trial> photons;
+  std::optional<Trial> walks;
+  if (walk != ReceiverWalk::backward) photons = pilots.run(only_photons, estimators.front());
+  if (walk != ReceiverWalk::next_event) walks = pilots.run(only_walks, estimators.front());
   std::vector<Trial> trials;
-  const Trial photons = pilots.run(only_photons, estimators.front());
-  const Trial walks = pilots.run(only_walks, estimators.front());
-  if (std::isnan(photons.variance) || std::isnan(walks.variance))
-    return {plan_of(fixed ? one_way : 1.0), estimators.front(), {}};
-  if (walk == ReceiverWalk::automatic || walk == ReceiverWalk::next_event) trials.push_back(photons);
-  if (walk == ReceiverWalk::automatic || walk == ReceiverWalk::backward) trials.push_back(walks);
-  if (!fixed && walks.work > 0.0 && photons.work > 0.0) {
+  for (const std::optional<Trial>& one : {photons, walks}) {
+    if (one && std::isnan(one->variance)) return {plan_of(fixed ? one_way : 1.0), estimators.front(), {}};
+    if (one && walk != ReceiverWalk::two_way) trials.push_back(*one);
+  }
+  if (!fixed && walks->work > 0.0 && photons->work > 0.0) {
     // Photons for each walk, if both take the same work.
-    const double balanced = (walks.work / only_walks.backward) / (photons.work / only_photons.forward);
+    const double balanced = (walks->work / only_walks.backward) / (photons->work / only_photons.forward);
     for (const double share : {16.0, 4.0, 1.0, 0.25, 0.0625})
       trials.push_back(pilots.run(plan_of(share * balanced), estimators.front()));
   }

@@ -316,7 +316,7 @@ void EmbreeTracer::load(RoomTriangles triangles) {
 // Packets of 16 neighbours; those of which none is to be tested are left out.
 void EmbreeTracer::darken_blocked(const glm::vec3& start, const EndPoints& ends, std::size_t first_end,
                                   std::size_t last_end, float* value, TraceCount& count) const {
-  constexpr std::size_t size = 16;
+  constexpr std::size_t size = shadow_packet_size;
   static_assert(most_lanes % size == 0);
   EmbreeQuery query;
   RTCRay16 packet{};

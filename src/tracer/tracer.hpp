@@ -120,6 +120,7 @@ class Tracer {
   glm::dvec3 world_vector(const glm::dvec3& vector) const { return to_world_ * vector; }
   const glm::dmat3& to_world() const { return to_world_; }
   glm::dvec3 tracer_point(const glm::dvec3& world_m) const { return from_world_ * (world_m - origin_); }
+  glm::dvec3 tracer_vector(const glm::dvec3& world_m) const { return from_world_ * world_m; }
 
   const std::vector<Facet>& facets() const { return facets_; }
 

@@ -313,9 +313,8 @@ ReceiverOrigins::ReceiverOrigins(const std::vector<ReferencePoint>& receivers, c
 
 CellOrigins::CellOrigins(const std::vector<ReferencePoint>& receivers, const Tracer& tracer)
     : points_(receivers, tracer) {
-  const glm::dvec3 origin = tracer.tracer_point(glm::dvec3(0.0));
   for (const ReferencePoint& one : receivers)
-    edges_.push_back({glm::vec3(tracer.tracer_point(one.cell_u) - origin), glm::vec3(tracer.tracer_point(one.cell_v) - origin)});
+    edges_.push_back({glm::vec3(tracer.tracer_vector(one.cell_u)), glm::vec3(tracer.tracer_vector(one.cell_v))});
 }
 
 OriginView CellOrigins::start(std::uint64_t receiver, double u, double v, Rays& rays, std::size_t i) const {

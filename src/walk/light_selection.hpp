@@ -55,9 +55,6 @@ class LightSelection {
   // The probability with which choose() takes an emitter. They sum to 1 in each cell, up to rounding.
   double probability(std::uint32_t cell, std::size_t emitter) const;
 
-  // Entries of all tables.
-  std::size_t entries() const { return entries_.size(); }
-
  private:
   struct Entry {
     std::uint32_t emitter = 0;

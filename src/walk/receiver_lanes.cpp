@@ -144,9 +144,8 @@ ReceiverLanes::ReceiverLanes(const std::vector<ReferencePoint>& receivers, const
 void ReceiverLanes::set_edges(std::size_t k, const ReferencePoint& receiver, const Tracer& tracer) {
   edges_.resize(12);
   for (std::vector<float>& edge : edges_) edge.resize(whole_lanes(size()), 0.0F);
-  const glm::dvec3 origin = tracer.tracer_point(glm::dvec3(0.0));
-  const glm::dvec3 u = tracer.tracer_point(receiver.cell_u) - origin;
-  const glm::dvec3 v = tracer.tracer_point(receiver.cell_v) - origin;
+  const glm::dvec3 u = tracer.tracer_vector(receiver.cell_u);
+  const glm::dvec3 v = tracer.tracer_vector(receiver.cell_v);
   const std::array<glm::dvec3, 4> all{to_lanes_ * u, to_lanes_ * v, u, v};
   for (std::size_t e = 0; e < all.size(); ++e) {
     for (int c = 0; c < 3; ++c) edges_[3 * e + static_cast<std::size_t>(c)][k] = static_cast<float>(all[e][c]);
@@ -211,14 +210,18 @@ std::uint64_t ReceiverLanes::irradiate_cells(const std::vector<Impact>& impacts,
                                              TraceCount& count) const {
   const std::size_t n = whole_lanes(size());
   value.resize(n);
-  std::array<std::vector<float>, 8> shifted = arrays_;
+  std::array<std::vector<float>, 3> shifted{arrays_[0], arrays_[1], arrays_[2]};
+  Lanes lanes = lanes_from(arrays_, 0);
+  lanes.x = shifted[0].data();
+  lanes.y = shifted[1].data();
+  lanes.z = shifted[2].data();
   EndPoints ends = ends_;
   const auto shift = [&](const std::vector<float>& from, std::size_t u, const Impact& by, std::vector<float>& to) {
     shift_lanes(n, from.data(), edges_[u].data(), edges_[u + 3].data(), by.in_cell_u, by.in_cell_v, to.data());
   };
   for (const Impact& impact : impacts) {
     for (std::size_t c = 0; c < 3; ++c) shift(arrays_[c], c, impact, shifted[c]);
-    if (irradiate_lanes(n, impact, lanes_from(shifted, 0), value.data()) == 0) continue;
+    if (irradiate_lanes(n, impact, lanes, value.data()) == 0) continue;
     if (tracer.casts_shadows()) {
       shift(ends_.x, 6, impact, ends.x);
       shift(ends_.y, 7, impact, ends.y);

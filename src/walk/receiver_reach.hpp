@@ -31,15 +31,13 @@ class ReceiverReach {
   // 0.
   ReceiverReach(PlaceTree cells, std::size_t cluster, std::size_t clusters, std::vector<std::uint8_t> reached);
 
-  std::size_t cluster_size() const { return cluster_; }
   // The cell of a point on a surface: in m; normal of the side, of length 1.
   std::uint32_t cell_of(const glm::dvec3& point, const glm::dvec3& normal) const {
     return cells_.cell_of(point, normal);
   }
-  bool reaches(std::uint32_t cell, std::size_t cluster) const { return reached_[cell * clusters_ + cluster] != 0; }
 
   // Calls serve(begin, end, factor) for the parts of receivers first … first + n − 1 that an impact serves; begin and
-  // end are counted from `first`, which is a multiple of cluster_size(). turn: uniform in 0 … one_in − 1.
+  // end are counted from `first`, which is a multiple of the size of a cluster. turn: uniform in 0 … one_in − 1.
   template <class Serve>
   void choose(std::uint32_t cell, std::uint32_t turn, std::size_t first, std::size_t n, const Serve& serve) const {
     const std::size_t before = first / cluster_;

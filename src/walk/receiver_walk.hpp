@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lichtmc/room.hpp"
@@ -14,18 +15,23 @@
 
 namespace lichtmc {
 
-// The receivers of a room, in blocks whose scores fit into the caches of a processor; the same for all threads.
+// The receivers of a room: in blocks whose scores fit into the caches of a processor, and as origins of walks; the same
+// for all threads.
 class ReceiverBlocks {
  public:
   static constexpr std::size_t size = 2048;
 
   ReceiverBlocks(const std::vector<ReferencePoint>& receivers, const Tracer& tracer);
 
-  std::size_t count() const { return lanes_.size(); }
   const ReceiverLanes& operator[](std::size_t block) const { return lanes_[block]; }
+  const ReceiverOrigins& points() const { return points_; }
+  // Only if a receiver is a cell: then walks start from these.
+  const std::optional<CellOrigins>& cells() const { return cells_; }
 
  private:
   std::vector<ReceiverLanes> lanes_;
+  ReceiverOrigins points_;
+  std::optional<CellOrigins> cells_;
 };
 
 // What the walks of all threads share; all must outlive them.
@@ -33,9 +39,29 @@ struct ReceiverWalkParts {
   const Room& room;
   const Scene& scene;
   const DirectLight& light;
-  const std::vector<ReferencePoint>& receivers;
   const ReceiverBlocks& blocks;
   const ReceiverReach* reach;  // null: impacts serve all receivers
+};
+
+// The photons and the walks of rounds, for one thread.
+class ReceiverRounds {
+ public:
+  ReceiverRounds(const ReceiverWalkParts& parts, const BackwardScale& scale, const Settings& settings,
+                 const RoundPlan& plan);
+
+  // As BackwardWalk::collect(); the block as for make_receiver_walk(). Photons and walks are counted apart; both counts
+  // may be the same.
+  void collect(const WalkBlock& work, std::vector<double>& irradiance, BackwardCount& photons, BackwardCount& walks,
+               const Abandon& abandon);
+
+  // Rounds that fill a wave; at least 1.
+  std::uint64_t in_wave() const { return forward_ ? forward_->rounds_at_a_time() : batch_histories; }
+
+ private:
+  const ReceiverBlocks* blocks_;
+  RoundPlan plan_;
+  std::unique_ptr<NextEvent> forward_;
+  std::unique_ptr<BackwardWalk> backward_;
 };
 
 // For one thread. In WalkBlock, origins are receivers, whose first is a multiple of ReceiverBlocks::size, within one

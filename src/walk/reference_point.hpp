@@ -32,7 +32,7 @@ struct ReferencePoint {
     const glm::dvec3 shift = (s - 0.5) * cell_u + (t - 0.5) * cell_v;
     ReferencePoint moved = *this;
     moved.point += shift;
-    if (start) moved.start = *start + (tracer.tracer_point(point + shift) - tracer.tracer_point(point));
+    if (start) moved.start = *start + tracer.tracer_vector(shift);
     return moved;
   }
 

@@ -76,7 +76,7 @@ class Prepared {
                              BackwardCount& count) const {
     const Settings settings = settings_of(estimator, Engine::embree, 1.0, seed);
     const auto walk =
-        make_receiver_walk({room_, scene_, light_, points_, blocks_, reach}, BackwardScale(room_), settings, plan);
+        make_receiver_walk({room_, scene_, light_, blocks_, reach}, BackwardScale(room_), settings, plan);
     std::vector<double> all;
     for (std::uint64_t first = 0; first < number; first += together) {
       std::vector<double> some(together * points_.size(), 0.0);
