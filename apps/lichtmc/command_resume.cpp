@@ -39,6 +39,7 @@ Settings rules_for(const ResumeOptions& options, const State& state) {
     constexpr double at_once = 1e-9;
     rules.max_seconds = std::max(*rules.max_seconds - state.seconds(), at_once);
   }
+  apply_error_floor(options.stop.error_floor, rules);
   rules.threads = parse_threads(options.overrides.threads);
   return rules;
 }
@@ -67,6 +68,7 @@ void resume_run(const ResumeOptions& options, const Invocation& invocation) {
   const RunOptions run = options_of(state, file, options.overrides);
   const Settings rules = rules_for(options, state);
   RunJob job = job_of(state, run, options.overrides, invocation.command_line);
+  check_error_floor(options.stop.error_floor, job.room);
   job.settings = rules;
   job.checkpoint_seconds = parse_checkpoint(options.checkpoint);
   job.folder = folder;

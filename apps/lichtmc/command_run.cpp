@@ -44,7 +44,7 @@ void add_run_command(CLI::App& program, const Invocation& invocation) {
           "irradiance (W/m^2) or illuminance (lx) of every tile of every surface, each with its standard error.\n\n") +
       light_forms +
       "\nExamples:\n"
-      "  lichtmc run room.glb                                1 million photons, tiles of 0.1 m, results in room.out/\n"
+      "  lichtmc run room.glb                      to an error of 5 % or for a minute, tiles of 0.1 m, in room.out/\n"
       "  lichtmc run room.glb --target-error 2% --max-time 5min --tile 0.25\n"
       "  lichtmc run office.glb --grid 0.85 --only receivers --target-error 2%     only at desk height\n"
       "  lichtmc run hall.glb --light point:5,3,5:8000lm --max-reflectance 0.9 -o out/hall\n"

@@ -20,6 +20,7 @@
 #include "lichtmc/visible_text.hpp"
 #include "quantities.hpp"
 #include "room_options.hpp"
+#include "stop_options.hpp"
 
 namespace lichtmc::app {
 
@@ -28,7 +29,7 @@ namespace {
 struct StudyCommand {
   RoomOptions reading;
   std::string output;
-  std::optional<std::string> max_time, tile;
+  std::optional<std::string> max_time, tile, error_floor;
   std::string seed = "1";
   std::optional<int> threads;
   bool quick = false;
@@ -45,6 +46,10 @@ StudyOptions parse_options(const StudyCommand& command) {
   if (command.tile) options.tile_edge_m = parse_number(*command.tile, "--tile");
   options.seed = parse_seed(command.seed, "--seed");
   options.threads = parse_threads(command.threads);
+  Settings settings;
+  apply_error_floor(command.error_floor, settings);
+  options.error_floor_share = settings.error_floor_share;
+  options.error_floor = settings.error_floor;
   return options;
 }
 
@@ -68,6 +73,7 @@ void run(const StudyCommand& command) {
   StudyOptions options = parse_options(command);
   const Room room = read_room(command.reading);
   check_room(room);
+  check_error_floor(command.error_floor, room);
   const std::filesystem::path folder = command.output.empty()
                                            ? std::filesystem::path(command.reading.file).stem().concat(".study")
                                            : std::filesystem::path(command.output);
@@ -104,6 +110,7 @@ void add_study_command(CLI::App& program, const Invocation& /*invocation*/) {
           "--tile", options->tile,
           "Edge of a tile in metres; half and twice this edge are measured too [0.1, more in rooms above 20 m^2]")
       ->type_name("M");
+  add_error_floor_option(*command, options->error_floor, "");
   command->add_option("--seed", options->seed, "Seed of the random numbers; the reference uses another seed")
       ->type_name("S")
       ->capture_default_str();

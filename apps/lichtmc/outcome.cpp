@@ -83,9 +83,9 @@ void print_tiles(const Result& result) {
             << (direct_is_apart(result) ? ", direct light integrated" : "") << ").\n";
   if (forward) print_balance(result);
   std::cerr << result.tiles.size() << " tiles, relative standard error " << percent(result.walk.rms_relative_error)
-            << " (area-weighted rms" << (result.tiles_without_hits > 0 ? " of the tiles with hits)" : ")");
+            << " (area-weighted rms)";
   if (result.tiles_without_hits > 0) std::cerr << "; " << result.tiles_without_hits << " without hits";
-  std::cerr << ".\n";
+  std::cerr << ". " << error_text(result, Measured::tiles) << '\n';
   if (const std::string left_out = unreached_text(result); !left_out.empty()) std::cerr << left_out << '\n';
   warn_of_missed_target(result.settings, result.walk.stopped_by, result.walk.rms_relative_error,
                         static_cast<double>(result.walk.histories), result.walk.histories_to_target,
@@ -100,7 +100,7 @@ void print_receivers(const Result& result) {
             << describe(walk.stopped_by) << "; " << to_string(walk.receiver_walk) << ", estimator "
             << to_string(walk.estimator) << "), " << short_count(static_cast<double>(walk.shadow_rays))
             << (walk.shadow_rays == 1 ? " shadow ray; relative" : " shadow rays; relative") << " standard error "
-            << percent(walk.rms_relative_error) << " (rms).\n";
+            << percent(walk.rms_relative_error) << " (rms). " << error_text(result, Measured::receivers) << '\n';
   warn_of_missed_target(result.settings, walk.stopped_by, walk.rms_relative_error, histories, walk.histories_to_target,
                         walk.seconds, "");
 }
@@ -110,6 +110,10 @@ void print_receivers(const Result& result) {
 void print_outcome(const Result& result, const std::filesystem::path& folder, bool with_report, bool with_images) {
   if (!result.tiles.empty()) print_tiles(result);
   if (!result.receiver_results.empty()) print_receivers(result);
+  for (const Measured what : {Measured::tiles, Measured::receivers}) {
+    const std::string options = options_to_repeat(result, what);
+    if (!options.empty()) std::cerr << "The same figures, to the last digit, without a clock: " << options << '\n';
+  }
   for (const std::string& choice : result.choices) std::cerr << visible_text(choice) << '\n';
   for (const std::string& warning : result.warnings) std::cerr << "Warning: " << visible_text(warning) << '\n';
   print_ignored(result.ignored);

@@ -128,6 +128,21 @@ double parse_power(std::string_view text, std::string_view option, Quantity& qua
   return power;
 }
 
+ErrorFloor parse_error_floor(std::string_view text, std::string_view option) {
+  ErrorFloor floor;
+  std::string_view unit;
+  const bool read = split_number(text, floor.value, unit) && floor.value >= 0.0;
+  if (read && unit == "lx") floor.unit = Quantity::photometric;
+  if (read && (unit == "W/m^2" || unit == "W/m2" || unit == "W/m²")) floor.unit = Quantity::radiometric;
+  if (read && unit == "%") floor.value *= 0.01;
+  const bool is_share = (unit.empty() && floor.value < 1.0) || unit == "%";
+  if (!read || !(floor.unit || is_share))
+    refuse(option, text,
+           "a share of the mean of 0 or more, for example 1% or 0, or an irradiance, for example 1lx or "
+           "0.1W/m^2");
+  return floor;
+}
+
 Quantity parse_unit(std::string_view text, std::string_view option) {
   if (text == "W") return Quantity::radiometric;
   if (text == "lm") return Quantity::photometric;

@@ -38,6 +38,13 @@ glm::dvec3 parse_vector(std::string_view text, std::string_view option);
 // A luminous flux, "1000lm", or a radiant flux, "1W".
 double parse_power(std::string_view text, std::string_view option, Quantity& quantity);
 
+// An error floor: a share of the mean irradiance, "1%", "0.01" or "0", or an irradiance, "1lx", "0.1W/m^2" ("0.1W/m2").
+struct ErrorFloor {
+  double value = 0.0;
+  std::optional<Quantity> unit;  // none for a share
+};
+ErrorFloor parse_error_floor(std::string_view text, std::string_view option);
+
 // "W" or "lm".
 Quantity parse_unit(std::string_view text, std::string_view option);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lichtmc/error.hpp"
+#include "lichtmc/overrides.hpp"
 #include "lichtmc/receiver_table.hpp"
 #include "lichtmc/receivers.hpp"
 #include "quantities.hpp"
@@ -122,20 +123,20 @@ void parse_histories(const std::string& text, const StopOptions& stop, Settings&
   settings.part = true;
 }
 
-}  // namespace
-
-void apply_stop_options(const StopOptions& options, Settings& settings) {
-  // With another stop rule the number of photons has no limit by default.
-  if (options.target_error || options.max_time) settings.photons = no_photon_limit;
-  if (options.photons) settings.photons = parse_count(*options.photons, "--photons");
-  if (options.target_error) settings.target_error = parse_fraction(*options.target_error, "--target-error");
-  if (options.max_time) settings.max_seconds = parse_seconds(*options.max_time, "--max-time");
+// With --histories the user determines what is simulated, and all parts require the same estimator.
+Estimator usual_estimator(const RunOptions& options) {
+  if (options.max_bounces) return Estimator::weight;
+  return options.histories ? Estimator::collision : Estimator::automatic;
 }
+
+}  // namespace
 
 Settings parse_settings(const RunOptions& options) {
   Settings settings;
-  settings.estimator = parse_estimator(options.estimator);
+  settings.estimator = options.estimator ? parse_estimator(*options.estimator) : usual_estimator(options);
+  if (!options.stop.any() && !options.histories) apply_usual_rules(settings);
   apply_stop_options(options.stop, settings);
+  apply_error_floor(options.stop.error_floor, settings);
   if (options.histories) parse_histories(*options.histories, options.stop, settings);
   if (options.max_bounces) {
     constexpr std::uint64_t most = 4'000'000'000;
@@ -153,6 +154,7 @@ Settings parse_settings(const RunOptions& options) {
   settings.tile_walk = parse_tiles(options.tiles);
   settings.receiver_walk = parse_receiver_walk(options.receiver_walk);
   if (options.direct) settings.direct = parse_direct(*options.direct, settings.tile_walk);
+  if (options.direct_error) settings.direct_error = parse_fraction(*options.direct_error, "--direct-error");
   return settings;
 }
 
@@ -217,6 +219,8 @@ double parse_checkpoint(const std::string& text) {
 
 Room read_run_room(const RunOptions& options, std::vector<std::string>& notes) {
   Room room = read_room(options.reading);
+  check_error_floor(options.stop.error_floor, room);
+  if (!options.measure.empty()) measure_only(room, options.measure);
   add_receivers(room, options, notes);
   check_room(room);
   return room;
@@ -233,23 +237,6 @@ void ReportArguments::override_with(const ReportArguments& other) {
   take(scale_max, other.scale_max);
   take(scale_type, other.scale_type);
   take(colour_map, other.colour_map);
-}
-
-void add_stop_options(CLI::App& command, StopOptions& options) {
-  const std::string group = "Stop rules (the first rule that is met ends the run)";
-  command
-      .add_option("--photons", options.photons,
-                  "Number of photons: 1000000, 1e6, 10M, 2G [1e6, or no limit if another rule is given]")
-      ->type_name("N")
-      ->group(group);
-  command
-      .add_option("--target-error", options.target_error,
-                  "Stop at this relative standard error (tiles: area-weighted rms; receivers: rms): 1% or 0.01")
-      ->type_name("P")
-      ->group(group);
-  command.add_option("--max-time", options.max_time, "Stop after this time: 60s, 5min, 2h")
-      ->type_name("T")
-      ->group(group);
 }
 
 void add_threads_option(CLI::App& command, std::optional<int>& threads, const std::string& group) {
@@ -303,21 +290,36 @@ void add_tile_options(CLI::App& command, RunOptions& options, const std::string&
       ->type_name("M")
       ->capture_default_str()
       ->group(group);
+  command
+      .add_option(
+          "--measure", options.measure,
+          "Measure only surfaces, or surfaces of materials, of this name or pattern (repeatable); the others only "
+          "reflect [all]")
+      ->type_name("NAME")
+      ->expected(1)
+      ->take_all()
+      ->group(group);
 }
 
 void add_estimator_options(CLI::App& command, RunOptions& options, const std::string& group) {
   command
-      .add_option("--estimator", options.estimator,
-                  "weight, collision or absorption (or 1, 2, 3): same mean, different variance; collision suits most "
-                  "rooms. auto: the most efficient of them, determined by a short pilot of each")
+      .add_option(
+          "--estimator", options.estimator,
+          "weight, collision or absorption (or 1, 2, 3): same mean, different variance. auto: the most efficient "
+          "of them, determined by a short pilot of each [auto; weight with --max-bounces, collision with "
+          "--histories]")
       ->type_name("NAME")
-      ->capture_default_str()
       ->group(group);
   command
       .add_option("--direct", options.direct,
                   "Direct light: sampled by the photons, or analytic, integrated over each tile")
       ->type_name("METHOD")
       ->default_str("sampled")
+      ->group(group);
+  command
+      .add_option("--direct-error", options.direct_error,
+                  "Relative error of integrated direct light: 1% or 0.01 [a part of the target error]")
+      ->type_name("P")
       ->group(group);
   command
       .add_option("--tiles", options.tiles,
@@ -375,10 +377,11 @@ void add_receiver_options(CLI::App& command, RunOptions& options) {
       ->type_name("M")
       ->group(group);
   command
-      .add_option("--receiver-walk", options.receiver_walk,
-                  "next-event: every impact of photons from the emitters contributes to every receiver; backward: walks "
-                  "from each receiver to the emitters; two-way: both combined; auto: the one with the smallest error "
-                  "for the same work")
+      .add_option(
+          "--receiver-walk", options.receiver_walk,
+          "next-event: every impact of photons from the emitters contributes to every receiver; backward: walks "
+          "from each receiver to the emitters; two-way: both combined; auto: the one with the smallest error "
+          "for the same work")
       ->type_name("NAME")
       ->capture_default_str()
       ->group(group);

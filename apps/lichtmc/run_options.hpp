@@ -10,15 +10,9 @@
 #include "lichtmc/output.hpp"
 #include "lichtmc/settings.hpp"
 #include "room_options.hpp"
+#include "stop_options.hpp"
 
 namespace lichtmc::app {
-
-// When to stop.
-struct StopOptions {
-  std::optional<std::string> photons, target_error, max_time;
-
-  bool any() const { return photons || target_error || max_time; }
-};
 
 // The report of a run. Options that are not given are empty, so that resume and merge keep those of the run.
 struct ReportArguments {
@@ -35,13 +29,14 @@ struct RunOptions {
   std::string output;
   StopOptions stop;
   std::optional<std::string> histories;
-  std::string estimator = "collision";
+  std::optional<std::string> estimator;
   std::optional<std::string> max_bounces;
+  std::vector<std::string> measure;
   std::string tile = "0.1";
   std::string seed = "1";
   std::optional<int> threads;
   std::string engine = "auto";
-  std::optional<std::string> direct;
+  std::optional<std::string> direct, direct_error;
   std::string tiles = "forward";
   std::string receiver_walk = "auto";
   std::optional<std::string> receivers, grid, grid_spacing, only;
@@ -51,15 +46,12 @@ struct RunOptions {
 };
 
 void add_run_options(CLI::App& command, RunOptions& options);
-void add_stop_options(CLI::App& command, StopOptions& options);
 void add_report_options(CLI::App& command, ReportArguments& options);
 void add_threads_option(CLI::App& command, std::optional<int>& threads, const std::string& group);
 void add_checkpoint_option(CLI::App& command, std::string& checkpoint, const std::string& group);
 
 // The values of the options. Throw InputError that names the option.
 Settings parse_settings(const RunOptions& options);
-// Sets the rules that are given; with --target-error or --max-time alone the number of photons has no limit.
-void apply_stop_options(const StopOptions& options, Settings& settings);
 ReportOptions parse_report(const ReportArguments& report_arguments, const std::optional<int>& threads,
                            const std::string& command_line);
 inline bool wants_report(const ReportArguments& report_arguments) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lichtmc/room.hpp"
 
@@ -17,6 +18,10 @@ void set_reflectance(Room& room, const std::string& name, double reflectance);
 // Lowers every reflectance above `highest` (0 … 1) to `highest`, in reflectance maps too. Throws InputError if it is
 // out of range.
 void limit_reflectance(Room& room, double highest);
+
+// Only the surfaces that one of the names chooses are measured; the others still reflect. Names and patterns are as for
+// set_reflectance(), of materials or surfaces. Throws InputError if a name chooses no surface.
+void measure_only(Room& room, const std::vector<std::string>& names);
 
 // Adds an emitter whose power is the given quantity. A room without emitters takes this quantity; otherwise both must
 // agree. Throws InputError if they do not.

@@ -99,9 +99,13 @@ struct WalkReport {
   std::uint64_t undecided = 0;    // flights that ended where no rule decides between surfaces in one plane, see Cover
   double seconds = 0.0;           // wall-clock time, s, including that of direct light
   double direct_seconds = 0.0;    // part of it for direct light, s
-  // Rms of the relative standard errors: of the tiles with an irradiance above 0, weighted by area; or of the receivers
-  // with an irradiance above 0.
+  // Rms of the relative standard errors: of the tiles that light can reach, weighted by area, or of the receivers. Each
+  // error is relative to the irradiance or to the error floor, whichever is greater. Tiles of one surface side without
+  // hits count as one tile. See Settings::error_floor_share.
   double rms_relative_error = 0.0;
+  // The same without a floor: of the tiles or receivers with an irradiance above 0, relative to it.
+  double rms_relative_error_without_floor = 0.0;
+  double error_floor = 0.0;      // as used, W/m² or lx
   double figure_of_merit = 0.0;  // 1 / (rms_relative_error² · seconds), 1/s
   // Forecast of the histories that Settings::target_error requires, from the error checks; NaN without a target, or if
   // no error is known.
@@ -136,6 +140,7 @@ struct Result {
   double incident = 0.0;                 // incident power of all tiles in W or lm
   double incident_standard_error = 0.0;  // NaN if unknown (too few histories)
   std::uint64_t tiles_without_hits = 0;  // tiles of irradiance 0 that light can reach
+  std::vector<bool> unreached;           // of each tile: no light can reach its point; empty if light reaches all
   std::uint64_t unreached_tiles = 0;     // tiles whose point no light can reach, see SurfaceResult::unreached_area_m2
 
   std::vector<Cover> covers;            // surfaces that cover others in their plane, in the order of these
@@ -152,6 +157,14 @@ struct Result {
 
 // Whether the direct light of tiles was computed separately: TileResult::direct is a number.
 bool direct_is_apart(const Result& result);
+
+// What the error of the tiles, or of the receivers, means, in a sentence: "In about two of three places …".
+std::string error_text(const Result& result, Measured what);
+
+// If the clock or the user ended the walk for the tiles, or for the receivers: the options that repeat its figures to
+// the last digit, in place of the stop rules and the estimator: "--histories 0:4194304 --estimator collision"; else
+// empty.
+std::string options_to_repeat(const Result& result, Measured what);
 
 // What the means leave out: "12.4 m² of 5 surfaces cannot be reached by light …"; empty if light can reach all.
 std::string unreached_text(const Result& result);

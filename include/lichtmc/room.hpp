@@ -75,7 +75,9 @@ struct Surface {
   // colours); without a map, of the vertex colours alone.
   std::vector<glm::dvec3> vertex_colours;
   double highest_reflectance = 1.0;  // 0 … 1; where vertex colours would give a higher ρ, ρ has this value
-  std::size_t without_area = 0;      // number of triangles of the source left out because they have no area
+  // Whether its irradiance is measured. Other surfaces only reflect: results do not include them.
+  bool measured = true;
+  std::size_t without_area = 0;  // number of triangles of the source left out because they have no area
 };
 
 // A point emitter with the same intensity in every direction: I = Φ/4π.

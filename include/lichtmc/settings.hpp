@@ -63,14 +63,21 @@ struct Settings {
   // Histories, ≥ 1: for the tiles, and the same number for all receivers together. A photon that contributes to several
   // receivers counts for each of them.
   std::uint64_t photons = 1'000'000;
-  std::uint64_t first_history = 0;    // number of the first history: a multiple of State::batch
+  std::uint64_t first_history = 0;  // number of the first history: a multiple of State::batch
   bool part = false;  // a part of a run that merge() completes: receivers get only their share of these histories
+  // The error floor: an irradiance. Relative errors refer to it where the irradiance of a tile or receiver is lower, so
+  // that dark places do not determine how long a run takes. It is a share of the mean irradiance (of the tiles that
+  // light can reach, weighted by area; or of the receivers), ≥ 0, or, if given, `error_floor`.
+  double error_floor_share = 0.01;
+  std::optional<double> error_floor;   // W/m² or lx, ≥ 0
   std::optional<double> target_error;  // stop when WalkReport::rms_relative_error is at most this, > 0
   std::optional<double> max_seconds;   // s, wall-clock time limit, > 0; half of it each for tiles and receivers
   Measured measured = Measured::all;
   WalkDirection tile_walk = WalkDirection::forward;  // of the walk for the tiles
   ReceiverWalk receiver_walk = ReceiverWalk::automatic;
   Direct direct = Direct::sampled;  // for tiles and a forward walk; otherwise direct light is always integrated
+  // Relative error of integrated direct light, > 0. Default: a part of the target error, see docs/physics.md.
+  std::optional<double> direct_error;
   // weight only: end every history after this many flights, ≥ 1; none: Russian roulette. (A bounce is a flight: the
   // first one, from the emitter, counts.)
   std::optional<std::uint32_t> max_bounces;

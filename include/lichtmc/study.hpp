@@ -27,13 +27,15 @@ struct StudyOptions {
   std::optional<double> tile_edge_m;  // default: 0.1 m, or the larger length that gives about 2000 tiles
   std::uint64_t seed = 1;             // the reference has another seed
   unsigned threads = 0;               // 0: one per processor
+  double error_floor_share = 0.01;    // as Settings::error_floor_share
+  std::optional<double> error_floor;  // W/m² or lx, as Settings::error_floor
   // Called before each run and some times a second during it, from one thread at a time.
   std::function<void(const StudyProgress&)> progress;
   std::stop_token stop;  // ends the study early; what was measured so far is returned
 };
 
-// One run. Errors are relative, of the tiles' irradiance, area-weighted, over the tiles whose reference is known to
-// 10 % or better.
+// One run. Errors are relative to the tiles' irradiance or to the error floor, whichever is greater, area-weighted,
+// over the tiles whose reference is known to 10 % or better.
 struct StudyRow {
   WalkDirection direction = WalkDirection::forward;
   Estimator estimator = Estimator::collision;

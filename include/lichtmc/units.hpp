@@ -4,6 +4,7 @@
 // same histories serve both, and only the unit of the numbers differs.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace lichtmc {
@@ -21,6 +22,11 @@ constexpr std::string_view power_unit(Quantity quantity) {
 // Unit of power per area: "W/m^2" or "lx".
 constexpr std::string_view irradiance_unit(Quantity quantity) {
   return quantity == Quantity::radiometric ? "W/m^2" : "lx";
+}
+
+// The same in texts for readers: "W/m²" or "lx". Files for programs have irradiance_unit().
+inline std::string written_irradiance_unit(Quantity quantity) {
+  return quantity == Quantity::radiometric ? "W/m²" : "lx";
 }
 
 // Name of power per area: "irradiance" or "illuminance".

@@ -15,8 +15,4 @@ std::string percent(double share) {
   return std::isfinite(share) ? short_number(100.0 * share) + " %" : "unknown";
 }
 
-std::string written_irradiance_unit(Quantity quantity) {
-  return quantity == Quantity::photometric ? "lx" : "W/m²";
-}
-
 }  // namespace lichtmc

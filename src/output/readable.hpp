@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <string>
 
-#include "lichtmc/units.hpp"
-
 namespace lichtmc {
 
 // "150k", "1.5 million".
@@ -13,8 +11,5 @@ std::string short_count(std::uint64_t count);
 
 // A share (0 … 1) in percent; "unknown" if it is not finite.
 std::string percent(double share);
-
-// "lx" or "W/m²". Files for programs use irradiance_unit() (ASCII).
-std::string written_irradiance_unit(Quantity quantity);
 
 }  // namespace lichtmc

@@ -24,6 +24,21 @@ bool embeds_room(const ReportContent& content) {
   return !content.lit_room.empty() && content.lit_room.size() <= max_embedded_bytes;
 }
 
+std::string mean_of_what(const Room& room, const Result& result) {
+  const bool all =
+      std::all_of(room.surfaces.begin(), room.surfaces.end(), [](const Surface& surface) { return surface.measured; });
+  if (!all) return "mean over the measured surfaces";
+  return unreached_text(result).empty() ? "mean over all surfaces" : "mean over all that light can reach";
+}
+
+// The meaning of the errors, for readers who know no statistics.
+std::string meaning_of_errors(const Result& result) {
+  std::string text;
+  if (!result.tiles.empty()) text += error_text(result, Measured::tiles);
+  if (!result.receiver_results.empty()) text += (text.empty() ? "" : " ") + error_text(result, Measured::receivers);
+  return text;
+}
+
 std::string key_figures(const Room& room, const Result& result) {
   const std::string irradiance = written_irradiance_unit(result.quantity);
   const auto figure = [](const std::string& value, const std::string& what) {
@@ -34,9 +49,12 @@ std::string key_figures(const Room& room, const Result& result) {
                     "from " + to_text(room.emitters.size(), "emitter"));
   if (!result.tiles.empty()) {
     double lit_m2 = 0.0;
-    for (const SurfaceResult& surface : result.surfaces) lit_m2 += surface.area_m2 - surface.unreached_area_m2;
-    figures += figure(short_number(lit_m2 > 0.0 ? result.incident / lit_m2 : 0.0) + " " + irradiance,
-                      unreached_text(result).empty() ? "mean over all surfaces" : "mean over all that light can reach");
+    double power = 0.0;
+    for (const SurfaceResult& surface : result.surfaces) {
+      lit_m2 += surface.area_m2 - surface.unreached_area_m2;
+      power += surface.power;
+    }
+    figures += figure(short_number(lit_m2 > 0.0 ? power / lit_m2 : 0.0) + " " + irradiance, mean_of_what(room, result));
     figures += figure("± " + percent(result.walk.rms_relative_error),
                       "standard error of a tile (rms), " + to_text(result.tiles.size(), "tile"));
     figures += figure(short_count(result.walk.histories),
@@ -50,13 +68,12 @@ std::string key_figures(const Room& room, const Result& result) {
                       "mean of " + to_text(result.receiver_results.size(), "receiver") + ", standard error of each ± " +
                           percent(result.receiver_walk.rms_relative_error) + " (rms)");
   }
-  return text_element(
-             "p",
-             "The " + std::string(irradiance_word(result.quantity)) +
-                 " in the room, computed by a Monte Carlo simulation of photons. All surfaces reflect "
-                 "diffusely (Lambert's law). A standard error of ± 2 % means: the true value lies within ± 2 % "
-                 "with a probability of 68 %, within ± 4 % with 95 %.",
-             " class=\"muted\"") +
+  return text_element("p",
+                      "The " + std::string(irradiance_word(result.quantity)) +
+                          " in the room, computed by a Monte Carlo simulation of photons. All surfaces reflect "
+                          "diffusely (Lambert's law). " +
+                          meaning_of_errors(result),
+                      " class=\"muted\"") +
          element("div", figures, " class=\"figures\"");
 }
 
@@ -134,8 +151,8 @@ std::string report_html(const ReportContent& content) {
       text_element("h1",
                    (result.quantity == Quantity::photometric ? "Illuminance in " : "Irradiance in ") + result.room) +
       key_figures(room, result) + warnings_section(content) + pictures_section(content) + view_section(content) +
-      surfaces_section(content) + receivers_section(result) + balance_section(result) + convergence_section(result) +
-      settings_section(room, result, content.tile_images) + left_out_section(result) +
+      surfaces_section(content) + receivers_section(result) + balance_section(room, result) +
+      convergence_section(result) + settings_section(room, result, content.tile_images) + left_out_section(result) +
       reproduction_section(result, content.command);
   return "<!DOCTYPE html>\n<html lang=\"en\">\n" + element("head", head) +
          element("body", element("main", body) + scripts(content)) + "</html>\n";

@@ -169,7 +169,7 @@ std::string receivers_section(const Result& result) {
                         " class=\"scroll\"");
 }
 
-std::string balance_section(const Result& result) {
+std::string balance_section(const Room& room, const Result& result) {
   if (result.tiles.empty()) return {};
   const std::string power(power_unit(result.quantity));
   const Balance& b = result.balance;
@@ -185,12 +185,19 @@ std::string balance_section(const Result& result) {
     }
   }
   std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& c) { return a.power > c.power; });
+  // Surfaces that are not measured absorb the rest.
+  double of_measured = 0.0;
+  for (const Share& share : shares) of_measured += share.power;
+  const bool all =
+      std::all_of(room.surfaces.begin(), room.surfaces.end(), [](const Surface& surface) { return surface.measured; });
   if (shares.size() > max_surfaces) {
     Share others{"absorbed by " + to_text(shares.size() - max_surfaces + 1, "other surface"), 0.0, "#56B4E9"};
     for (std::size_t k = max_surfaces - 1; k < shares.size(); ++k) others.power += shares[k].power;
     shares.resize(max_surfaces - 1);
     shares.push_back(others);
   }
+  if (!all && std::isfinite(b.absorbed))
+    shares.push_back({"absorbed by surfaces that are not measured", b.absorbed - of_measured, "#56B4E9"});
   std::string note =
       "The power that a surface absorbs is its incident power times (1 − reflectance); its relative standard error is "
       "that of the mean in the table of the surfaces. In rooms with textures it is counted photon by photon.";

@@ -15,7 +15,7 @@ std::string surfaces_section(const ReportContent& content);
 std::string receivers_section(const Result& result);
 
 // The power balance: absorbed, escaped, residual and lost power.
-std::string balance_section(const Result& result);
+std::string balance_section(const Room& room, const Result& result);
 
 // The relative standard error as a function of the number of histories.
 std::string convergence_section(const Result& result);

@@ -1,6 +1,7 @@
 #include "output/report_origin.hpp"
 
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/message.hpp"
@@ -24,8 +25,8 @@ std::string receiver_walk_text(const WalkReport& walk) {
     default:
       break;
   }
-  return "by photons from the emitters and backward walks from the receivers, " + std::to_string(walk.photons_per_round) +
-         " : " + std::to_string(walk.walks_per_round);
+  return "by photons from the emitters and backward walks from the receivers, " +
+         std::to_string(walk.photons_per_round) + " : " + std::to_string(walk.walks_per_round);
 }
 
 // What was asked for, setting by setting.
@@ -94,9 +95,15 @@ std::string left_out_section(const Result& result) {
 std::string reproduction_section(const Result& result, const std::string& command) {
   std::string html = heading("To reproduce this");
   if (!command.empty()) html += text_element("pre", command);
-  if (result.walk.stopped_by == StopReason::max_time || result.walk.stopped_by == StopReason::interrupt) {
-    html += text_element("p", "The clock ended this run, and clocks differ. To get the same digits give it --photons " +
-                                  std::to_string(result.walk.histories) + " instead of a time.");
+  std::vector<std::string> repeats;
+  for (const Measured what : {Measured::tiles, Measured::receivers}) {
+    if (std::string options = options_to_repeat(result, what); !options.empty()) repeats.push_back(std::move(options));
+  }
+  if (!repeats.empty()) {
+    html += text_element("p",
+                         "The clock ended this run, and clocks differ. To get the same figures to the last digit give, "
+                         "in place of --photons, --target-error, --max-time and --estimator:") +
+            list_of(repeats);
   }
   return html + text_element("p",
                              "lichtmc " + std::string(version()) +

@@ -74,19 +74,24 @@ void write_receivers(const Result& result, const Sink& sink) {
 Json receiver_walk_of(const Result& result) {
   if (result.receiver_results.empty()) return nullptr;
   const WalkReport& b = result.receiver_walk;
-  return {{"walk", std::string(to_string(b.receiver_walk))},
-          {"estimator", std::string(to_string(b.estimator))},
-          {"rounds", b.rounds},
-          {"photons_per_round", b.photons_per_round},
-          {"walks_per_round", b.walks_per_round},
-          {"histories", b.histories},
-          {"rays", b.rays},
-          {"connections", b.connections},
-          {"shadow_rays", b.shadow_rays},
-          {"seconds", number(b.seconds)},
-          {"rms_relative_error", number(b.rms_relative_error)},
-          {"figure_of_merit", number(b.figure_of_merit)},
-          {"stopped_by", std::string(to_string(b.stopped_by))}};
+  Json json{{"walk", std::string(to_string(b.receiver_walk))},
+            {"estimator", std::string(to_string(b.estimator))},
+            {"rounds", b.rounds},
+            {"photons_per_round", b.photons_per_round},
+            {"walks_per_round", b.walks_per_round},
+            {"histories", b.histories},
+            {"rays", b.rays},
+            {"connections", b.connections},
+            {"shadow_rays", b.shadow_rays},
+            {"seconds", number(b.seconds)},
+            {"rms_relative_error", number(b.rms_relative_error)},
+            {"rms_relative_error_without_floor", number(b.rms_relative_error_without_floor)},
+            {"error_floor", number(b.error_floor)},
+            {"figure_of_merit", number(b.figure_of_merit)},
+            {"stopped_by", std::string(to_string(b.stopped_by))}};
+  if (const std::string repeat = options_to_repeat(result, Measured::receivers); !repeat.empty())
+    json["repeat"] = repeat;
+  return json;
 }
 
 Json texts_of(const std::vector<Ignored>& ignored) {
@@ -129,6 +134,8 @@ Json units_of(const Result& result) {
           {"impacts_per_second", "1/s"},
           {"figure_of_merit", "1/s"},
           {"rms_relative_error", "1"},
+          {"rms_relative_error_without_floor", "1"},
+          {"error_floor", irradiance},
           {"reflectance", "1"},
           {"behind_share", "1"}};
 }
@@ -164,8 +171,12 @@ void add_balance(const Result& result, Json& summary) {
 // `receivers` stays empty here: see write_receivers().
 void add_results(const Result& result, const ResultFiles& files, Json& summary) {
   summary["rms_relative_error"] = number(result.walk.rms_relative_error);
+  summary["rms_relative_error_without_floor"] = number(result.walk.rms_relative_error_without_floor);
+  summary["error_floor"] = number(result.walk.error_floor);
   summary["figure_of_merit"] = number(result.walk.figure_of_merit);
   summary["stopped_by"] = std::string(to_string(result.walk.stopped_by));
+  if (const std::string repeat = options_to_repeat(result, Measured::tiles); !repeat.empty())
+    summary["repeat"] = repeat;
   summary["surfaces"] = surfaces_of(result, files);
   summary["receivers"] = Json::array();
   summary["ignored"] = texts_of(result.ignored);

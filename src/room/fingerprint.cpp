@@ -41,6 +41,7 @@ class RoomChecksum {
       add_all(surface.vertex_colours);
       sum_.add(surface.highest_reflectance);
     }
+    if (!surface.measured) sum_.add(std::uint8_t{1});
   }
   void add(const TextureMap& map) {
     sum_.add(map.columns);

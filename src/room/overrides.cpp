@@ -38,6 +38,12 @@ std::string similar_names(const Room& room, const SurfaceChoice& choice) {
   return "(allowed, among others: " + list + ")";
 }
 
+[[noreturn]] void refuse_unknown(const Room& room, const SurfaceChoice& choice) {
+  const std::string kind = !choice.surfaces ? "material " : !choice.materials ? "surface " : "material or surface ";
+  throw InputError("There is no " + kind + in_quotes(choice.name) + " in " + room.source + " " +
+                   similar_names(room, choice) + ". Give the name of a material or surface of the room.");
+}
+
 // Throws if a name without prefix means a material and also a surface that has another material.
 void check_one_meaning(const Room& room, const SurfaceChoice& choice) {
   const auto has = [&](auto fits) { return std::find_if(room.surfaces.begin(), room.surfaces.end(), fits); };
@@ -90,11 +96,7 @@ void set_reflectance(Room& room, const std::string& name, double reflectance) {
     surface.highest_reflectance = 1.0;
     ++changed;
   }
-  if (changed == 0) {
-    const std::string kind = !choice.surfaces ? "material " : !choice.materials ? "surface " : "material or surface ";
-    throw InputError("There is no " + kind + in_quotes(choice.name) + " in " + room.source + " " +
-                     similar_names(room, choice) + ". Give the name of a material or surface of the room.");
-  }
+  if (changed == 0) refuse_unknown(room, choice);
   room.overrides.push_back((by_material ? "Material " : "Surface ") + in_quotes(choice.name) + ": reflectance set to " +
                            to_text(reflectance) + " on " + to_text(changed, "surface") + ".");
 }
@@ -123,6 +125,24 @@ void limit_reflectance(Room& room, double highest) {
   }
   room.overrides.push_back("Reflectances above " + to_text(highest) + " lowered to it on " +
                            to_text(above.size(), "surface") + ".");
+}
+
+void measure_only(Room& room, const std::vector<std::string>& names) {
+  for (Surface& surface : room.surfaces) surface.measured = false;
+  for (const std::string& name : names) {
+    const SurfaceChoice choice(name);
+    bool found = false;
+    for (Surface& surface : room.surfaces) {
+      if (!choice.by_material(surface.material) && !choice.by_name(surface.name)) continue;
+      surface.measured = true;
+      found = true;
+    }
+    if (!found) refuse_unknown(room, choice);
+  }
+  const auto measured = static_cast<std::size_t>(std::count_if(
+      room.surfaces.begin(), room.surfaces.end(), [](const Surface& surface) { return surface.measured; }));
+  room.overrides.push_back("Only " + std::to_string(measured) + " of " + to_text(room.surfaces.size(), "surface") +
+                           (measured == 1 ? " is" : " are") + " measured; the others only reflect.");
 }
 
 void add_emitter(Room& room, Emitter emitter, Quantity quantity) {

@@ -25,10 +25,13 @@ void visit_fields(const F& f, Things&... s) {
   f(Field{"tile_walk", same, "direction of the walk for tiles", "", "--tiles"}, s.tile_walk...);
   f(Field{"receiver_walk", same, "walk for receivers", "", "--receiver-walk"}, s.receiver_walk...);
   f(Field{"direct", same, "direct light of tiles", "", "--direct"}, s.direct...);
+  f(Field{"direct_error", same, "error of direct light", "", "--direct-error"}, s.direct_error...);
   f(Field{"max_bounces", same, "flights after which a history ends", "", "--max-bounces"}, s.max_bounces...);
   f(Field{"first_history", request, "first history", "", "--histories"}, s.first_history...);
   f(Field{"part", request, "part of a run", "", "--histories"}, s.part...);
   f(Field{"photons", request, "histories asked for", "", "--photons"}, s.photons...);
+  f(Field{"error_floor_share", request, "error floor, share of the mean", "", "--error-floor"}, s.error_floor_share...);
+  f(Field{"error_floor", request, "error floor instead", "W/m² or lx", "--error-floor"}, s.error_floor...);
   f(Field{"target_error", request, "target error", "", "--target-error"}, s.target_error...);
   f(Field{"max_seconds", request, "time limit", "s", "--max-time"}, s.max_seconds...);
   f(Field{"threads", machine, "threads", "", "--threads"}, s.threads...);

@@ -162,7 +162,7 @@ void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, std::vec
   const std::uint64_t rounds = last - first;
   const auto [together, parts, pieces] = pieces_of(rounds);
   const Part mine = part_of(context_.control.communicator, pieces);  // of this rank
-  const std::uint64_t skipped = range_.first - rounds_before_;  // rounds are numbered from the first of the run
+  const std::uint64_t skipped = range_.first - rounds_before_;       // rounds are numbered from the first of the run
   std::vector<BackwardSums> sums;
   while (!context_.watch.would_stop()) {
     const std::uint64_t piece = mine.first + next_.fetch_add(1);
@@ -265,7 +265,8 @@ class BackwardMeasurement final : public Measurement {
   }
   bool keeps_pilot() const override { return false; }
   Choice judge(std::vector<Pilot>& pilots) override {
-    return choose_best(pilots, pooled_values(pilots), task_.weights, task_.name);
+    const std::vector<double> means = pooled_values(pilots);
+    return choose_best(pilots, means, task_.floor(means), task_.weights, task_.name);
   }
 
   const DirectCost& direct_cost() const { return direct_cost_; }

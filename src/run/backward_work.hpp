@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "run/context.hpp"
+#include "run/error_measure.hpp"
 #include "run/progress_reporter.hpp"
 #include "run/work.hpp"
 #include "walk/backward.hpp"
@@ -38,17 +39,18 @@ struct OriginEstimates {
 struct BackwardTask {
   Progress::Stage stage = Progress::Stage::receivers;
   std::size_t origins = 0;
-  RoundPlan plan;                                                    // histories of a round
-  std::uint32_t group = 1;                                           // as OriginEstimates::group
+  RoundPlan plan;           // histories of a round
+  std::uint32_t group = 1;  // as OriginEstimates::group
   // Origins of a WalkBlock at most; then a block's first origin is a multiple of it. 0: any number.
   std::size_t block = 0;
   double unit = 1.0;                                                 // of the scale of make_walk, W/m² or lx
   std::function<DirectIrradiance(std::size_t, TraceCount&)> direct;  // direct irradiance at origin k; counts rays
   // One for each thread.
   std::function<std::unique_ptr<BackwardWalk>(const Settings&, const RoundPlan&)> make_walk;
-  std::function<double(const OriginEstimates&)> error;                      // compared with Settings::target_error
-  std::vector<double> weights;  // of the origins in the mean of squares whose root is `error`
-  std::string name;             // of the origins
+  std::function<RunError(const OriginEstimates&)> error;  // its relative error is compared with Settings::target_error
+  std::function<double(const std::vector<double>&)> floor;  // the error floor by the irradiances at the origins
+  std::vector<double> weights;        // of the origins in the mean of squares whose root is `error`
+  std::string name;                   // of the origins
   std::vector<Estimator> candidates;  // for an estimator
   std::string reason;                 // for the plan and the estimator, if they were chosen
   // Chooses plan, candidates and reason when direct light is known; not called for walks that continue. Null: they are
@@ -70,7 +72,7 @@ class BackwardWork final : public Work {
   void begin() override {}
   void simulate_towards(std::uint64_t rounds) override;
   void complete() override {}
-  double error() override { return task_.error(found_); }
+  double error() override { return task_.error(found_).relative; }
   Pilot pilot() override;
   WorkCounts counts() override { return {found_.histories(), count_.impacts, count_.connections, count_.traced}; }
   Walked& write_to(StateData& data) override;

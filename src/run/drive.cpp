@@ -152,11 +152,13 @@ Driven drive(const RunContext& context, Measurement& measurement) {
   return Driver(context, measurement).run();
 }
 
-void finish_report(WalkReport& report, double rms_relative_error) {
-  report.rms_relative_error = rms_relative_error;
-  report.figure_of_merit = 1.0 / (rms_relative_error * rms_relative_error * report.seconds);
+void finish_report(WalkReport& report, const RunError& error) {
+  report.rms_relative_error = error.relative;
+  report.rms_relative_error_without_floor = error.without_floor;
+  report.error_floor = error.floor;
+  report.figure_of_merit = 1.0 / (error.relative * error.relative * report.seconds);
   if (report.convergence.empty() || report.convergence.back().histories != report.histories)
-    report.convergence.push_back({report.histories, report.seconds, rms_relative_error});
+    report.convergence.push_back({report.histories, report.seconds, error.relative});
 }
 
 }  // namespace lichtmc

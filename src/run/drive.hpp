@@ -7,6 +7,7 @@
 #include "lichtmc/error.hpp"
 #include "lichtmc/result.hpp"
 #include "run/context.hpp"
+#include "run/error_measure.hpp"
 #include "run/work.hpp"
 
 namespace lichtmc {
@@ -27,8 +28,8 @@ struct Driven {
 // updates them. A record that is only read is not continued: the work then contains its data.
 Driven drive(const RunContext& context, Measurement& measurement);
 
-// Sets the relative standard error at the end, the figure of merit, and the last point of the convergence.
-void finish_report(WalkReport& report, double rms_relative_error);
+// Sets the relative standard errors at the end, the figure of merit, and the last point of the convergence.
+void finish_report(WalkReport& report, const RunError& error);
 
 // Rays and time of the direct light that is computed before a walk.
 struct DirectCost {

@@ -7,14 +7,14 @@
 
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
-#include "run/surface_results.hpp"
 #include "walk/choose_policy.hpp"
 
 namespace lichtmc {
 
 ForwardWork::ForwardWork(const RunContext& context, Estimator estimator, Progress::Stage stage,
-                         const std::vector<TileDirect>& direct)
+                         const std::vector<TileDirect>& direct, const TileErrorMeasure& measure)
     : context_(context),
+      measure_(measure),
       settings_(context.settings_with(estimator)),
       scores_(context.room, context.tiling, score_law(estimator, context.scene.has_reflectance_maps()), direct),
       workers_(context.scene, settings_, context.control, context.watch, context.threads),
@@ -72,8 +72,9 @@ void ForwardWork::begin() {
   workers_.begin(context_.record);
 }
 
-double ForwardWork::error() {
-  return rms_relative_error(context_.tiling, scores_.tiles(workers_.totals()));
+RunError ForwardWork::run_error() {
+  const Totals& totals = workers_.totals();
+  return measure_.of(scores_.tiles(totals), scores_.powers_of_no_hit(totals.histories));
 }
 
 // Values and errors of the photons' scores, without integrated direct light.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "run/context.hpp"
+#include "run/error_measure.hpp"
 #include "run/scores.hpp"
 #include "run/tile_light.hpp"
 #include "run/work.hpp"
@@ -13,9 +14,9 @@ namespace lichtmc {
 
 class ForwardWork final : public Work {
  public:
-  // direct: of every tile if it was integrated, else empty. The context must outlive the work.
+  // direct: of every tile if it was integrated, else empty. The context and the measure must outlive the work.
   ForwardWork(const RunContext& context, Estimator estimator, Progress::Stage stage,
-              const std::vector<TileDirect>& direct);
+              const std::vector<TileDirect>& direct, const TileErrorMeasure& measure);
 
   std::uint64_t done() const override { return workers_.histories(); }
   std::uint64_t histories_of(std::uint64_t count) const override { return count; }
@@ -24,13 +25,14 @@ class ForwardWork final : public Work {
   void begin() override;
   void simulate_towards(std::uint64_t count) override { workers_.simulate_towards(count); }
   void complete() override { workers_.simulate_ends(); }
-  double error() override;
+  double error() override { return run_error().relative; }
   Pilot pilot() override;
   WorkCounts counts() override;
   Walked& write_to(StateData& data) override;
   void release(StateData& data) override;
   void show(double rms_relative_error, double histories_to_target) override;
 
+  RunError run_error();
   const Totals& totals() { return workers_.totals(); }
   const Scores& scores() const { return scores_; }
 
@@ -38,6 +40,7 @@ class ForwardWork final : public Work {
   void check_totals(const Counted& stored) const;
 
   const RunContext& context_;
+  const TileErrorMeasure& measure_;
   Settings settings_;  // with the estimator of this work
   Scores scores_;
   WorkerThreads workers_;

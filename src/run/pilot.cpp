@@ -110,13 +110,13 @@ void make_errors_likely(std::vector<Pilot>& pilots, const std::vector<double>& l
   }
 }
 
-Choice choose_best(const std::vector<Pilot>& pilots, const std::vector<double>& means,
+Choice choose_best(const std::vector<Pilot>& pilots, const std::vector<double>& means, double floor,
                    const std::vector<double>& weights, const std::string& of_what) {
   std::vector<double> costs;
   for (const Pilot& pilot : pilots) {
     double squares = 0.0;
     for (std::size_t t = 0; t < means.size(); ++t) {
-      if (means[t] > 0.0) squares += weights[t] * std::pow(pilot.errors[t] / means[t], 2);
+      if (means[t] > 0.0) squares += weights[t] * std::pow(pilot.errors[t] / std::max(means[t], floor), 2);
     }
     costs.push_back(squares * pilot.flights);
   }

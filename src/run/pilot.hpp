@@ -61,9 +61,9 @@ std::vector<double> likely_values(const std::vector<Pilot>& pilots, const Counte
 // no pilot has hit, such as the outsides of walls, are left out.
 void make_errors_likely(std::vector<Pilot>& pilots, const std::vector<double>& likely, const CountedTiles& tiles);
 
-// means: the reference of the relative errors. weights: of the values in the mean of squares, for example areas.
-// of_what: a part of the sentence, "the tiles".
-Choice choose_best(const std::vector<Pilot>& pilots, const std::vector<double>& means,
+// means: the references of the relative errors, at least `floor`; values with a mean of 0 are left out. weights: of the
+// values in the mean of squares, for example areas. of_what: a part of the sentence, "the tiles".
+Choice choose_best(const std::vector<Pilot>& pilots, const std::vector<double>& means, double floor,
                    const std::vector<double>& weights, const std::string& of_what);
 
 }  // namespace lichtmc

@@ -12,6 +12,8 @@
 #include "lichtmc/error.hpp"
 #include "room/reflectance.hpp"
 #include "run/backward_work.hpp"
+#include "run/direct_error.hpp"
+#include "run/error_measure.hpp"
 #include "run/pilot.hpp"
 #include "run/receiver_plan.hpp"
 #include "run/rounds.hpp"
@@ -46,22 +48,29 @@ double receiver_error(const OriginEstimates& found, std::size_t k) {
   return std::hypot(factor * found.indirect_error(k), (*found.direct)[k].standard_error);
 }
 
-// Rms of the relative errors of the receivers with an irradiance above 0, relative to at least the floor: a receiver in
-// the dark does not rule the error of all.
-double error_of_receivers(const OriginEstimates& found) {
+// Of the receivers with an irradiance above 0.
+RunError error_of_receivers(const Settings& settings, const OriginEstimates& found) {
   std::vector<double> irradiances;
   for (std::size_t k = 0; k < found.sums->size(); ++k)
     irradiances.push_back((*found.direct)[k].value + found.indirect(k));
-  const double floor = receiver_error_floor(irradiances);
+  RunError error;
+  error.floor = receiver_error_floor(settings, irradiances);
   double squares = 0.0;
+  double squares_without_floor = 0.0;
   std::size_t lit = 0;
   for (std::size_t k = 0; k < irradiances.size(); ++k) {
     if (!(irradiances[k] > 0.0)) continue;
-    const double relative = receiver_error(found, k) / std::max(irradiances[k], floor);
-    squares += relative * relative;
+    const double standard_error = receiver_error(found, k);
+    squares += std::pow(standard_error / std::max(irradiances[k], error.floor), 2);
+    squares_without_floor += std::pow(standard_error / irradiances[k], 2);
     ++lit;
   }
-  return lit > 0 ? std::sqrt(squares / static_cast<double>(lit)) : std::numeric_limits<double>::quiet_NaN();
+  const auto root_of_mean = [lit](double sum) {
+    return lit > 0 ? std::sqrt(sum / static_cast<double>(lit)) : std::numeric_limits<double>::quiet_NaN();
+  };
+  error.relative = root_of_mean(squares);
+  error.without_floor = root_of_mean(squares_without_floor);
+  return error;
 }
 
 // Each tile is the sum of its faces.
@@ -136,13 +145,6 @@ std::vector<ReceiverResult> receiver_results(const Room& room, const OriginEstim
   return results;
 }
 
-// A tenth of the target error: its square adds a hundredth to the variance.
-SamplingAccuracy direct_accuracy(const Settings& settings) {
-  SamplingAccuracy accuracy;
-  if (settings.target_error) accuracy.relative = std::clamp(0.1 * *settings.target_error, accuracy.relative, 0.01);
-  return accuracy;
-}
-
 }  // namespace
 
 void check_receiver_rounds(const Room& room, const Settings& settings) {
@@ -171,11 +173,11 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   task.origins = room.receivers.size();
   task.unit = scale.unit;
   task.block = ReceiverBlocks::size;
-  const SamplingAccuracy accuracy = direct_accuracy(context.settings);
+  const SamplingAccuracy accuracy{direct_error_of_receivers(context.settings)};
   task.choose = [&](BackwardTask& chosen, const std::vector<DirectIrradiance>& direct) {
-    ReceiverPlan found = choose_receiver_plan(room, context.scene, light, points, direct,
-                                              learned ? learned->served_share : 1.0, context.settings,
-                                              [&] { return context.watch.would_stop(); });
+    ReceiverPlan found =
+        choose_receiver_plan(room, context.scene, light, points, direct, learned ? learned->served_share : 1.0,
+                             context.settings, [&] { return context.watch.would_stop(); });
     chosen.plan = found.plan;
     chosen.candidates = {found.estimator};
     chosen.reason = std::move(found.reason);
@@ -190,7 +192,8 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   task.make_walk = [&](const Settings& own, const RoundPlan& plan) {
     return make_receiver_walk(parts, scale, own, plan);
   };
-  task.error = error_of_receivers;
+  task.error = [&](const OriginEstimates& found) { return error_of_receivers(context.settings, found); };
+  task.floor = [&](const std::vector<double>& means) { return receiver_error_floor(context.settings, means); };
   task.weights.assign(task.origins, 1.0);
   task.name = "the receivers";
   task.slot = &StateData::receivers;
@@ -199,7 +202,7 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   return {receiver_results(room, outcome.estimates), std::move(outcome.report)};
 }
 
-TileMeasurement measure_tiles_backward(const RunContext& context) {
+TileMeasurement measure_tiles_backward(const RunContext& context, const TileErrorMeasure& measure) {
   const Tiling& tiling = context.tiling;
   const TileLight light(context.room, tiling, context.scene, context.settings, WalkDirection::backward);
   const BackwardScale scale(context.room);
@@ -214,8 +217,11 @@ TileMeasurement measure_tiles_backward(const RunContext& context) {
   task.make_walk = [&](const Settings& own, const RoundPlan& /*plan*/) {
     return make_backward_walk(context.scene, light.direct_light(), light.faces(), scale, own);
   };
-  task.error = [&](const OriginEstimates& found) {
-    return rms_relative_error(tiling, tiles_of(tiling, light.faces(), found));
+  task.error = [&](const OriginEstimates& found) { return measure.of(tiles_of(tiling, light.faces(), found), {}); };
+  task.floor = [&](const std::vector<double>& of_faces) {
+    std::vector<double> of_tiles(tiling.tiles.size(), 0.0);
+    for (std::size_t face = 0; face < of_faces.size(); ++face) of_tiles[light.faces()[face].tile] += of_faces[face];
+    return measure.floor(of_tiles);
   };
   for (std::size_t face = 0; face < task.origins; ++face) task.weights.push_back(light.faces().area_m2(face));
   task.name = "the tiles";

@@ -7,6 +7,7 @@
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
 #include "run/context.hpp"
+#include "run/error_measure.hpp"
 #include "run/measured_tiles.hpp"
 #include "run/state_data.hpp"
 
@@ -28,6 +29,6 @@ struct ReceiverMeasurement {
 ReceiverMeasurement measure_receivers(const RunContext& context);
 
 // Irradiance of the tiles by backward walks from random points of each.
-TileMeasurement measure_tiles_backward(const RunContext& context);
+TileMeasurement measure_tiles_backward(const RunContext& context, const TileErrorMeasure& measure);
 
 }  // namespace lichtmc

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/message.hpp"
+#include "run/error_measure.hpp"
 #include "run/pilot.hpp"
 
 namespace lichtmc {
@@ -194,7 +195,7 @@ class Pilots {
   double relative_variance(const std::vector<double>& sums, const std::vector<double>& squares, double n) const {
     std::vector<double> irradiance = direct_;
     for (std::size_t k = 0; k < sums.size(); ++k) irradiance[k] += sums[k] / n;
-    const double floor = receiver_error_floor(irradiance);
+    const double floor = receiver_error_floor(settings_, irradiance);
     double sum = 0.0;
     for (std::size_t k = 0; k < sums.size(); ++k) {
       const double variance = std::max(0.0, (squares[k] - sums[k] * sums[k] / n) / (n - 1.0));
@@ -297,10 +298,10 @@ std::uint64_t most_histories_of_round(std::uint64_t receivers) {
   return std::uint64_t{2} * most_of_kind * receivers;
 }
 
-double receiver_error_floor(const std::vector<double>& irradiances) {
+double receiver_error_floor(const Settings& settings, const std::vector<double>& irradiances) {
   if (irradiances.empty()) return 0.0;
   const double sum = std::accumulate(irradiances.begin(), irradiances.end(), 0.0);
-  return 0.01 * sum / static_cast<double>(irradiances.size());
+  return error_floor(settings, sum / static_cast<double>(irradiances.size()));
 }
 
 ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const DirectLight& light,

@@ -23,8 +23,9 @@ struct ReceiverPlan {
 };
 
 // Chooses what the settings leave open: the walk, its shares, the estimator. direct: of every receiver. served_share:
-// of the receivers that an impact of a photon faces, those that it serves (learn_reach.hpp), on average. If `stop` ends a pilot, the choice is of no
-// use; in rooms that absorb almost nothing, where pilots would not end, it is made without them.
+// of the receivers that an impact of a photon faces, those that it serves (learn_reach.hpp), on average. If `stop` ends
+// a pilot, the choice is of no use; in rooms that absorb almost nothing, where pilots would not end, it is made without
+// them.
 ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const DirectLight& light,
                                   const std::vector<ReferencePoint>& receivers,
                                   const std::vector<DirectIrradiance>& direct, double served_share,
@@ -36,7 +37,7 @@ ReceiverWalk walk_of(const RoundPlan& plan);
 // The largest number of histories that a round of any plan for this number of receivers has.
 std::uint64_t most_histories_of_round(std::uint64_t receivers);
 
-// The irradiance below which relative errors of receivers are measured against it: 1 % of the mean of all.
-double receiver_error_floor(const std::vector<double>& irradiances);
+// The error floor of receivers with these irradiances, W/m² or lx.
+double receiver_error_floor(const Settings& settings, const std::vector<double>& irradiances);
 
 }  // namespace lichtmc

@@ -36,12 +36,16 @@ Estimate Scores::incident_power(const Moments& moments, std::size_t surface, std
   return result;
 }
 
-// The error of a tile without hits. With 1.148 expected hits the probability of none is 1 − 0.6827 (Poisson): the true
-// value is below that with the probability of one standard error.
 double Scores::power_of_no_hit(std::size_t surface, std::uint64_t histories) const {
   constexpr double hits = 1.1479;  // −ln(1 − 0.68269)
   const double score = law_.at_absorption ? 1.0 / (1.0 - room_->surfaces[surface].reflectance) : 1.0;
   return hits * power_ * score / static_cast<double>(histories);
+}
+
+std::vector<double> Scores::powers_of_no_hit(std::uint64_t histories) const {
+  std::vector<double> powers;
+  for (const TileMap& map : tiling_->maps) powers.push_back(power_of_no_hit(map.surface, histories));
+  return powers;
 }
 
 std::vector<TileResult> Scores::tiles(const Totals& totals) const {

@@ -26,6 +26,9 @@ class Scores {
   Balance balance(const Totals& totals) const;
   // Incident power of all tiles, with standard error.
   Estimate incident(const Totals& totals) const;
+  // Of each tile map, W or lm: the error of the power of a tile without hits. With 1.148 expected hits the probability
+  // of none is 1 − 0.6827 (Poisson): the true value is below that with the probability of one standard error.
+  std::vector<double> powers_of_no_hit(std::uint64_t histories) const;
 
  private:
   struct DirectPower {   // integrated direct light of a tile map

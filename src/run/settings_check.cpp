@@ -60,7 +60,8 @@ void check_part(const Settings& settings) {
     throw InputError("The first history is " + std::to_string(settings.first_history) +
                      " and the run is no part (allowed: 0 for a whole run). Set Settings::part.");
   }
-  if (settings.part && settings.estimator == Estimator::automatic) {
+  // For receivers every pilot makes the same choice; for tiles it depends on the number of photons.
+  if (settings.part && settings.estimator == Estimator::automatic && settings.measured != Measured::receivers) {
     throw InputError(
         "The estimator is 'auto' for a part of a run (allowed: weight, collision, absorption): all parts require the "
         "same estimator. Give --estimator the one that a short run with 'auto' has chosen.");
@@ -76,6 +77,21 @@ void check_stop_rules(const Settings& settings) {
     throw InputError("The time limit is " + to_text(*settings.max_seconds) +
                      " s (allowed: a finite number above 0). Give --max-time a time, for example 60s.");
   }
+}
+
+void check_direct_error(const Settings& settings) {
+  if (!settings.direct_error || positive(*settings.direct_error)) return;
+  throw InputError("The error of direct light is " + to_text(*settings.direct_error) +
+                   " (allowed: a finite number above 0). Give --direct-error a number, for example 0.5% or 0.005.");
+}
+
+void check_error_floor(const Settings& settings) {
+  const double floor = settings.error_floor.value_or(settings.error_floor_share);
+  if (std::isfinite(floor) && floor >= 0.0) return;
+  throw InputError(
+      "The error floor is " + to_text(floor) +
+      " (allowed: a finite number, 0 or above). Give --error-floor a share of the mean, for example 1%, or "
+      "an irradiance, for example 1lx.");
 }
 
 void check_max_bounces(const Settings& settings) {
@@ -109,6 +125,8 @@ void check_settings(const Settings& settings) {
   check_part(settings);
   check_histories(settings);
   check_stop_rules(settings);
+  check_error_floor(settings);
+  check_direct_error(settings);
   check_max_bounces(settings);
   check_tile_edge(settings);
   check_threads(settings);

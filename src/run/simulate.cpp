@@ -17,6 +17,8 @@
 #include "run/collectives.hpp"
 #include "run/context.hpp"
 #include "run/drive.hpp"
+#include "run/error_measure.hpp"
+#include "run/keep_measured.hpp"
 #include "run/receive.hpp"
 #include "run/run_record.hpp"
 #include "run/settings_check.hpp"
@@ -192,10 +194,13 @@ class Run {
   }
 
   void measure_tiles() {
+    const UnreachedSides unreached(room_, result_.tiling, *scene_);
+    const TileErrorMeasure error(room_, result_.tiling, unreached, settings_);
     StopWatch watch(time_for(earlier_.tiles), control_.stop, earlier_.tiles, control_.communicator);
     const RunContext tiles_context = context(watch);
-    TileMeasurement measured = settings_.tile_walk == WalkDirection::forward ? measure_tiles_forward(tiles_context)
-                                                                             : measure_tiles_backward(tiles_context);
+    TileMeasurement measured = settings_.tile_walk == WalkDirection::forward
+                                   ? measure_tiles_forward(tiles_context, error)
+                                   : measure_tiles_backward(tiles_context, error);
     result_.walk = std::move(measured.report);
     result_.tiles = std::move(measured.tiles);
     result_.surfaces = std::move(measured.surfaces);
@@ -203,9 +208,10 @@ class Run {
     result_.incident = measured.incident;
     result_.incident_standard_error = measured.incident_standard_error;
     result_.lost_histories = measured.lost_histories;
+    keep_measured(room_, result_);
     result_.tiles_without_hits = static_cast<std::uint64_t>(std::count_if(
         result_.tiles.begin(), result_.tiles.end(), [](const TileResult& tile) { return !(tile.irradiance > 0.0); }));
-    leave_out_unreached(room_, UnreachedSides(room_, result_.tiling, *scene_), result_);
+    leave_out_unreached(room_, unreached, result_);
   }
 
   // If the run is stopped before the receivers have a result, the result of the tiles is kept.
@@ -335,6 +341,8 @@ Result resume(const Room& room, State state, const Settings& rules, const Contro
   const double seconds_before = state.seconds();
   Settings settings = state.settings();
   settings.photons = rules.photons;
+  settings.error_floor_share = rules.error_floor_share;
+  settings.error_floor = rules.error_floor;
   settings.target_error = rules.target_error;
   settings.max_seconds = rules.max_seconds;
   settings.threads = rules.threads;

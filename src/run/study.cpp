@@ -11,7 +11,11 @@
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/simulate.hpp"
+#include "room/reflectance.hpp"
 #include "run/advice.hpp"
+#include "run/error_measure.hpp"
+#include "run/scores.hpp"
+#include "walk/choose_policy.hpp"
 
 namespace lichtmc {
 
@@ -25,7 +29,9 @@ constexpr std::uint64_t steps_of_ladder = 4;  // each has four times the histori
 
 struct Reference {
   Result result;
-  std::vector<bool> known;  // per tile
+  std::vector<double> irradiances;  // per tile
+  std::vector<bool> known;          // per tile
+  double floor = 0.0;               // W/m² or lx
   StudyReference facts;
 };
 
@@ -33,19 +39,31 @@ double area_weighted_rms(double squares, double area) {
   return area > 0.0 ? std::sqrt(squares / area) : std::numeric_limits<double>::quiet_NaN();
 }
 
-Reference make_reference(Result result) {
+// Without an error floor tiles without light are left out.
+Reference make_reference(const Settings& settings, Result result) {
   Reference reference;
-  double area = 0.0;
+  const auto reached = [&result](std::size_t t) { return result.unreached.empty() || !result.unreached[t]; };
   double lit = 0.0;
-  double squares = 0.0;
+  double power = 0.0;
   for (std::size_t t = 0; t < result.tiles.size(); ++t) {
-    const TileResult& tile = result.tiles[t];
-    const double relative = tile.standard_error / tile.irradiance;
     const double area_m2 = result.tiling.tiles[t].area_m2;
-    const bool known = tile.irradiance > 0.0 && relative <= known_to;
-    reference.known.push_back(known);
-    if (tile.irradiance > 0.0) lit += area_m2;
-    if (!known) continue;
+    reference.irradiances.push_back(result.tiles[t].irradiance);
+    if (!reached(t)) continue;
+    lit += area_m2;
+    power += area_m2 * result.tiles[t].irradiance;
+  }
+  reference.floor = error_floor(settings, lit > 0.0 ? power / lit : 0.0);
+  double area = 0.0;
+  double squares = 0.0;
+  lit = 0.0;
+  for (std::size_t t = 0; t < result.tiles.size(); ++t) {
+    const double against = std::max(reference.irradiances[t], reference.floor);
+    const double relative = result.tiles[t].standard_error / against;
+    const double area_m2 = result.tiling.tiles[t].area_m2;
+    const bool counts = reached(t) && against > 0.0;
+    reference.known.push_back(counts && relative <= known_to);
+    if (counts) lit += area_m2;
+    if (!reference.known.back()) continue;
     area += area_m2;
     squares += area_m2 * relative * relative;
   }
@@ -55,7 +73,19 @@ Reference make_reference(Result result) {
   return reference;
 }
 
-StudyRow row_of(const Result& result, const Reference& reference) {
+// The errors that a run states, relative to the reference.
+double stated_error(const Room& room, const Result& result, const Reference& reference) {
+  std::vector<double> no_hit;
+  if (result.settings.tile_walk == WalkDirection::forward) {
+    const bool mapped = std::any_of(room.surfaces.begin(), room.surfaces.end(), has_varying_reflectance);
+    no_hit = Scores(room, result.tiling, score_law(result.walk.estimator, mapped), {})
+                 .powers_of_no_hit(result.walk.histories);
+  }
+  return rms_relative_error(result.tiling, result.tiles,
+                            {reference.known, reference.irradiances, reference.floor, no_hit});
+}
+
+StudyRow row_of(const Room& room, const Result& result, const Reference& reference) {
   StudyRow row;
   row.direction = result.settings.tile_walk;
   row.estimator = result.walk.estimator;
@@ -68,22 +98,20 @@ StudyRow row_of(const Result& result, const Reference& reference) {
   row.direct_seconds = result.walk.direct_seconds;
   double area = 0.0;
   double squares = 0.0;
-  double stated = 0.0;
   double power = 0.0;
   double excess = 0.0;
   for (std::size_t t = 0; t < result.tiles.size(); ++t) {
     if (!reference.known[t]) continue;
-    const double truth = reference.result.tiles[t].irradiance;
-    const TileResult& tile = result.tiles[t];
+    const double truth = reference.irradiances[t];
+    const double deviation = result.tiles[t].irradiance - truth;
     const double area_m2 = result.tiling.tiles[t].area_m2;
     area += area_m2;
-    squares += area_m2 * std::pow((tile.irradiance - truth) / truth, 2);
-    stated += area_m2 * std::pow(tile.standard_error / truth, 2);
+    squares += area_m2 * std::pow(deviation / std::max(truth, reference.floor), 2);
     power += area_m2 * truth;
-    excess += area_m2 * (tile.irradiance - truth);
+    excess += area_m2 * deviation;
   }
   row.rms_error = area_weighted_rms(squares, area);
-  row.standard_error = area_weighted_rms(stated, area);
+  row.standard_error = stated_error(room, result, reference);
   row.bias = excess / power;
   row.figure_of_merit = 1.0 / (row.rms_error * row.rms_error * row.seconds);
   return row;
@@ -151,6 +179,8 @@ Settings StudyRun::settings_with(Estimator estimator, Engine engine) const {
   settings.tile_edge_m = edge_;
   settings.seed = options_->seed;
   settings.threads = options_->threads;
+  settings.error_floor_share = options_->error_floor_share;
+  settings.error_floor = options_->error_floor;
   return settings;
 }
 
@@ -227,7 +257,7 @@ const Reference& StudyRun::reference_for(double edge, double share) {
   settings.seed = options_->seed ^ 0x9E3779B97F4A7C15U;
   settings.photons = no_photon_limit;
   settings.max_seconds = share * options_->seconds;
-  Reference reference = make_reference(simulate(*room_, settings, control()));
+  Reference reference = make_reference(settings, simulate(*room_, settings, control()));
   if (reference.result.walk.histories < 2 * reference_factor * batch_histories) {
     throw InputError("The time of " + short_number(options_->seconds) + " s is too short to study " + room_->source +
                      ": its reference has " + std::to_string(reference.result.walk.histories) + " photons (allowed: " +
@@ -248,7 +278,7 @@ bool StudyRun::measure_once(const Plan& plan, const Reference& reference, std::u
   seconds_left -= std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   const bool longer = !plan.ladder || result.walk.histories > last_histories_;
   last_histories_ = result.walk.histories;
-  if (longer) study_.rows.push_back(row_of(result, reference));
+  if (longer) study_.rows.push_back(row_of(*room_, result, reference));
   return result.walk.stopped_by == StopReason::photons && seconds_left > 0.0;
 }
 

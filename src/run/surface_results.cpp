@@ -1,7 +1,6 @@
 #include "run/surface_results.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace lichtmc {
@@ -33,18 +32,6 @@ std::vector<SurfaceResult> surface_results(const Room& room, const Tiling& tilin
     if (result.area_m2 > 0.0) result.mean_direct /= result.area_m2;
   }
   return results;
-}
-
-double rms_relative_error(const Tiling& tiling, const std::vector<TileResult>& tiles) {
-  double squares = 0.0;
-  double area = 0.0;
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    if (!(tiles[i].irradiance > 0.0)) continue;
-    const double relative = tiles[i].standard_error / tiles[i].irradiance;
-    squares += tiling.tiles[i].area_m2 * relative * relative;
-    area += tiling.tiles[i].area_m2;
-  }
-  return area > 0.0 ? std::sqrt(squares / area) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace lichtmc

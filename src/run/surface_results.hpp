@@ -14,8 +14,4 @@ namespace lichtmc {
 std::vector<SurfaceResult> surface_results(const Room& room, const Tiling& tiling,
                                            const std::vector<TileResult>& tiles);
 
-// Area-weighted rms of the tiles' relative standard errors, over the tiles with an irradiance above 0; NaN if none has
-// an error.
-double rms_relative_error(const Tiling& tiling, const std::vector<TileResult>& tiles);
-
 }  // namespace lichtmc

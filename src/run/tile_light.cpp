@@ -1,21 +1,13 @@
 #include "run/tile_light.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "run/backward_work.hpp"
+#include "run/direct_error.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-// Relative accuracy of integrated direct light: 3·10⁻³, or a third of the target error, so that it adds little to the
-// error of the walks; at least 10⁻⁴, because a higher accuracy costs too many rays.
-double accuracy_for(const Settings& settings) {
-  constexpr double coarsest = 3e-3;
-  constexpr double finest = 1e-4;
-  return settings.target_error ? std::clamp(*settings.target_error / 3.0, finest, coarsest) : coarsest;
-}
 
 // The emitters' power over the area of all surfaces.
 double level_of(const Room& room) {
@@ -31,7 +23,8 @@ TileLight::TileLight(const Room& room, const Tiling& tiling, const Scene& scene,
     : tiles_(tiling.tiles.size()),
       light_(room, *scene.tracer),
       faces_(room, tiling, *scene.tracer),
-      direct_(light_, faces_, *scene.tracer, Stream(settings.seed, direction), accuracy_for(settings), level_of(room)) {
+      direct_(light_, faces_, *scene.tracer, Stream(settings.seed, direction), direct_error_of_tiles(settings),
+              level_of(room)) {
   if (direction == WalkDirection::backward) light_.learn_selection(scene);
 }
 

@@ -9,7 +9,6 @@
 #include "run/drive.hpp"
 #include "run/forward_work.hpp"
 #include "run/pilot.hpp"
-#include "run/surface_results.hpp"
 #include "run/tile_light.hpp"
 
 namespace lichtmc {
@@ -18,7 +17,7 @@ namespace {
 
 class ForwardTiles final : public Measurement {
  public:
-  explicit ForwardTiles(const RunContext& context) : context_(context) {
+  ForwardTiles(const RunContext& context, const TileErrorMeasure& measure) : context_(context), measure_(measure) {
     if (context.settings.direct != Direct::analytic) return;
     const bool resumed = stored(context.record.data()) != nullptr;
     direct_cost_ = compute_direct(context, resumed, [&](TraceCount& rays) {
@@ -31,7 +30,7 @@ class ForwardTiles final : public Measurement {
   std::vector<Estimator> candidates() const override { return candidates_for(context_.room, context_.settings); }
   Walked* stored(StateData& data) const override { return data.photons ? &*data.photons : nullptr; }
   std::unique_ptr<Work> make_work(Estimator estimator, Progress::Stage stage) override {
-    return std::make_unique<ForwardWork>(context_, estimator, stage, direct_);
+    return std::make_unique<ForwardWork>(context_, estimator, stage, direct_, measure_);
   }
   std::uint64_t pilot_count(Estimator estimator) const override {
     const std::uint64_t photons = context_.settings.photons;
@@ -48,21 +47,25 @@ class ForwardTiles final : public Measurement {
     std::vector<double> means = likely_values(pilots, tiles);
     make_errors_likely(pilots, means, tiles);
     for (std::size_t t = 0; t < direct_.size(); ++t) means[t] += direct_[t].front + direct_[t].behind;
-    return choose_best(pilots, means, tiles.areas, name());
+    for (std::size_t t = 0; t < means.size(); ++t) {
+      if (!measure_.counts(t)) means[t] = 0.0;  // left out
+    }
+    return choose_best(pilots, means, measure_.floor(means), tiles.areas, name());
   }
 
   const DirectCost& direct_cost() const { return direct_cost_; }
 
  private:
   const RunContext& context_;
+  const TileErrorMeasure& measure_;
   std::vector<TileDirect> direct_;  // of every tile, if it is integrated
   DirectCost direct_cost_;
 };
 
 }  // namespace
 
-TileMeasurement measure_tiles_forward(const RunContext& context) {
-  ForwardTiles tiles(context);
+TileMeasurement measure_tiles_forward(const RunContext& context, const TileErrorMeasure& measure) {
+  ForwardTiles tiles(context, measure);
   Driven driven = drive(context, tiles);
   auto& work = static_cast<ForwardWork&>(*driven.work);
   const Totals& totals = work.totals();
@@ -80,7 +83,7 @@ TileMeasurement measure_tiles_forward(const RunContext& context) {
   measured.incident_standard_error = incident.standard_error;
   measured.tiles = work.scores().tiles(totals);
   measured.surfaces = work.scores().surfaces(totals, measured.tiles);
-  finish_report(measured.report, rms_relative_error(context.tiling, measured.tiles));
+  finish_report(measured.report, work.run_error());
   return measured;
 }
 

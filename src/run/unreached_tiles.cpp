@@ -49,6 +49,7 @@ void leave_out_unreached(const Room& room, const UnreachedSides& unreached, Resu
   for (std::size_t m = 0; m < areas.size(); ++m) {
     if (areas[m] > 0.0) refer_to_rest(result.surfaces[m], areas[m]);
   }
+  result.unreached.assign(result.tiles.size(), false);
   constexpr double nothing = std::numeric_limits<double>::infinity();
   std::vector<double> lowest(result.surfaces.size(), nothing);
   for (std::size_t i = 0; i < result.tiles.size(); ++i) {
@@ -56,6 +57,7 @@ void leave_out_unreached(const Room& room, const UnreachedSides& unreached, Resu
     const TileMap& map = tiling.maps[tile.map];
     const double irradiance = result.tiles[i].irradiance;
     if (unreached.holds(map.surface, tile.triangle, map.side)) {
+      result.unreached[i] = true;
       ++result.unreached_tiles;
       if (!(irradiance > 0.0)) --result.tiles_without_hits;
     } else {

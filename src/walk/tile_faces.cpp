@@ -25,6 +25,7 @@ TileFaces::TileFaces(const Room& room, const Tiling& tiling, const Tracer& trace
   for (const Tile& tile : tiling.tiles) middle += tile.point / static_cast<double>(tiling.tiles.size());
   for (std::size_t tile = 0; tile < tiling.tiles.size(); ++tile) {
     const TileMap& map = tiling.maps[tiling.tiles[tile].map];
+    if (!room.surfaces[map.surface].measured) continue;
     const auto number = static_cast<std::uint32_t>(tile);
     if (room.surfaces[map.surface].sides == Sides::both) {
       faces_.push_back({number, map.side == Side::back});

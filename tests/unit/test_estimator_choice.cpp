@@ -48,16 +48,16 @@ TEST_CASE("the pilot with the smallest variance for the same number of flights i
   // Variances 4 and 1, flights 1 and 5: the first needs 4, the second 5 for the same error.
   const std::vector<Pilot> pilots{pilot(Estimator::collision, 1000.0, {0.2, 0.2}),
                                   pilot(Estimator::weight, 5000.0, {0.1, 0.1})};
-  const Choice choice = choose_best(pilots, {1.0, 1.0}, {1.0, 1.0}, "the tiles");
+  const Choice choice = choose_best(pilots, {1.0, 1.0}, 0.0, {1.0, 1.0}, "the tiles");
   CHECK(choice.best == 0);
   CHECK(choice.reason.find("'collision' was chosen for the tiles") != std::string::npos);
   CHECK(choice.reason.find("'weight' needs 1.25 times as many flights") != std::string::npos);
   // Weights count: the second is better where the area is, and errors are relative to the means given.
   const std::vector<Pilot> uneven{pilot(Estimator::collision, 1000.0, {0.1, 0.4}),
                                   pilot(Estimator::weight, 1000.0, {0.4, 0.1})};
-  CHECK(choose_best(uneven, {1.0, 1.0}, {1.0, 9.0}, "the tiles").best == 1);
-  CHECK(choose_best(uneven, {1.0, 1.0}, {9.0, 1.0}, "the tiles").best == 0);
-  CHECK(choose_best(uneven, {1.0, 100.0}, {1.0, 9.0}, "the tiles").best == 0);
+  CHECK(choose_best(uneven, {1.0, 1.0}, 0.0, {1.0, 9.0}, "the tiles").best == 1);
+  CHECK(choose_best(uneven, {1.0, 1.0}, 0.0, {9.0, 1.0}, "the tiles").best == 0);
+  CHECK(choose_best(uneven, {1.0, 100.0}, 0.0, {1.0, 9.0}, "the tiles").best == 0);
 }
 
 TEST_CASE("tiles with few hits of the pilots take the mean irradiance of their tile map, reduced by the missing hits") {
@@ -105,12 +105,13 @@ TEST_CASE("dark tiles share the variance of a hit, so that a tile without hits d
 
 TEST_CASE("if pilots had no hits, no estimator is chosen and the report says so") {
   const std::vector<Pilot> dark{pilot(Estimator::collision, 1000.0, {0.0}), pilot(Estimator::weight, 1000.0, {0.0})};
-  const Choice choice = choose_best(dark, {0.0}, {1.0}, "the tiles");
+  const Choice choice = choose_best(dark, {0.0}, 0.0, {1.0}, "the tiles");
   CHECK(choice.best == 0);
   CHECK(choice.reason.find("too few photons scored") != std::string::npos);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Pilot> unknown{pilot(Estimator::collision, 1000.0, {nan}), pilot(Estimator::weight, 1000.0, {nan})};
-  CHECK(choose_best(unknown, {1.0}, {1.0}, "the tiles").reason.find("too few photons scored") != std::string::npos);
+  CHECK(choose_best(unknown, {1.0}, 0.0, {1.0}, "the tiles").reason.find("too few photons scored") !=
+        std::string::npos);
 }
 
 TEST_CASE("a forecast extrapolates the slope of the errors") {
