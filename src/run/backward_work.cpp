@@ -55,12 +55,13 @@ CheckSchedule BackwardWork::schedule() const {
   return {first, range_.last - range_.first, 1, 4};
 }
 
-std::uint64_t BackwardWork::pilot_rounds(const RunContext& context, const BackwardTask& task, Estimator estimator) {
+std::uint64_t BackwardWork::pilot_rounds(const RunContext& context, const BackwardTask& task, Estimator estimator,
+                                         std::uint64_t histories) {
   // Some walks from every origin: without them there is nothing to compare.
   constexpr std::uint64_t fewest_rounds = 8;
   const std::uint64_t together = task.plan.histories(task.origins);
   Settings settings = context.settings;
-  settings.photons = std::max(pilot_histories(settings.photons, estimator), fewest_rounds * together);
+  settings.photons = std::max(pilot_histories(histories, estimator), fewest_rounds * together);
   const HistoryRange rounds = rounds_of(settings, together);
   return rounds.last - rounds.first;
 }
@@ -260,8 +261,8 @@ class BackwardMeasurement final : public Measurement {
   std::unique_ptr<Work> make_work(Estimator estimator, Progress::Stage stage) override {
     return std::make_unique<BackwardWork>(context_, task_, estimator, stage, direct_);
   }
-  std::uint64_t pilot_count(Estimator estimator) const override {
-    return BackwardWork::pilot_rounds(context_, task_, estimator);
+  std::uint64_t pilot_count(Estimator estimator, std::uint64_t histories) const override {
+    return BackwardWork::pilot_rounds(context_, task_, estimator, histories);
   }
   bool keeps_pilot() const override { return false; }
   Choice judge(std::vector<Pilot>& pilots) override {
