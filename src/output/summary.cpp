@@ -171,12 +171,8 @@ void add_balance(const Result& result, Json& summary) {
 // `receivers` stays empty here: see write_receivers().
 void add_results(const Result& result, const ResultFiles& files, Json& summary) {
   summary["rms_relative_error"] = number(result.walk.rms_relative_error);
-  summary["rms_relative_error_without_floor"] = number(result.walk.rms_relative_error_without_floor);
-  summary["error_floor"] = number(result.walk.error_floor);
   summary["figure_of_merit"] = number(result.walk.figure_of_merit);
   summary["stopped_by"] = std::string(to_string(result.walk.stopped_by));
-  if (const std::string repeat = options_to_repeat(result, Measured::tiles); !repeat.empty())
-    summary["repeat"] = repeat;
   summary["surfaces"] = surfaces_of(result, files);
   summary["receivers"] = Json::array();
   summary["ignored"] = texts_of(result.ignored);
@@ -219,6 +215,10 @@ void add_details(const Room& room, const Result& result, const ResultFiles& file
   summary["tiles_by"] = std::string(to_string(result.settings.tile_walk));
   summary["direct"] = std::string(to_string(direct_is_apart(result) ? Direct::analytic : Direct::sampled));
   summary["shadow_rays"] = result.walk.shadow_rays + result.receiver_walk.shadow_rays;
+  summary["rms_relative_error_without_floor"] = number(result.walk.rms_relative_error_without_floor);
+  summary["error_floor"] = number(result.walk.error_floor);
+  if (const std::string repeat = options_to_repeat(result, Measured::tiles); !repeat.empty())
+    summary["repeat"] = repeat;
   summary["choices"] = result.choices;
   summary["receiver_walk"] = receiver_walk_of(result);
   summary["backward"] = receiver_walk_of(result);  // the name in earlier versions

@@ -143,7 +143,7 @@ class Faults(FaultTest):
         out = self.folder / "out"
         for options, says in ((["--tile", "0.0002"], "150000000 cells, 25000000 of them on the surface"),
                               (["--tile", "0.002", "--threads", "64"], "1500000 tiles")):
-            done = lichtmc("run", CUBE, "-o", out, "--photons", "1e9", *options, preexec_fn=limit)
+            done = lichtmc("run", CUBE, "-o", out, "--photons", "1e9", "--estimator", "collision", *options, preexec_fn=limit)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(says, done.stderr)
             self.assertIn("Give --tile", done.stderr)
