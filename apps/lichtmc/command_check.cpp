@@ -14,6 +14,7 @@
 #include "lichtmc/inspect.hpp"
 #include "lichtmc/visible_text.hpp"
 #include "light_spec.hpp"
+#include "progress_line.hpp"
 #include "quantities.hpp"
 #include "room_options.hpp"
 
@@ -145,8 +146,13 @@ void print_findings(const Inspection& facts) {
 }
 
 int check(const CheckOptions& options) {
+  const double tile_edge_m = parse_number(options.tile, "--tile");
+  StepLine line(ProgressLine::Show::yes);
+  line.update("Reading the room");
   const Room room = read_room(options.reading);
-  const Inspection facts = inspect(room, parse_number(options.tile, "--tile"));
+  const Inspection facts =
+      inspect(room, tile_edge_m, prepare(room, 0, [&line](std::string_view step) { line.update(step); }));
+  line.clear();
   if (options.json) {
     std::cout << inspection_json(room, facts);
   } else {

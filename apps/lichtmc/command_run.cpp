@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "continue_run.hpp"
 #include "light_spec.hpp"
+#include "progress_line.hpp"
 #include "run_job.hpp"
 #include "run_options.hpp"
 
@@ -26,7 +27,11 @@ void run(const RunOptions& options, const Invocation& invocation) {
   job.folder = options.output.empty() ? std::filesystem::path(options.reading.file).stem().concat(".out")
                                       : std::filesystem::path(options.output);
   job.communicator = invocation.communicator;
-  job.room = read_run_room(options, job.notes);
+  {
+    StepLine line(job.quiet || !is_rank_0(job.communicator) ? ProgressLine::Show::no : ProgressLine::Show::yes);
+    line.update("Reading the room");
+    job.room = read_run_room(options, job.notes);
+  }
   carry_out_run(job, [&](const Control& control) { return simulate(job.room, settings, control); });
 }
 

@@ -78,6 +78,7 @@ std::string ProgressLine::work(const Progress& progress) const {
 }
 
 std::string ProgressLine::describe(const Progress& progress) const {
+  if (progress.stage == Progress::Stage::preparation) return std::string(progress.step);
   if (progress.stage == Progress::Stage::pilot) return "choosing the estimator";
   const double left = seconds_left(progress);
   const std::string time = std::isfinite(left) ? ", about " + short_time(left) + " left" : "";
@@ -112,23 +113,47 @@ void ProgressLine::update(const Progress& progress) {
                       "\x1b[K";
 }
 
-StepLine::StepLine(ProgressLine::Show show)
-    : show_(show), terminal_(isatty(STDERR_FILENO) != 0), began_(std::chrono::steady_clock::now()) {}
+StepLine::StepLine(ProgressLine::Show show) : show_(show), terminal_(isatty(STDERR_FILENO) != 0) {
+  if (show_ == ProgressLine::Show::yes && !terminal_)
+    watcher_ = std::jthread([this](const std::stop_token& ended) { watch(ended); });
+}
 
 StepLine::~StepLine() {
-  if (drawn_ && terminal_) bar_stream() << "\r\x1b[K";
+  clear();
+}
+
+void StepLine::watch(const std::stop_token& ended) {
+  constexpr std::chrono::seconds delay{2};
+  std::unique_lock lock(mutex_);
+  while (!ended.stop_requested()) {
+    changed_.wait(lock, ended, [this] { return !step_.empty(); });
+    const auto due = began_ + delay;
+    if (changed_.wait_until(lock, ended, due, [&] { return began_ + delay != due || step_.empty(); })) continue;
+    if (ended.stop_requested()) return;
+    std::cerr << step_ << " …" << std::endl;
+    step_.clear();
+  }
 }
 
 void StepLine::update(std::string_view what) {
-  constexpr std::chrono::seconds delay{2};
   if (show_ == ProgressLine::Show::no) return;
-  if (!terminal_ && std::chrono::steady_clock::now() - began_ < delay) return;
-  drawn_ = true;
+  const std::lock_guard lock(mutex_);
   if (terminal_) {
-    bar_stream() << "\r" + std::string(what) + " …\x1b[K";
-  } else {
-    std::cerr << what << std::endl;
+    drawn_ = true;
+    bar_stream() << "\r" + std::string(what) + " …\x1b[K" << std::flush;
+    return;
   }
+  step_ = what;
+  began_ = std::chrono::steady_clock::now();
+  changed_.notify_all();
+}
+
+void StepLine::clear() {
+  const std::lock_guard lock(mutex_);
+  if (drawn_) bar_stream() << "\r\x1b[K" << std::flush;
+  drawn_ = false;
+  step_.clear();
+  changed_.notify_all();
 }
 
 }  // namespace lichtmc::app

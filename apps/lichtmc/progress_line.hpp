@@ -2,8 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "lichtmc/settings.hpp"
 #include "lichtmc/simulate.hpp"
@@ -35,8 +39,8 @@ class ProgressLine {
   std::chrono::steady_clock::time_point last_;
 };
 
-// Names of steps that take some seconds each. On a terminal they overwrite each other; elsewhere each step that begins
-// two seconds or more after the first has a line.
+// Names of steps that take some seconds each. On a terminal they overwrite each other; elsewhere each step that takes
+// two seconds or more has a line.
 class StepLine {
  public:
   explicit StepLine(ProgressLine::Show show);
@@ -44,13 +48,22 @@ class StepLine {
   StepLine(const StepLine&) = delete;
   StepLine& operator=(const StepLine&) = delete;
 
+  // A step begins, and the one before ends. Any thread may call.
   void update(std::string_view what);
+  // No step is under way: other lines may be printed.
+  void clear();
 
  private:
+  void watch(const std::stop_token& ended);
+
   ProgressLine::Show show_;
   bool terminal_;
   bool drawn_ = false;
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::string step_;  // not told yet
   std::chrono::steady_clock::time_point began_;
+  std::jthread watcher_;  // if steps are told by lines
 };
 
 // "12.3M", "4.56k": a count with three digits.

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <exception>
 #include <iostream>
-#include <limits>
+#include <memory>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -37,12 +37,14 @@ void write_checkpoint(const State& state, RunJob& job) {
   }
 }
 
-Result simulate_with(RunJob& job, const std::stop_token& stop, ProgressLine::Show show,
-                     const std::function<Result(const Control&)>& simulate) {
+// prepared: of the room, or null.
+Result simulate_with(RunJob& job, const std::shared_ptr<PreparedRoom>& prepared, const std::stop_token& stop,
+                     ProgressLine::Show show, const std::function<Result(const Control&)>& simulate) {
   ProgressLine line(is_rank_0(job.communicator) ? show : ProgressLine::Show::no, job.settings);
   Control control;
   control.stop = stop;
   control.communicator = job.communicator;
+  control.prepared = prepared;
   if (is_rank_0(job.communicator)) {
     control.progress = [&line](const Progress& progress) { line.update(progress); };
     control.checkpoint = [&job](const State& state) { write_checkpoint(state, job); };
@@ -85,9 +87,7 @@ class ReleaseAtEnd {
 
 // Before the run: what `lichtmc check` warns of. A room with a fault is refused with a message of its own, unless the
 // number of flights is limited: then light may be enclosed without absorption.
-std::vector<std::string> print_warnings_of_check(const RunJob& job) {
-  constexpr double one_tile_per_surface = std::numeric_limits<double>::max();
-  const Inspection inspection = inspect(job.room, one_tile_per_surface);
+std::vector<std::string> print_warnings_of_check(const RunJob& job, const Inspection& inspection) {
   if (inspection.count(Severity::fault) > 0 && !job.settings.max_bounces) return {};
   std::vector<std::string> lines = warning_lines(job.room, inspection);
   for (const std::string& line : lines) std::cerr << "Warning: " << visible_text(line) << '\n';
@@ -144,15 +144,22 @@ void carry_out_run(RunJob& job, const std::function<Result(const Control&)>& sim
   const InterruptWatch interrupt;
   const auto show = job.quiet ? ProgressLine::Show::no : ProgressLine::Show::yes;
   if (!is_rank_0(job.communicator)) {
-    simulate_with(job, interrupt.token(), show, simulate);
+    simulate_with(job, nullptr, interrupt.token(), show, simulate);
   } else {
     NewFolders created(job.folder);
     const ReleaseAtEnd release(job.lock);
     hold_folder(job);
     print_notes(job);
-    const std::vector<std::string> warnings = print_warnings_of_check(job);
-    Result result = simulate_with(job, interrupt.token(), show, simulate);
+    StepLine line(show);
+    const auto prepared = prepare(job.room, job.report.threads, [&line](std::string_view step) { line.update(step); });
+    const double edge_m = job.settings.tile_edge_m;
+    const auto inspection = std::make_shared<const Inspection>(inspect(job.room, edge_m, prepared));
+    line.clear();
+    const std::vector<std::string> warnings = print_warnings_of_check(job, *inspection);
+    Result result = simulate_with(job, prepared, interrupt.token(), show, simulate);
     created.keep();
+    job.report.prepared = prepared;
+    if (result.settings.tile_edge_m == edge_m) job.report.inspection = inspection;
     write_all(job, result, warnings, show);
   }
   // All ranks wait until rank 0 has written: mpirun ends all processes if a signal ends one of them.

@@ -2,17 +2,20 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <stop_token>
 
 #include "lichtmc/communicator.hpp"
+#include "lichtmc/prepared_room.hpp"
 #include "lichtmc/progress.hpp"
 #include "lichtmc/state.hpp"
 
 namespace lichtmc {
 
 struct Control {
-  // Called some times a second while a walk runs, by one thread at a time, which may be any thread of the run. It
-  // should return quickly. An exception from it ends the run and is rethrown by simulate().
+  // Called before each step of the preparation, and some times a second while a walk runs, by one thread at a time,
+  // which may be any thread of the run. It should return quickly. An exception from it ends the run and is rethrown by
+  // simulate().
   std::function<void(const Progress&)> progress;
   // Ends the run early; the result then contains what was simulated so far (StopReason::interrupt).
   std::stop_token stop;
@@ -24,6 +27,9 @@ struct Control {
   // Ranks that share the run, or null. All get the result; callbacks are called by rank 0 only. A stop on any rank, or
   // the end of its time, ends the run of all ranks within about a second.
   Communicator* communicator = nullptr;
+  // What is known of the room's surfaces, from prepare(); null: it is found again. The steps of its preparation are
+  // then reported to its own callback.
+  std::shared_ptr<PreparedRoom> prepared;
 };
 
 }  // namespace lichtmc

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 
 #include "lichtmc/cover.hpp"
 #include "lichtmc/gltf.hpp"
+#include "lichtmc/prepared_room.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/tiles.hpp"
 
@@ -119,12 +121,13 @@ struct Inspection {
   std::size_t count(Severity severity) const;
 };
 
-// Checks a room with tiles of this edge. Traces some 10⁵ rays; takes seconds for rooms of 10⁵ triangles, on two threads.
+// Checks a room with tiles of this edge. Traces some 10⁵ rays; takes seconds for rooms of 10⁶ triangles.
 // Throws InputError if its surfaces or reflectance maps are invalid (check_room()) or no triangle has an area. Other
-// reasons why the room cannot be simulated are findings.
-Inspection inspect(const Room& room, double tile_edge_m = 0.1);
+// reasons why the room cannot be simulated are findings. prepared: see prepare(); it keeps the tiles for simulate().
+Inspection inspect(const Room& room, double tile_edge_m = 0.1, std::shared_ptr<PreparedRoom> prepared = nullptr);
 // The same with the result of make_tiling(room, tile_edge_m): avoids a second copy of the tiles in memory.
-Inspection inspect(const Room& room, const Tiling& tiling, double tile_edge_m);
+Inspection inspect(const Room& room, const Tiling& tiling, double tile_edge_m,
+                   std::shared_ptr<PreparedRoom> prepared = nullptr);
 
 // The faults and warnings of an inspection in at most `most` (≥ 2) sentences, the gravest first: of each topic the
 // first, with the number of others like it; if there are more topics, the last sentence says how to see the rest.

@@ -17,6 +17,7 @@
 #include "lichtmc/overrides.hpp"       // IWYU pragma: export
 #include "lichtmc/paths.hpp"           // IWYU pragma: export
 #include "lichtmc/picture.hpp"         // IWYU pragma: export
+#include "lichtmc/prepared_room.hpp"   // IWYU pragma: export
 #include "lichtmc/progress.hpp"        // IWYU pragma: export
 #include "lichtmc/receiver_table.hpp"  // IWYU pragma: export
 #include "lichtmc/receivers.hpp"       // IWYU pragma: export

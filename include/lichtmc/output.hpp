@@ -4,12 +4,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "lichtmc/folder_lock.hpp"
+#include "lichtmc/inspect.hpp"
 #include "lichtmc/paths.hpp"
 #include "lichtmc/picture.hpp"
+#include "lichtmc/prepared_room.hpp"
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/study.hpp"
@@ -47,6 +50,9 @@ struct ReportOptions {
   std::string command;        // command that reproduces the run, for report.html; may be empty
   unsigned threads = 0;       // for drawing; 0: one per processor
   std::function<void(std::string_view)> progress;  // called with a description before each step
+  // What inspect() has found with the tiles of the result; null: the room is inspected again.
+  std::shared_ptr<const Inspection> inspection;
+  std::shared_ptr<PreparedRoom> prepared;  // see prepare()
 };
 
 // Writes a report: the room in false colour (room_lit.glb); pictures/room.svg, above.svg and one per large surface

@@ -17,6 +17,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "lichtmc/prepared_room.hpp"
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
 
@@ -97,11 +98,12 @@ struct Picture {
 glm::dmat4 view_onto(const Room& room, std::size_t width, std::size_t height);
 
 // Draws a room with the irradiance of a result, by ray tracing with Embree. Room and result must outlive the painter.
-// threads 0: one per processor. Throws InputError if the result has no tiles, RuntimeError if memory or the tracing
-// device fails.
+// threads 0: one per processor. prepared: see prepare(). Throws InputError if the result has no tiles, RuntimeError if
+// memory or the tracing device fails.
 class RoomPainter {
  public:
-  RoomPainter(const Room& room, const Result& result, unsigned threads = 0);
+  RoomPainter(const Room& room, const Result& result, unsigned threads = 0,
+              std::shared_ptr<PreparedRoom> prepared = nullptr);
   ~RoomPainter();
   RoomPainter(const RoomPainter&) = delete;
   RoomPainter& operator=(const RoomPainter&) = delete;
@@ -147,10 +149,10 @@ struct SurfacePlans {
   std::vector<std::string> left_out;  // sentences: which large surfaces have no plan, and why
 };
 
-// Plans of the parts with at least 2 % of the room's surface area each, the largest first, at most `max_plans`. No plan:
-// parts with the bottom colour of the scale nearly everywhere; curved surfaces in many or small parts, and bodies of
-// small flat parts, of which the tile map shows what nobody can find in the room.
-// `longer_side`: in pixels, 16 … 4096; throws InputError otherwise.
+// Plans of the parts with at least 2 % of the room's surface area each, the largest first, at most `max_plans`. No
+// plan: parts with the bottom colour of the scale nearly everywhere; curved surfaces in many or small parts, and bodies
+// of small flat parts, of which the tile map shows what nobody can find in the room. `longer_side`: in pixels, 16 …
+// 4096; throws InputError otherwise.
 SurfacePlans draw_plans(const Room& room, const Result& result, const LitSides& lit, const ColourScale& scale,
                         std::size_t max_plans = 12, std::size_t longer_side = 640);
 

@@ -3,17 +3,20 @@
 
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 namespace lichtmc {
 
 struct Progress {
   enum class Stage {
+    preparation,   // before the walks: `step` says what is done; nothing is counted
     direct_light,  // direct light is integrated; histories and target count tiles or receivers
     pilot,         // short walks for the choice of Estimator::automatic
     tiles,         // walks for the tiles
     receivers,     // walks for the receivers
   };
   Stage stage = Stage::tiles;
+  std::string_view step;        // "Laying out tiles", …; empty in other stages
   std::uint64_t histories = 0;  // simulated so far
   std::uint64_t target = 0;     // to simulate if no other stop rule comes first
   std::uint64_t impacts = 0;

@@ -64,8 +64,9 @@ struct Tiling {
 // with a length of L metres in one direction has max(1, round(L / edge_m)) cells in that direction.
 //
 // The areas of a surface's tiles add up to the area of the surface. Throws InputError if edge_m is not a finite number
-// above 0, or if the room would have more than 2^31 cells or more than fit into the machine's memory.
-Tiling make_tiling(const Room& room, double edge_m);
+// above 0, or if the room would have more than 2^31 cells or more than fit into the machine's memory. The work is done
+// on up to `threads` threads (0: one per processor); the tiles are the same for any number of them.
+Tiling make_tiling(const Room& room, double edge_m, unsigned threads = 0);
 
 // The approximate memory, in bytes, of a run with two threads for the tiles of a room.
 double memory_needed(const Tiling& tiling);

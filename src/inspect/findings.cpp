@@ -1,41 +1,29 @@
 #include "inspect/findings.hpp"
 
-#include <array>
-
 #include "base/message.hpp"
 #include "inspect/topics.hpp"
 
 namespace lichtmc {
 
-namespace {
-
-using Topic = void (*)(const Room&, Inspection&);
-
 // Those with the greatest influence on the figures first: findings of one severity appear in this order, and a run
 // repeats the first of them.
-constexpr std::array topics{
-    Topic{find_size},
-    find_up_axis,
-    find_emitters,
-    find_emitter_light,
-    find_seen_from_behind,
-    find_not_modelled,
-    find_faces_in_one_plane,
-    find_openings,
-    find_reflectances,
-    find_open_edges,
-    find_receivers,
-    find_area_lights,
-    find_zero_area,
-    find_texture_coordinates,
-    find_tiles,
-    find_shape,
-};
-
-}  // namespace
-
-void add_findings(const Room& room, Inspection& facts) {
-  for (const Topic topic : topics) topic(room, facts);
+void add_findings(const Room& room, const Enclosure& enclosure, Inspection& facts) {
+  find_size(room, facts);
+  find_up_axis(room, facts);
+  find_emitters(room, enclosure, facts);
+  find_emitter_light(room, facts);
+  find_seen_from_behind(room, facts);
+  find_not_modelled(room, facts);
+  find_faces_in_one_plane(room, facts);
+  find_openings(room, facts);
+  find_reflectances(room, facts);
+  find_open_edges(room, facts);
+  find_receivers(room, enclosure, facts);
+  find_area_lights(room, facts);
+  find_zero_area(room, facts);
+  find_texture_coordinates(room, facts);
+  find_tiles(room, facts);
+  find_shape(room, facts);
 }
 
 void add_fault(const std::string& message, const std::string& topic, std::vector<Finding>& findings) {

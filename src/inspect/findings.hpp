@@ -6,11 +6,12 @@
 
 #include "lichtmc/inspect.hpp"
 #include "lichtmc/room.hpp"
+#include "room/enclosure.hpp"
 
 namespace lichtmc {
 
-// Adds the findings that follow from the facts and from the room to Inspection::findings.
-void add_findings(const Room& room, Inspection& facts);
+// Adds the findings that follow from the facts and from the room, with its closed shells, to Inspection::findings.
+void add_findings(const Room& room, const Enclosure& enclosure, Inspection& facts);
 
 // Adds an error message as a fault; what follows its first sentence becomes the advice.
 void add_fault(const std::string& message, const std::string& topic, std::vector<Finding>& findings);

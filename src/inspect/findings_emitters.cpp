@@ -28,7 +28,7 @@ std::string lamp_proposal(const Room& room, const Inspection& facts) {
 
 }  // namespace
 
-void find_emitters(const Room& room, Inspection& facts) {
+void find_emitters(const Room& room, const Enclosure& enclosure, Inspection& facts) {
   // Extends the advice of check_room() by a possible position.
   const auto fault = std::find_if(facts.findings.begin(), facts.findings.end(),
                                   [](const Finding& f) { return f.topic == "emitters"; });
@@ -38,7 +38,7 @@ void find_emitters(const Room& room, Inspection& facts) {
                                           : " with a point inside the room: --light point:X,Y,Z:1000lm. The geometry "
                                             "does not tell where the inside is.");
   }
-  for (const Advised& outside : emitters_outside(room))
+  for (const Advised& outside : emitters_outside(room, &enclosure))
     add(facts, Severity::warning, "emitters", outside.what, outside.advice);
   Names dark;
   for (const Emitter& emitter : room.emitters) {
@@ -63,12 +63,12 @@ void find_emitters(const Room& room, Inspection& facts) {
       "The custom property 'power' gives the luminous flux in lm.");
 }
 
-void find_receivers(const Room& room, Inspection& facts) {
+void find_receivers(const Room& room, const Enclosure& enclosure, Inspection& facts) {
   if (room.receivers.empty()) return;
   add(facts, Severity::note, "receivers",
       to_text(room.receivers.size(), "receiver") + ", the first is " + in_quotes(room.receivers.front().name) + ".",
       "A run computes the irradiance of the tiles and at the receivers.");
-  for (const Advised& outside : receivers_outside(room))
+  for (const Advised& outside : receivers_outside(room, &enclosure))
     add(facts, Severity::warning, "receivers", outside.what, outside.advice);
 }
 

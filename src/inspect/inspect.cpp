@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "inspect/findings.hpp"
 #include "inspect/guesses.hpp"
@@ -12,11 +13,10 @@
 #include "inspect/topics.hpp"
 #include "lichtmc/error.hpp"
 #include "room/bounds.hpp"
-#include "room/convexity.hpp"
 #include "room/cuboid_shape.hpp"
 #include "room/reflectance.hpp"
 #include "room/room_check.hpp"
-#include "room/welded_mesh.hpp"
+#include "tracer/prepared_room.hpp"
 #include "walk/inside.hpp"
 #include "walk/non_absorbing_enclosure.hpp"
 #include "walk/scene.hpp"
@@ -35,16 +35,11 @@ void count_triangles(const Room& room, Inspection& facts) {
   facts.high = bounds.high;
 }
 
-void inspect_mesh(const WeldedMesh& mesh, Inspection& facts) {
-  constexpr std::size_t places = 5;
-  facts.duplicate_triangles = mesh.copies().size();
-  for_each_edge(mesh.edges(), [&](std::size_t first, std::size_t end) {
-    if (end - first != 1) return;
-    const WeldedEdge& edge = mesh.edges()[first];
-    if (facts.open_edges++ < places)
-      facts.open_edge_places.push_back(0.5 * (mesh.places()[edge.from] + mesh.places()[edge.to]));
-  });
-  facts.convex = is_convex(mesh);
+void inspect_mesh(const MeshFacts& mesh, Inspection& facts) {
+  facts.duplicate_triangles = mesh.duplicates;
+  facts.open_edges = mesh.open_edges;
+  facts.open_edge_places = mesh.open_edges_at;
+  facts.convex = mesh.convex;
 }
 
 void inspect_surfaces(const Room& room, Inspection& facts) {
@@ -80,41 +75,47 @@ void inspect_tiles(const Tiling& tiling, double tile_edge_m, Inspection& facts) 
 
 // The tiles with this edge, and what there is to say of them. If they need too much memory, adds a fault, says nothing
 // of tiles, and returns one tile per surface, for the rays.
-Tiling tiling_within_memory(const Room& room, double tile_edge_m, Inspection& facts) {
+Tiling tiling_within_memory(PreparedRoom& prepared, double tile_edge_m, Inspection& facts) {
   try {
-    Tiling tiling = make_tiling(room, tile_edge_m);
+    Tiling tiling = prepared.take_tiling(tile_edge_m);
     inspect_tiles(tiling, tile_edge_m, facts);
     return tiling;
   } catch (const InputError& fault) {
     if (!(tile_edge_m > 0.0) || !std::isfinite(tile_edge_m)) throw;
     add_fault(fault.what(), "tiles", facts.findings);
-    return make_tiling(room, std::numeric_limits<double>::max());
+    return prepared.take_tiling(std::numeric_limits<double>::max());
   }
 }
 
-// The room with its own emitters if these are valid, else with an isotropic emitter at `inside`.
-Room room_for_probe(const Room& room, bool own_emitters, const glm::dvec3& inside) {
-  Room copy = room;
-  if (!own_emitters) copy.emitters = {{"probe", 1.0, IsotropicEmitter{inside}}};
-  return copy;
-}
-
-using Planes = std::shared_ptr<const FacesInOnePlane>;
-
-void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters, const Planes& planes, Inspection& facts) {
-  const InsidePoint inside =
-      find_inside(room, *make_embree_tracer(room, tiling, Edges::robust, planes), facts.low, facts.high);
-  facts.inside = inside.place;
-  facts.inside_is_sure = inside.sure;
-  if (!own_emitters && !inside.sure) return;
-  const Room lit = room_for_probe(room, own_emitters, facts.inside);
-  const Scene scene(lit, tiling, Engine::embree, planes);
+// If the emitters are not valid, rays start at a point inside.
+void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters,
+                const std::shared_ptr<PreparedRoom>& prepared, Inspection& facts) {
+  std::optional<Room> with_probe;
+  std::optional<Scene> own_scene;
+  const auto find = [&](const Tracer& tracer) {
+    const InsidePoint inside = find_inside(room, tracer, facts.low, facts.high);
+    facts.inside = inside.place;
+    facts.inside_is_sure = inside.sure;
+  };
+  if (own_emitters) {
+    own_scene.emplace(room, tiling, Engine::embree, prepared);
+    find(*own_scene->tracer);
+  } else {
+    find(*make_embree_tracer(room, tiling, Edges::robust, prepared));
+    if (!facts.inside_is_sure) return;
+    with_probe = room;
+    with_probe->emitters = {{"probe", 1.0, IsotropicEmitter{facts.inside}}};
+    own_scene.emplace(*with_probe, tiling, Engine::embree, prepared);
+  }
+  const Room& lit = own_emitters ? room : *with_probe;
+  const Scene& scene = *own_scene;
+  prepared->announce("Following test photons");
   facts.closed = scene.misses == Misses::retrace;
   const ProbeResult result = probe(lit, scene, facts.low, facts.high);
   facts.flights = result.flights;
   facts.undecided_flights = result.undecided;
-  facts.covers = planes->covers();
-  facts.opposites = planes->opposites();
+  facts.covers = prepared->planes()->covers();
+  facts.opposites = prepared->planes()->opposites();
   facts.flights_that_left = result.left;
   facts.openings = result.openings;
   if (own_emitters) facts.emitters = result.emitters;
@@ -156,8 +157,9 @@ std::size_t Inspection::count(Severity severity) const {
 
 namespace {
 
-// tiling: null to make one.
-Inspection inspect_with(const Room& room, const Tiling* tiling, double tile_edge_m) {
+// tiling: null to make one, which the prepared room then keeps.
+Inspection inspect_with(const Room& room, const Tiling* tiling, double tile_edge_m,
+                        const std::shared_ptr<PreparedRoom>& prepared) {
   check_surfaces(room);
   Inspection facts;
   bool own_emitters = true;
@@ -167,38 +169,36 @@ Inspection inspect_with(const Room& room, const Tiling* tiling, double tile_edge
     own_emitters = false;
     add_fault(fault.what(), "emitters", facts.findings);
   }
-  // In rooms of many triangles this search takes a fifth of the time, and needs nothing of what follows: a second
-  // thread if there is one.
-  std::future<Planes> planes = std::async(std::launch::async | std::launch::deferred,
-                                          [&room] { return std::make_shared<const FacesInOnePlane>(room); });
   count_triangles(room, facts);
-  inspect_mesh(WeldedMesh(room), facts);
+  prepared->planes();  // first: it needs most memory beside the room
+  inspect_mesh(prepared->mesh(), facts);
   facts.cuboid = recognise_cuboid(room).has_value();
   facts.probably_z_up = looks_z_up(room, facts.high - facts.low);
   if (const auto unit = guess_unit(upright(facts))) facts.suggested_scale = unit->metres;
   inspect_surfaces(room, facts);
-  Tiling made;
+  std::optional<Tiling> made;
   if (tiling == nullptr) {
-    made = tiling_within_memory(room, tile_edge_m, facts);
-    tiling = &made;
+    made = tiling_within_memory(*prepared, tile_edge_m, facts);
+    tiling = &*made;
   } else {
     inspect_tiles(*tiling, tile_edge_m, facts);
   }
-  trace_rays(room, *tiling, own_emitters, planes.get(), facts);
-  add_findings(room, facts);
+  trace_rays(room, *tiling, own_emitters, prepared, facts);
+  add_findings(room, prepared->enclosure(), facts);
   std::stable_sort(facts.findings.begin(), facts.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+  if (made && facts.tiles > 0) prepared->keep_tiling(tile_edge_m, std::move(*made));
   return facts;
 }
 
 }  // namespace
 
-Inspection inspect(const Room& room, double tile_edge_m) {
-  return inspect_with(room, nullptr, tile_edge_m);
+Inspection inspect(const Room& room, double tile_edge_m, std::shared_ptr<PreparedRoom> prepared) {
+  return inspect_with(room, nullptr, tile_edge_m, prepared_or_new(std::move(prepared), room, 0));
 }
 
-Inspection inspect(const Room& room, const Tiling& tiling, double tile_edge_m) {
-  return inspect_with(room, &tiling, tile_edge_m);
+Inspection inspect(const Room& room, const Tiling& tiling, double tile_edge_m, std::shared_ptr<PreparedRoom> prepared) {
+  return inspect_with(room, &tiling, tile_edge_m, prepared_or_new(std::move(prepared), room, 0));
 }
 
 }  // namespace lichtmc

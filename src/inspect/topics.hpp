@@ -4,6 +4,7 @@
 
 #include "lichtmc/inspect.hpp"
 #include "lichtmc/room.hpp"
+#include "room/enclosure.hpp"
 
 namespace lichtmc {
 
@@ -14,8 +15,8 @@ void find_size(const Room& room, Inspection& facts);
 void find_up_axis(const Room& room, Inspection& facts);
 
 // findings_emitters.cpp
-void find_emitters(const Room& room, Inspection& facts);
-void find_receivers(const Room& room, Inspection& facts);
+void find_emitters(const Room& room, const Enclosure& enclosure, Inspection& facts);
+void find_receivers(const Room& room, const Enclosure& enclosure, Inspection& facts);
 
 // findings_area_lights.cpp: area lights of a shape that is seldom meant
 void find_area_lights(const Room& room, Inspection& facts);

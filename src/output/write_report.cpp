@@ -43,8 +43,12 @@ class ReportWriter {
       content_.scale = choose_scale(*result_, options_->scale);
       draw();
     }
-    announce("Checking the room");
-    content_.inspection = inspect(*room_, result_->tiling, result_->settings.tile_edge_m);
+    if (options_->inspection != nullptr) {
+      content_.inspection = *options_->inspection;
+    } else {
+      announce("Checking the room");
+      content_.inspection = inspect(*room_, result_->tiling, result_->settings.tile_edge_m, options_->prepared);
+    }
     announce("Writing report.html");
     folder_.write("report.html", report_html(content_));
     folder_.publish("report.html");
@@ -78,7 +82,7 @@ class ReportWriter {
 
   void draw() {
     announce("Drawing the room");
-    const RoomPainter painter(*room_, *result_, options_->threads);
+    const RoomPainter painter(*room_, *result_, options_->threads, options_->prepared);
     const Picture room = painter.draw(View::corner, content_.scale, picture_width, picture_height);
     const Picture above = painter.draw(View::above, content_.scale, picture_width, picture_height);
     // The pictures of the room come first: a surface with the name "room" then gets another file name.

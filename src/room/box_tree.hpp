@@ -1,8 +1,10 @@
 // A tree of boxes: which of many boxes meet a given one.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "room/bounds.hpp"
@@ -16,7 +18,8 @@ class BoxTree {
  public:
   BoxTree() = default;
   // Boxes are numbered 0 … n − 1; an empty box (low above high) meets none.
-  explicit BoxTree(const std::vector<Bounds>& boxes);
+  // On up to `threads` (≥ 1) threads; the tree is the same for any number of them.
+  explicit BoxTree(const std::vector<Bounds>& boxes, unsigned threads = 1);
 
   // Calls use(number) for every box that meets `box`, in an order that depends on the boxes only.
   template <class Use>
@@ -50,7 +53,16 @@ class BoxTree {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
            a.low.z <= b.high.z && b.low.z <= a.high.z;
   }
-  void divide(std::uint32_t node, std::uint32_t first, std::uint32_t count, const std::vector<Bounds>& boxes);
+  // A part of the boxes, and the node that becomes the root of its tree; the nodes below follow from `below` on.
+  struct Part {
+    std::uint32_t node = 0;
+    std::uint32_t below = 0;
+    std::uint32_t first = 0;  // in number_
+    std::uint32_t count = 0;
+  };
+  // Makes a node; of one with children, returns the two parts.
+  std::optional<std::array<Part, 2>> divide(const Part& part, const std::vector<Bounds>& boxes);
+  void divide_all(const Part& part, const std::vector<Bounds>& boxes);
 
   std::vector<Node> nodes_;
   std::vector<Bounds> boxes_;          // in the order of the leaves

@@ -48,7 +48,7 @@ std::optional<int> crossings(const std::array<glm::dvec3, 3>& triangle, const gl
 
 }  // namespace
 
-Enclosure::Enclosure(const WeldedMesh& mesh) {
+Enclosure::Enclosure(const WeldedMesh& mesh) : room_(&mesh.room()) {
   // Triangles that share an edge form a group; one edge with an odd number of triangles makes the group open.
   const std::vector<WeldedEdge>& edges = mesh.edges();
   DisjointSets<std::size_t> groups(mesh.triangles().size());
@@ -66,20 +66,29 @@ Enclosure::Enclosure(const WeldedMesh& mesh) {
     if (!open[group]) shell_of_group.try_emplace(group, shell_of_group.size());
   }
   shells_.resize(shell_of_group.size());
-  for (std::size_t n = 0; n < mesh.triangles().size(); ++n) {
-    const auto shell = shell_of_group.find(groups.find(n));
-    if (shell != shell_of_group.end()) shells_[shell->second].push_back(mesh.corners(n));
+  std::size_t n = 0;
+  for (std::uint32_t k = 0; k < room_->surfaces.size(); ++k) {
+    for (std::uint32_t t = 0; t < room_->surfaces[k].triangles.size(); ++t, ++n) {
+      const auto shell = shell_of_group.find(groups.find(n));
+      if (shell != shell_of_group.end()) shells_[shell->second].push_back({k, t});
+    }
   }
 }
 
-bool Enclosure::is_inside(const Shell& shell, const glm::dvec3& point_m) {
+WeldedMesh::Corners Enclosure::corners(const Face& face) const {
+  const Surface& surface = room_->surfaces[face.surface];
+  const glm::uvec3 t = surface.triangles[face.triangle];
+  return {surface.positions[t.x], surface.positions[t.y], surface.positions[t.z]};
+}
+
+bool Enclosure::is_inside(const Shell& shell, const glm::dvec3& point_m) const {
   // The next direction if a ray comes too close to an edge of the mesh.
   glm::dvec3 direction = first_direction;
   for (int attempt = 0; attempt < 16; ++attempt) {
     int sum = 0;
     bool sure = true;
-    for (const WeldedMesh::Corners& triangle : shell) {
-      const std::optional<int> count = crossings(triangle, point_m, direction);
+    for (const Face& face : shell) {
+      const std::optional<int> count = crossings(corners(face), point_m, direction);
       sure = sure && count.has_value();
       sum += count.value_or(0);
     }
@@ -110,7 +119,8 @@ std::vector<std::vector<std::size_t>> Enclosure::shells_around_each(const std::v
   for (std::size_t number = 0; number < shells_.size(); ++number) {
     const Shell& shell = shells_[number];
     std::vector<std::optional<int>> sums(points_m.size(), 0);
-    for (const WeldedMesh::Corners& triangle : shell) {
+    for (const Face& face : shell) {
+      const WeldedMesh::Corners triangle = corners(face);
       Bounds box;
       for (const glm::dvec3& corner : triangle) box.add(seen(corner));
       // crossings() is uncertain within 10⁻⁹ of a triangle's size, and some roundings of the coordinates.
@@ -133,8 +143,8 @@ std::vector<std::vector<std::size_t>> Enclosure::shells_around_each(const std::v
 bool Enclosure::has_shell_over(const Bounds& box, double slack) const {
   return std::any_of(shells_.begin(), shells_.end(), [&](const Shell& shell) {
     Bounds own;
-    for (const WeldedMesh::Corners& triangle : shell) {
-      for (const glm::dvec3& corner : triangle) own.add(corner);
+    for (const Face& face : shell) {
+      for (const glm::dvec3& corner : corners(face)) own.add(corner);
     }
     return own.holds(box.low, slack) && own.holds(box.high, slack);
   });

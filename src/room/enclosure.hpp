@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -17,6 +18,7 @@ namespace lichtmc {
 // the safe one.
 class Enclosure {
  public:
+  // The room, also that of the mesh, must outlive this.
   explicit Enclosure(const Room& room) : Enclosure(WeldedMesh(room)) {}
   explicit Enclosure(const WeldedMesh& mesh);
 
@@ -39,10 +41,16 @@ class Enclosure {
   std::vector<std::size_t> shells_around(const glm::dvec3& point_m) const;
 
  private:
-  using Shell = std::vector<WeldedMesh::Corners>;
+  struct Face {
+    std::uint32_t surface = 0;
+    std::uint32_t triangle = 0;  // index into Surface::triangles
+  };
+  using Shell = std::vector<Face>;
 
-  static bool is_inside(const Shell& shell, const glm::dvec3& point_m);
+  WeldedMesh::Corners corners(const Face& face) const;
+  bool is_inside(const Shell& shell, const glm::dvec3& point_m) const;
 
+  const Room* room_;
   std::vector<Shell> shells_;
 };
 

@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/parallel.hpp"
 #include "room/patch_areas.hpp"
 #include "room/room_faces.hpp"
 
@@ -27,6 +28,29 @@ glm::dvec2 coordinates(const glm::dvec3& from_corner, const std::array<glm::dvec
 
 bool on_triangle(const glm::dvec2& st) {
   return st.x >= 0.0 && st.y >= 0.0 && st.x + st.y <= 1.0;
+}
+
+// Triangles that a thread treats at a time: some milliseconds of work.
+constexpr std::size_t at_a_time = 8192;
+
+// Two faces in one plane that overlap.
+struct Pair {
+  std::uint32_t a = 0;  // < b
+  std::uint32_t b = 0;
+  double gap_m = 0.0;
+};
+
+// Those whose first face is one of first … last − 1, in their order.
+void find_pairs(const RoomFaces& all, const BoxTree& tree, std::size_t first, std::size_t last,
+                std::vector<Pair>& pairs) {
+  for (std::size_t n = first; n < last; ++n) {
+    if (!all.has_plane(n)) continue;
+    tree.for_each_meeting(all.box(n), [&](std::uint32_t other) {
+      double gap_m = 0.0;
+      if (other <= n || all.beside(n, other) || !all.in_one_plane(n, other, gap_m) || !all.overlap(n, other)) return;
+      pairs.push_back({static_cast<std::uint32_t>(n), other, gap_m});
+    });
+  }
 }
 
 struct Box2 {
@@ -49,16 +73,18 @@ struct Box2 {
 
 FacesInOnePlane::~FacesInOnePlane() = default;
 
-FacesInOnePlane::FacesInOnePlane(const Room& room) : covered_m2_(room.surfaces.size()) {
-  const RoomFaces all(room);
+FacesInOnePlane::FacesInOnePlane(const Room& room, unsigned threads) : covered_m2_(room.surfaces.size()) {
+  const RoomFaces all(room, threads);
   in_plane_tolerance_ = all.in_plane_tolerance();
   number_.assign(all.size(), none);
   std::vector<Bounds> boxes(all.size());
-  for (std::size_t n = 0; n < all.size(); ++n) {
-    if (all.has_plane(n)) boxes[n] = all.box(n);
-  }
-  const BoxTree tree(boxes);
-  find(all, tree);
+  for_each_range(threads, all.size(), at_a_time, [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) {
+      if (all.has_plane(n)) boxes[n] = all.box(n);
+    }
+  });
+  const BoxTree tree(boxes, threads);
+  find(all, tree, threads);
   for (std::size_t k = 0; k < room.surfaces.size(); ++k) first_of_surface_.push_back(all.first_of(k));
   if (empty()) return;
   rank(all, tree);
@@ -66,7 +92,7 @@ FacesInOnePlane::FacesInOnePlane(const Room& room) : covered_m2_(room.surfaces.s
 }
 
 // The pairs of faces in one plane that overlap.
-void FacesInOnePlane::find(const RoomFaces& all, const BoxTree& tree) {
+void FacesInOnePlane::find(const RoomFaces& all, const BoxTree& tree, unsigned threads) {
   const auto face_with_others = [&](std::uint32_t triangle) -> Face& {
     if (number_[triangle] == none) {
       number_[triangle] = static_cast<std::uint32_t>(faces_.size());
@@ -84,18 +110,19 @@ void FacesInOnePlane::find(const RoomFaces& all, const BoxTree& tree) {
     }
     return faces_[number_[triangle]];
   };
-  for (std::uint32_t n = 0; n < all.size(); ++n) {
-    if (!all.has_plane(n)) continue;
-    tree.for_each_meeting(all.box(n), [&](std::uint32_t other) {
-      double gap = 0.0;
-      if (other <= n || !all.in_one_plane(n, other, gap) || !all.overlap(n, other)) return;
-      for (const auto& [one, two] : {std::pair(n, other), std::pair(other, n)}) {
+  std::vector<std::vector<Pair>> found((all.size() + at_a_time - 1) / at_a_time);
+  for_each_range(threads, all.size(), at_a_time, [&](std::size_t first, std::size_t last) {
+    find_pairs(all, tree, first, last, found[first / at_a_time]);
+  });
+  for (const std::vector<Pair>& pairs : found) {
+    for (const Pair& pair : pairs) {
+      for (const auto& [one, two] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
         Face& face = face_with_others(one);
         face.others.push_back(two);
-        face.gap_m = std::max(face.gap_m, gap);
+        face.gap_m = std::max(face.gap_m, pair.gap_m);
       }
-      largest_gap_m_ = std::max(largest_gap_m_, gap);
-    });
+      largest_gap_m_ = std::max(largest_gap_m_, pair.gap_m);
+    }
   }
 }
 

@@ -45,9 +45,9 @@ struct FacePlace {
 
 class FacesInOnePlane {
  public:
-  // Finds all pairs of triangles that lie in one plane and overlap, in O(n log n) for n triangles. The room must
-  // outlive this.
-  explicit FacesInOnePlane(const Room& room);
+  // Finds all pairs of triangles that lie in one plane and overlap, in O(n log n) for n triangles, on up to
+  // `threads` (≥ 1) threads; the result is the same for any number of them.
+  explicit FacesInOnePlane(const Room& room, unsigned threads = 1);
   FacesInOnePlane(const FacesInOnePlane&) = delete;
   FacesInOnePlane& operator=(const FacesInOnePlane&) = delete;
   ~FacesInOnePlane();
@@ -120,7 +120,7 @@ class FacesInOnePlane {
   };
 
   const Face& face_of(std::size_t triangle) const { return faces_[number_[triangle]]; }
-  void find(const RoomFaces& all, const BoxTree& tree);
+  void find(const RoomFaces& all, const BoxTree& tree, unsigned threads);
   void rank(const RoomFaces& all, const BoxTree& tree);
   void measure(const RoomFaces& all);
   const Rival* best_at(const OneSide& side, const glm::dvec3& point) const;

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "base/memory.hpp"
 #include "base/message.hpp"
+#include "base/parallel.hpp"
 #include "lichtmc/error.hpp"
 #include "room/chart.hpp"
 #include "room/clip.hpp"
@@ -79,34 +81,39 @@ double check_cells(const Room& room, const std::vector<Chart>& charts, double ed
                    " or more; if the area is wrong, give --scale the length of the file's unit in metres.");
 }
 
+// A tile of which some pieces are known.
+struct Draft {
+  Tile tile;
+  double largest_piece_m2 = 0.0;
+  bool at_centre = false;
+};
+
+// A tile map in which tile_of_cell has numbers of drafts, in order of appearance.
+struct DraftedMap {
+  TileMap map;
+  std::vector<Draft> drafts;
+};
+
 // Fills one tile map.
 class TileMapBuilder {
  public:
-  TileMapBuilder(const Surface& surface, TileMap& tile_map) : surface_(surface), tile_map_(tile_map) {}
+  TileMapBuilder(const Surface& surface, DraftedMap& drafted)
+      : surface_(surface), tile_map_(drafted.map), drafts_(drafted.drafts) {}
 
-  // Cuts a triangle into cells and adds its pieces to their tiles, which are numbered in order of appearance.
+  // Cuts a triangle into cells and adds its pieces to their tiles.
   void add(std::size_t triangle, double area_m2, const std::array<glm::dvec2, 3>& corners);
 
-  // Renumbers the tiles from `first` on, row by row, and appends them.
-  void finish(std::uint32_t tile_map_index, std::vector<Tile>& tiles);
-
  private:
-  struct Draft {
-    Tile tile;
-    double largest_piece_m2 = 0.0;
-    bool at_centre = false;
-  };
-
   Draft& draft_of(const CellPiece& piece);
   glm::dvec3 point_on(std::size_t triangle, const glm::dvec3& weights) const;
 
   const Surface& surface_;
   TileMap& tile_map_;
+  std::vector<Draft>& drafts_;
   std::vector<CellPiece> pieces_;
-  std::vector<Draft> drafts_;
 };
 
-TileMapBuilder::Draft& TileMapBuilder::draft_of(const CellPiece& piece) {
+Draft& TileMapBuilder::draft_of(const CellPiece& piece) {
   std::uint32_t& number = tile_map_.tile_of_cell[std::size_t{piece.row} * tile_map_.columns + piece.column];
   if (number == no_tile) {
     number = static_cast<std::uint32_t>(drafts_.size());
@@ -154,10 +161,11 @@ void TileMapBuilder::add(std::size_t triangle, double area_m2, const std::array<
   }
 }
 
-void TileMapBuilder::finish(std::uint32_t tile_map_index, std::vector<Tile>& tiles) {
-  for (std::uint32_t& number : tile_map_.tile_of_cell) {
+// Renumbers the tiles row by row, and appends them.
+void number_tiles(DraftedMap& drafted, std::uint32_t tile_map_index, std::vector<Tile>& tiles) {
+  for (std::uint32_t& number : drafted.map.tile_of_cell) {
     if (number == no_tile) continue;
-    const Draft& draft = drafts_[number];
+    const Draft& draft = drafted.drafts[number];
     if (!(draft.tile.area_m2 > 0.0)) {  // an area too small for a double
       number = no_tile;
       continue;
@@ -180,6 +188,44 @@ TileMap front_tile_map(const Surface& surface, std::size_t index, const Chart& c
   tile_map.uv_max = chart.uv_max;
   tile_map.tile_of_cell.assign(std::size_t{tile_map.columns} * tile_map.rows, no_tile);
   return tile_map;
+}
+
+DraftedMap draft_tiles(const Surface& surface, std::size_t index, const Chart& chart) {
+  DraftedMap drafted{front_tile_map(surface, index, chart), {}};
+  TileMapBuilder tiler(surface, drafted);
+  const std::vector<TriangleShape> shapes = triangle_shapes(surface);
+  for (std::size_t n = 0; n < shapes.size(); ++n) {
+    if (shapes[n].area_m2 > 0.0) tiler.add(n, shapes[n].area_m2, chart.corners[n]);
+  }
+  return drafted;
+}
+
+// Surfaces whose tiles are drafted at the same time: as many as have together no more cells than this, so
+// that drafts need little memory beside the tiles. At least one surface.
+std::size_t end_of_group(const std::vector<Chart>& charts, std::size_t first) {
+  constexpr double most = 0x1p20;
+  double sum = 0.0;
+  std::size_t k = first;
+  while (k < charts.size() && (k == first || sum <= most)) {
+    sum += charts[k].cells.x * charts[k].cells.y;
+    ++k;
+  }
+  return k;
+}
+
+// The charts of all surfaces. Those of many triangles are made first, so that no thread is left alone with one.
+std::vector<Chart> make_charts(const Room& room, double edge_m, unsigned threads) {
+  std::vector<std::size_t> order(room.surfaces.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&room](std::size_t a, std::size_t b) {
+    return room.surfaces[a].triangles.size() > room.surfaces[b].triangles.size();
+  });
+  std::vector<Chart> charts(order.size());
+  for_each_on_threads(threads, order.size(), [&](std::size_t k) {
+    const Surface& surface = room.surfaces[order[k]];
+    charts[order[k]] = make_chart(surface, triangle_shapes(surface), surface.measured ? edge_m : one_tile);
+  });
+  return charts;
 }
 
 // The back has the front's grid and geometry; its tiles follow the front's in the same order.
@@ -206,34 +252,34 @@ double memory_needed(const Tiling& tiling) {
   return bytes_per_cell * cells;
 }
 
-Tiling make_tiling(const Room& room, double edge_m) {
+Tiling make_tiling(const Room& room, double edge_m, unsigned threads) {
   if (!(edge_m > 0.0) || !std::isfinite(edge_m)) {
     throw InputError("The tile edge is " + to_text(edge_m) +
                      " m (allowed: a finite number above 0). Give --tile a length in metres.");
   }
-  std::vector<std::vector<TriangleShape>> shapes;
-  std::vector<Chart> charts;
-  for (const Surface& surface : room.surfaces) {
-    shapes.push_back(triangle_shapes(surface));
-    charts.push_back(make_chart(surface, shapes.back(), surface.measured ? edge_m : one_tile));
-  }
+  if (threads == 0) threads = usable_processors();
+  std::vector<Chart> charts = make_charts(room, edge_m, threads);
   const double cells = check_cells(room, charts, edge_m);
 
   Tiling tiling;
   // A cell is a tile at most. The pages that empty cells would fill are never touched.
   tiling.tiles.reserve(static_cast<std::size_t>(cells));
-  for (std::size_t k = 0; k < charts.size(); ++k) {
-    const Surface& surface = room.surfaces[k];
-    const std::size_t first_tile = tiling.tiles.size();
-    TileMap tile_map = front_tile_map(surface, k, charts[k]);
-    TileMapBuilder tiler(surface, tile_map);
-    for (std::size_t n = 0; n < shapes[k].size(); ++n) {
-      if (shapes[k][n].area_m2 > 0.0) tiler.add(n, shapes[k][n].area_m2, charts[k].corners[n]);
+  for (std::size_t first = 0; first < charts.size();) {
+    const std::size_t last = end_of_group(charts, first);
+    std::vector<DraftedMap> drafted(last - first);
+    for_each_on_threads(threads, drafted.size(), [&](std::size_t k) {
+      drafted[k] = draft_tiles(room.surfaces[first + k], first + k, charts[first + k]);
+    });
+    for (std::size_t k = first; k < last; ++k) {
+      const std::size_t first_tile = tiling.tiles.size();
+      DraftedMap& drafts = drafted[k - first];
+      number_tiles(drafts, static_cast<std::uint32_t>(tiling.maps.size()), tiling.tiles);
+      tiling.maps.push_back(std::move(drafts.map));
+      drafts.drafts = {};
+      if (room.surfaces[k].sides == Sides::both) add_back(tiling, first_tile);
+      tiling.cells.push_back(std::move(charts[k].corners));
     }
-    tiler.finish(static_cast<std::uint32_t>(tiling.maps.size()), tiling.tiles);
-    tiling.maps.push_back(std::move(tile_map));
-    if (surface.sides == Sides::both) add_back(tiling, first_tile);
-    tiling.cells.push_back(std::move(charts[k].corners));
+    first = last;
   }
   return tiling;
 }

@@ -119,16 +119,17 @@ std::vector<WeldedEdge> sorted_edges(const std::vector<WeldedMesh::Triangle>& tr
 
 }  // namespace
 
-WeldedMesh::WeldedMesh(const Room& room) {
+WeldedMesh::WeldedMesh(const Room& room) : room_(&room) {
+  std::size_t count = 0;
   for (const Surface& surface : room.surfaces) {
-    for (const glm::uvec3& t : surface.triangles)
-      corners_.push_back({surface.positions[t.x], surface.positions[t.y], surface.positions[t.z]});
+    first_.push_back(count);
+    count += surface.triangles.size();
   }
-  triangles_.resize(corners_.size(), {0, 0, 0});
+  triangles_.resize(count, {0, 0, 0});
   const Bounds bounds = bounds_of(room);
   const glm::dvec3 size = bounds.high - bounds.low;
   const double distance = 1e-6 * std::max({size.x, size.y, size.z});
-  if (corners_.empty() || !(distance > 0.0)) return;
+  if (triangles_.empty() || !(distance > 0.0)) return;
 
   std::size_t positions = 0;
   for (const Surface& surface : room.surfaces) positions += surface.positions.size();
@@ -140,8 +141,9 @@ WeldedMesh::WeldedMesh(const Room& room) {
     numbers.assign(surface.positions.size(), none);
     for (const glm::uvec3& t : surface.triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
-        std::uint32_t& number = numbers[t[static_cast<glm::length_t>(k)]];
-        if (number == none) number = welder.number(corners_[n][k]);
+        const std::uint32_t corner = t[static_cast<glm::length_t>(k)];
+        std::uint32_t& number = numbers[corner];
+        if (number == none) number = welder.number(surface.positions[corner]);
         triangles_[n][k] = number;
       }
       ++n;
@@ -149,6 +151,14 @@ WeldedMesh::WeldedMesh(const Room& room) {
   }
   copies_ = drop_copies(triangles_, places_.size());
   edges_ = sorted_edges(triangles_, places_.size());
+}
+
+WeldedMesh::Corners WeldedMesh::corners(std::size_t triangle) const {
+  const auto after = std::upper_bound(first_.begin(), first_.end(), triangle);
+  const auto k = static_cast<std::size_t>(after - first_.begin()) - 1;
+  const Surface& surface = room_->surfaces[k];
+  const glm::uvec3 t = surface.triangles[triangle - first_[k]];
+  return {surface.positions[t.x], surface.positions[t.y], surface.positions[t.z]};
 }
 
 }  // namespace lichtmc

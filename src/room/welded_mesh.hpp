@@ -29,7 +29,10 @@ class WeldedMesh {
   using Triangle = std::array<std::uint32_t, 3>;  // numbers of its corners' positions
   using Corners = std::array<glm::dvec3, 3>;      // m
 
+  // The room must outlive the mesh.
   explicit WeldedMesh(const Room& room);
+
+  const Room& room() const { return *room_; }
 
   // The room's triangles, surface by surface. Copies of another, and those without three corners, have equal numbers.
   const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -39,10 +42,11 @@ class WeldedMesh {
   const std::vector<std::size_t>& copies() const { return copies_; }
   const std::vector<glm::dvec3>& places() const { return places_; }
   // A triangle's own corners, not the merged positions.
-  const Corners& corners(std::size_t triangle) const { return corners_[triangle]; }
+  Corners corners(std::size_t triangle) const;
 
  private:
-  std::vector<Corners> corners_;
+  const Room* room_;
+  std::vector<std::size_t> first_;  // triangle of each surface
   std::vector<Triangle> triangles_;
   std::vector<WeldedEdge> edges_;
   std::vector<std::size_t> copies_;

@@ -31,14 +31,16 @@ double largest_of(const glm::dvec3& size) {
 // The closed shells of a room, or the cuboid that it is.
 class Walls {
  public:
-  explicit Walls(const Room& room) : enclosure_(room) {
-    if (!enclosure_.has_closed_shell()) cuboid_ = recognise_cuboid(room);
+  // enclosure: of the room, or null.
+  Walls(const Room& room, const Enclosure* enclosure) : enclosure_(enclosure) {
+    if (enclosure_ == nullptr) enclosure_ = &own_.emplace(room);
+    if (!enclosure_->has_closed_shell()) cuboid_ = recognise_cuboid(room);
   }
 
-  bool exist() const { return enclosure_.has_closed_shell() || cuboid_; }
+  bool exist() const { return enclosure_->has_closed_shell() || cuboid_; }
 
   std::vector<Shells> around_each(const std::vector<glm::dvec3>& points) const {
-    if (!cuboid_) return enclosure_.shells_around_each(points);
+    if (!cuboid_) return enclosure_->shells_around_each(points);
     std::vector<Shells> around(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
       const bool inside = std::all_of(cuboid_->edges.begin(), cuboid_->edges.end(), [&](const glm::dvec3& edge) {
@@ -55,7 +57,7 @@ class Walls {
     if (cuboid_) return true;
     const glm::dvec3 size = bounds.high - bounds.low;
     constexpr double slack = 1e-6;  // of the room's size, as WeldedMesh
-    if (!enclosure_.has_shell_over(bounds, slack * largest_of(size))) return false;
+    if (!enclosure_->has_shell_over(bounds, slack * largest_of(size))) return false;
     constexpr int n = 8;
     std::vector<glm::dvec3> lattice;
     for (int i = 0; i < n * n * n; ++i)
@@ -66,7 +68,8 @@ class Walls {
   }
 
  private:
-  Enclosure enclosure_;
+  std::optional<Enclosure> own_;
+  const Enclosure* enclosure_;
   std::optional<CuboidShape> cuboid_;
 };
 
@@ -140,10 +143,11 @@ bool sees_far(const Room& room, const glm::dvec3& point) {
 
 }  // namespace
 
-std::vector<Separation> separation_of_receivers(const Room& room) {
+std::vector<Separation> separation_of_receivers(const Room& room, const Enclosure* enclosure) {
   std::vector<Separation> found(room.receivers.size(), Separation::none);
-  const Walls walls(room);
-  if (room.receivers.empty() || !walls.exist()) return found;
+  if (room.receivers.empty()) return found;
+  const Walls walls(room, enclosure);
+  if (!walls.exist()) return found;
   const Bounds bounds = bounds_of(room);
   const double extent = largest_of(bounds.high - bounds.low);
   // An emitter on a surface may emit to both sides.
@@ -169,11 +173,12 @@ std::vector<Separation> separation_of_receivers(const Room& room) {
   return found;
 }
 
-std::vector<bool> emitters_beyond_walls(const Room& room) {
+std::vector<bool> emitters_beyond_walls(const Room& room, const Enclosure* enclosure) {
   std::vector<bool> beyond(room.emitters.size(), false);
   const LightStarts starts = light_starts(room);
-  const Walls walls(room);
-  if (starts.points.empty() || !walls.exist()) return beyond;
+  if (starts.points.empty()) return beyond;
+  const Walls walls(room, enclosure);
+  if (!walls.exist()) return beyond;
   const std::vector<Shells> around = walls.around_each(starts.points);
   // Emitters of which no start lies in a shell, and a start of each.
   std::vector<std::optional<std::size_t>> candidate(room.emitters.size());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lichtmc/room.hpp"
+#include "room/enclosure.hpp"
 
 namespace lichtmc {
 
@@ -17,14 +18,14 @@ enum class Separation {
   inside,   // the same, and it is in a closed shell: within a wall, or in a closed body
 };
 
-// Of each receiver of the room.
-std::vector<Separation> separation_of_receivers(const Room& room);
+// Of each receiver of the room. enclosure: of the room, if it is known.
+std::vector<Separation> separation_of_receivers(const Room& room, const Enclosure* enclosure = nullptr);
 
 // Whether each emitter lies outside a closed room, or shines out of it. A room is closed if a closed shell extends over
 // all of it and closed shells contain more than a half of its bounding box (a building of solid walls with openings is
 // one shell, too, but its rooms are outside of that). An emitter is outside if no closed shell contains the start of
 // its light and in a quarter of all directions nothing is hit from there: in a cave it is not. Rooms so large that this
 // test would take more than about a second have no emitters outside in this sense.
-std::vector<bool> emitters_beyond_walls(const Room& room);
+std::vector<bool> emitters_beyond_walls(const Room& room, const Enclosure* enclosure = nullptr);
 
 }  // namespace lichtmc

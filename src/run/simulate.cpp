@@ -4,13 +4,11 @@
 #include <memory>
 #include <new>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
-#include <sched.h>
-
 #include "base/message.hpp"
+#include "base/parallel.hpp"
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/version.hpp"
@@ -26,20 +24,13 @@
 #include "run/tiles_forward.hpp"
 #include "run/unreached_tiles.hpp"
 #include "run/warnings.hpp"
+#include "tracer/prepared_room.hpp"
 #include "walk/non_absorbing_enclosure.hpp"
 #include "walk/scene.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-// The processors that this process may use: batch systems and mpirun bind processes to some of them.
-unsigned usable_processors() {
-  cpu_set_t usable;
-  if (::sched_getaffinity(0, sizeof usable, &usable) == 0)
-    return static_cast<unsigned>(std::max(1, CPU_COUNT(&usable)));
-  return std::max(1U, std::thread::hardware_concurrency());
-}
 
 unsigned threads_for(const Settings& settings) {
   const unsigned processors = usable_processors();
@@ -64,7 +55,7 @@ std::vector<Ignored> ignored_by_run(const Room& room, Measured measured) {
 }
 
 // Sets the results that depend on the whole run.
-void complete(Result& result, const Room& room) {
+void complete(Result& result, const Room& room, const Enclosure* enclosure) {
   result.room = room.source;
   result.quantity = room.quantity;
   result.receivers = room.receivers;
@@ -74,7 +65,7 @@ void complete(Result& result, const Room& room) {
     if (!report->choice.empty()) result.choices.push_back(report->choice);
   }
   result.balance.emitted = total_power(room);
-  result.warnings = warnings_of(room, result);
+  result.warnings = warnings_of(room, result, enclosure);
 }
 
 [[noreturn]] void refuse_non_absorbing_enclosure(const Room& room, const NonAbsorbingEnclosure& enclosure) {
@@ -154,8 +145,16 @@ class Run {
     result_.settings = settings;
     result_.threads = threads_for(settings);
     result_.processes = size_of(control.communicator);
-    result_.tiling = make_tiling(room, settings.tile_edge_m);
-    scene_ = std::make_unique<Scene>(room, result_.tiling, settings.engine);
+    const auto report = [&control](std::string_view step) {
+      if (!control.progress) return;
+      Progress progress;
+      progress.stage = Progress::Stage::preparation;
+      progress.step = step;
+      control.progress(progress);
+    };
+    const auto prepared = prepared_or_new(control.prepared, room, settings.threads, report);
+    result_.tiling = prepared->take_tiling(settings.tile_edge_m);
+    scene_ = std::make_unique<Scene>(room, result_.tiling, settings.engine, prepared);
     note_engine(record.data(), scene_->engine);
     result_.engine = scene_->engine;
   }
@@ -165,7 +164,8 @@ class Run {
     if (planned_.tiles) measure_tiles();
     if (planned_.receivers) measure_receivers_after_tiles();
     add_covers();
-    complete(result_, room_);
+    PreparedRoom* prepared = scene_->tracer->prepared();
+    complete(result_, room_, prepared != nullptr ? &prepared->enclosure() : nullptr);
     warn_of_missing();
     result_.checkpoint_seconds = record_.spent();
     result_.state = record_.close();

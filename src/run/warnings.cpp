@@ -42,8 +42,8 @@ bool reflects_all(const Room& room) {
                      [&highest](const Surface& surface) { return highest.of(surface) == 1.0; });
 }
 
-// Receivers whose standard error is far above that of most: rare large scores, from surfaces close to a receiver or to an
-// emitter. Their errors are known only when such scores have come.
+// Receivers whose standard error is far above that of most: rare large scores, from surfaces close to a receiver or to
+// an emitter. Their errors are known only when such scores have come.
 std::optional<Advised> uncertain_errors(const Result& result) {
   constexpr double far_above = 5.0;
   constexpr double noticeable = 0.01;
@@ -62,8 +62,8 @@ std::optional<Advised> uncertain_errors(const Result& result) {
       std::count_if(relative.begin(), relative.end(), [limit](double error) { return error > limit; }));
   if (count == 0) return std::nullopt;
   const std::string name = in_quotes(result.receivers[static_cast<std::size_t>(worst - relative.begin())].name);
-  return Advised{to_text(count, "receiver") + " (of the largest error: " + name + ", " + percent(*worst) +
-                     ") " + (count == 1 ? "has" : "have") +
+  return Advised{to_text(count, "receiver") + " (of the largest error: " + name + ", " + percent(*worst) + ") " +
+                     (count == 1 ? "has" : "have") +
                      " more than five times the standard error of most: rare large contributions from surfaces within "
                      "centimetres of the receiver, or of an emitter.",
                  "Such errors become reliable only in longer runs; with --receiver-walk two-way they are smallest."};
@@ -71,7 +71,7 @@ std::optional<Advised> uncertain_errors(const Result& result) {
 
 }  // namespace
 
-std::vector<Advised> emitters_outside(const Room& room) {
+std::vector<Advised> emitters_outside(const Room& room, const Enclosure* enclosure) {
   std::vector<Advised> outside;
   const Bounds bounds = bounds_of(room);
   // Files contain floats: an emitter at the ceiling may be above it by rounding. Coordinates count with at most the
@@ -80,7 +80,7 @@ std::vector<Advised> emitters_outside(const Room& room) {
   const glm::dvec3 size = bounds.high - bounds.low;
   const double slack =
       4.0 * 0x1p-24 * std::min(std::max({farthest.x, farthest.y, farthest.z}), std::max({size.x, size.y, size.z}));
-  const std::vector<bool> beyond_walls = emitters_beyond_walls(room);
+  const std::vector<bool> beyond_walls = emitters_beyond_walls(room, enclosure);
   for (std::size_t k = 0; k < room.emitters.size(); ++k) {
     const Emitter& emitter = room.emitters[k];
     const glm::dvec3 p = place_of(room, emitter);
@@ -109,9 +109,9 @@ std::vector<Advised> emitters_outside(const Room& room) {
            "Check their positions; Y is up."}};
 }
 
-std::vector<Advised> receivers_outside(const Room& room) {
+std::vector<Advised> receivers_outside(const Room& room, const Enclosure* enclosure) {
   std::vector<Advised> misplaced;
-  const std::vector<Separation> separation = separation_of_receivers(room);
+  const std::vector<Separation> separation = separation_of_receivers(room, enclosure);
   const auto name = [&](Separation kind, const std::string& where) {
     const auto first = std::find(separation.begin(), separation.end(), kind);
     if (first == separation.end()) return;
@@ -152,12 +152,14 @@ std::optional<Advised> high_reflectances(const Room& room) {
       "tenfold."};
 }
 
-std::vector<std::string> warnings_of(const Room& room, const Result& result) {
+std::vector<std::string> warnings_of(const Room& room, const Result& result, const Enclosure* enclosure) {
   std::vector<std::string> warnings;
   const Balance& balance = result.balance;
-  for (const Advised& outside : emitters_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
+  for (const Advised& outside : emitters_outside(room, enclosure))
+    warnings.push_back(outside.what + " " + outside.advice);
   if (!result.receiver_results.empty()) {
-    for (const Advised& outside : receivers_outside(room)) warnings.push_back(outside.what + " " + outside.advice);
+    for (const Advised& outside : receivers_outside(room, enclosure))
+      warnings.push_back(outside.what + " " + outside.advice);
   }
   if (result.settings.measured != Measured::receivers && result.walk.impacts == 0) {
     warnings.push_back(

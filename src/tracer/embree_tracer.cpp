@@ -15,8 +15,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -24,53 +22,27 @@
 
 #include "base/frame.hpp"
 #include "base/lanes.hpp"
-#include "lichtmc/error.hpp"
-#include "room/convexity.hpp"
 #include "tracer/convex_room.hpp"
 #include "tracer/departure.hpp"
 #include "tracer/embree.hpp"
+#include "tracer/embree_tree.hpp"
+#include "tracer/prepared_room.hpp"
 #include "tracer/room_triangles.hpp"
 #include "tracer/tracer.hpp"
-#include "tracer/triangle_start.hpp"
 
 namespace lichtmc {
 
 namespace {
 
-using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, decltype(&rtcReleaseDevice)>;
-using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, decltype(&rtcReleaseScene)>;
-
-void throw_embree_error(RTCDevice device, const std::string& what) {
-  const RTCError code = rtcGetDeviceError(device);
-  if (code == RTC_ERROR_NONE) return;
-  const std::string reason = code == RTC_ERROR_OUT_OF_MEMORY     ? "out of memory"
-                             : code == RTC_ERROR_UNSUPPORTED_CPU ? "this processor is not supported"
-                                                                 : "error " + std::to_string(static_cast<int>(code));
-  throw RuntimeError("Embree failed while " + what + " (" + reason +
-                     "). Use a machine with more memory, or a smaller room.");
-}
-
 class EmbreeTracer final : public Tracer {
  public:
-  EmbreeTracer(const Room& room, const Tiling& tiling, Edges edges, std::shared_ptr<const FacesInOnePlane> planes)
-      : room_(&room), placement_(placement_of(room)) {
-    if (!device_) throw_embree_error(nullptr, "starting");
-    scene_ = {rtcNewScene(device_.get()), &rtcReleaseScene};
-    if (edges == Edges::robust) rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-    // Medium quality: the same tree for any number of threads.
-    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
+  EmbreeTracer(const Room& room, const Tiling& tiling, Edges edges, std::shared_ptr<PreparedRoom> prepared)
+      : room_(&room), tree_(prepared->tree(edges)), departures_(tree_->departures()), placement_(tree_->placement()) {
     set_place(placement_.centre, glm::dmat3(1.0 / placement_.scale));
-    load(make_triangles(room, tiling, placement_));
-    if (planes == nullptr) planes = std::make_shared<const FacesInOnePlane>(room);
-    if (!planes->empty()) {
-      planes_ = std::move(planes);
-      step_off_all_planes();
-    }
-    groups_ = FacetGroups(departures_);
-    throw_embree_error(device_.get(), "reading the room");
-    rtcCommitScene(scene_.get());
-    throw_embree_error(device_.get(), "building the tree of the room's triangles");
-    casts_shadows_ = !is_convex(WeldedMesh(room)) || !ConvexRoom(room, *this).holds_all_emitters();
+    facets_ = make_facets(room, tiling, placement_, prepared->threads());
+    if (!prepared->planes()->empty()) planes_ = prepared->planes();
+    prepared_ = std::move(prepared);
+    casts_shadows_ = !prepared_->mesh().convex || !ConvexRoom(room, *this).holds_all_emitters();
   }
 
   void trace(Rays& rays, Misses misses, TraceCount& count) const override {
@@ -81,7 +53,7 @@ class EmbreeTracer final : public Tracer {
     for (std::size_t first = 0; first < rays.size; first += packet_size) {
       for (std::size_t k = 0; k < packet_size; ++k) valid[k] = first + k < rays.size ? -1 : 0;
       fill(packet, rays, first);
-      query.intersect8(valid.data(), scene_.get(), packet);
+      query.intersect8(valid.data(), tree_->scene(), packet);
       if (!land(packet, rays, first) || misses != Misses::retrace) continue;
       for (std::size_t i = first; i < std::min(first + packet_size, rays.size); ++i) {
         if (rays.facet[i] != no_facet) continue;
@@ -101,7 +73,7 @@ class EmbreeTracer final : public Tracer {
   }
 
   Start start(const glm::dvec3& world_point_m, const glm::dvec3& axis) const override {
-    return start_at(world_point_m, axis, *room_, placement_, departures_, groups_);
+    return start_at(world_point_m, axis, *room_, placement_, departures_, tree_->groups());
   }
 
   bool is_blocked(const glm::vec3& start, const glm::vec3& segment, TraceCount& count) const override {
@@ -119,7 +91,7 @@ class EmbreeTracer final : public Tracer {
     for (std::size_t first = 0; first < rays.size; first += shadow_packet_size) {
       for (std::size_t k = 0; k < shadow_packet_size; ++k) valid[k] = first + k < rays.size ? -1 : 0;
       fill(packet, rays, first);
-      query.occluded16(valid.data(), scene_.get(), packet);
+      query.occluded16(valid.data(), tree_->scene(), packet);
       // Embree reports occlusion by tfar = −∞.
       for (std::size_t k = 0; k < shadow_packet_size; ++k) rays.blocked[first + k] = packet.tfar[k] < 0.0F ? 1 : 0;
     }
@@ -144,7 +116,8 @@ class EmbreeTracer final : public Tracer {
   }
 
   TriangleOnFacet locate(std::size_t surface, std::size_t triangle) const override {
-    return {static_cast<std::uint32_t>(first_facet_[surface] + triangle), {0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}};
+    return {
+        static_cast<std::uint32_t>(tree_->first_facet()[surface] + triangle), {0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}};
   }
 
  private:
@@ -159,23 +132,8 @@ class EmbreeTracer final : public Tracer {
     ray.tnear = 0.0F;
     ray.tfar = 1.0F;
     ray.mask = 0xFFFFFFFF;
-    query.occluded(scene_.get(), ray);
+    query.occluded(tree_->scene(), ray);
     return ray.tfar < 0.0F;  // Embree reports occlusion by tfar = −∞
-  }
-
-  void load(RoomTriangles triangles);
-
-  // A photon that leaves a face starts off all others in its plane: each has a step of its own, and a distance from it
-  // by rounding.
-  void step_off_all_planes() {
-    std::vector<double> steps(departures_.size(), 0.0);
-    for (std::size_t n = 0; n < departures_.size(); ++n) {
-      if (!planes_->has_others(n)) continue;
-      double step = double{departures_[n].step};
-      for (const std::uint32_t other : planes_->others(n)) step = std::max(step, double{departures_[other].step});
-      steps[n] = step + placement_.scale * planes_->gap_m(n);
-    }
-    for (std::size_t n = 0; n < departures_.size(); ++n) raise_step(departures_[n], steps[n]);
   }
 
   void move_to_counting_faces(Rays& rays, TraceCount& count) const {
@@ -204,7 +162,7 @@ class EmbreeTracer final : public Tracer {
     hit.ray.tfar = std::numeric_limits<float>::infinity();
     hit.ray.mask = 0xFFFFFFFF;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.intersect(scene_.get(), hit);
+    query.intersect(tree_->scene(), hit);
     return hit;
   }
 
@@ -286,32 +244,11 @@ class EmbreeTracer final : public Tracer {
   }
 
   const Room* room_;
-  Device device_{rtcNewDevice(nullptr), &rtcReleaseDevice};
-  Scene scene_{nullptr, &rtcReleaseScene};
+  std::shared_ptr<const EmbreeTree> tree_;
+  const std::vector<Departure>& departures_;  // of the tree
   Placement placement_;
   bool casts_shadows_ = true;
-  std::vector<std::size_t> first_facet_;  // of each surface
-  std::vector<Departure> departures_;
-  FacetGroups groups_;  // of the departures
 };
-
-// Embree has its own copy of vertices and corners, so they are not kept.
-void EmbreeTracer::load(RoomTriangles triangles) {
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  const auto fill = [geometry](RTCBufferType type, RTCFormat format, const auto& elements) {
-    using Element = std::decay_t<decltype(elements[0])>;
-    void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Element), elements.size());
-    if (buffer != nullptr) std::copy(elements.begin(), elements.end(), static_cast<Element*>(buffer));
-  };
-  fill(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, triangles.vertices);
-  fill(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles.corners);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_.get(), geometry);
-  rtcReleaseGeometry(geometry);
-  facets_ = std::move(triangles.facets);
-  departures_ = std::move(triangles.departures);
-  first_facet_ = std::move(triangles.first_facet);
-}
 
 // Packets of 16 neighbours; those of which none is to be tested are left out.
 void EmbreeTracer::darken_blocked(const glm::vec3& start, const EndPoints& ends, std::size_t first_end,
@@ -342,7 +279,7 @@ void EmbreeTracer::darken_blocked(const glm::vec3& start, const EndPoints& ends,
       packet.dir_z[k] = ends.z[first + k] - start.z;
       packet.tfar[k] = 1.0F;
     }
-    query.occluded_bundle(valid.data(), scene_.get(), packet);
+    query.occluded_bundle(valid.data(), tree_->scene(), packet);
     for (std::size_t k = 0; k < size; ++k) of_packet[k] = packet.tfar[k] < 0.0F ? 0.0F : of_packet[k];
   }
   count.rays += tested;
@@ -353,8 +290,9 @@ void EmbreeTracer::darken_blocked(const glm::vec3& start, const EndPoints& ends,
 }  // namespace
 
 std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling, Edges edges,
-                                           std::shared_ptr<const FacesInOnePlane> planes) {
-  return std::make_unique<EmbreeTracer>(room, tiling, edges, std::move(planes));
+                                           std::shared_ptr<PreparedRoom> prepared) {
+  if (prepared == nullptr) prepared = prepare(room);
+  return std::make_unique<EmbreeTracer>(room, tiling, edges, std::move(prepared));
 }
 
 }  // namespace lichtmc

@@ -29,12 +29,14 @@ Placement placement_of(const Room& room);
 struct RoomTriangles {
   std::vector<glm::vec3> vertices;       // in the tracer's coordinates
   std::vector<glm::uvec3> corners;       // of each triangle, in `vertices`
-  std::vector<Facet> facets;             // of each triangle; s and t run to its second and third corner
   std::vector<Departure> departures;     // of each triangle
   std::vector<std::size_t> first_facet;  // of each surface
 };
 
-// A triangle without area has a facet that cannot be hit.
-RoomTriangles make_triangles(const Room& room, const Tiling& tiling, const Placement& placement);
+// A triangle without area cannot be hit. On up to `threads` (≥ 1) threads.
+RoomTriangles make_triangles(const Room& room, const Placement& placement, unsigned threads);
+
+// The facet of each triangle, in the same order; s and t run to its second and third corner.
+std::vector<Facet> make_facets(const Room& room, const Tiling& tiling, const Placement& placement, unsigned threads);
 
 }  // namespace lichtmc

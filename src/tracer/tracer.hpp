@@ -67,6 +67,8 @@ struct TriangleOnFacet {
   glm::vec2 st_2{0.0F};
 };
 
+class PreparedRoom;
+
 class Tracer {
  public:
   virtual ~Tracer() = default;
@@ -99,8 +101,8 @@ class Tracer {
   virtual bool is_blocked(const glm::vec3& start, const glm::vec3& segment, TraceCount& count) const = 0;
 
   // A bundle of segments with one start to ends first … last − 1: sets value[k] to 0 where a surface lies between the
-  // start and end k. Ends with a value of 0 are not tested. Both ends of a segment must be free of surfaces. `first` is a
-  // multiple of most_lanes; `value` belongs to all ends and has whole_lanes() elements.
+  // start and end k. Ends with a value of 0 are not tested. Both ends of a segment must be free of surfaces. `first` is
+  // a multiple of most_lanes; `value` belongs to all ends and has whole_lanes() elements.
   virtual void darken_blocked(const glm::vec3& start, const EndPoints& ends, std::size_t first, std::size_t last,
                               float* value, TraceCount& count) const;
 
@@ -126,6 +128,8 @@ class Tracer {
 
   // The faces that have others in their place; null if there are none. Their triangles have the numbers of the facets.
   const FacesInOnePlane* faces_in_one_plane() const { return planes_.get(); }
+  // What is known of the room's surfaces, shared with other tracers; null if this tracer needs none of it.
+  PreparedRoom* prepared() const { return prepared_.get(); }
 
   // World direction → the tracer's coordinates.
   const glm::dmat3& directions() const { return directions_; }
@@ -144,6 +148,7 @@ class Tracer {
   std::vector<Facet> facets_;
   glm::dmat3 directions_{1.0};
   std::shared_ptr<const FacesInOnePlane> planes_;
+  std::shared_ptr<PreparedRoom> prepared_;  // null if the tracer needs none
 
  private:
   glm::dvec3 origin_{0.0};  // m
@@ -161,9 +166,9 @@ enum class Edges {
   fast,    // a ray may pass, once in many millions of flights
 };
 
-// Embree, for any room, which must outlive it. planes: of the room's surfaces, if they have been found before; else
-// they are found here. Throws RuntimeError if Embree fails.
+// Embree, for any room, which must outlive it. prepared: of a room with the same surfaces; null: this
+// room is prepared here. Throws RuntimeError if Embree fails.
 std::unique_ptr<Tracer> make_embree_tracer(const Room& room, const Tiling& tiling, Edges edges = Edges::robust,
-                                           std::shared_ptr<const FacesInOnePlane> planes = nullptr);
+                                           std::shared_ptr<PreparedRoom> prepared = nullptr);
 
 }  // namespace lichtmc

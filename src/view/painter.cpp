@@ -12,9 +12,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/parallel.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/picture.hpp"
 #include "run/stop_watch.hpp"
+#include "tracer/prepared_room.hpp"
 #include "view/camera.hpp"
 #include "view/colours.hpp"
 #include "view/eye.hpp"
@@ -44,11 +46,11 @@ bool is_edge(const VisibleHit& a, const VisibleHit& b, const std::vector<Facet>&
 }  // namespace
 
 struct RoomPainter::Impl {
-  Impl(const Room& the_room, const Result& the_result, unsigned the_threads)
+  Impl(const Room& the_room, const Result& the_result, unsigned the_threads, std::shared_ptr<PreparedRoom> prepared)
       : room(&the_room),
         result(&the_result),
-        threads(the_threads > 0 ? the_threads : std::max(1U, std::thread::hardware_concurrency())),
-        scene(the_room, the_result.tiling, Engine::embree),
+        threads(the_threads > 0 ? the_threads : usable_processors()),
+        scene(the_room, the_result.tiling, Engine::embree, prepared_or_new(std::move(prepared), the_room, the_threads)),
         lit(find_lit_sides(the_room, scene)),
         viewpoints(the_room, the_result, scene, lit) {}
 
@@ -195,11 +197,12 @@ void check_size(std::size_t pixels) {
 
 }  // namespace
 
-RoomPainter::RoomPainter(const Room& room, const Result& result, unsigned threads) {
+RoomPainter::RoomPainter(const Room& room, const Result& result, unsigned threads,
+                         std::shared_ptr<PreparedRoom> prepared) {
   if (result.tiles.empty())
     throw InputError("Cannot draw " + result.room +
                      ": its result has no tiles (allowed: results with tiles). Omit --only receivers.");
-  impl_ = std::make_unique<Impl>(room, result, threads);
+  impl_ = std::make_unique<Impl>(room, result, threads, std::move(prepared));
 }
 
 RoomPainter::~RoomPainter() = default;

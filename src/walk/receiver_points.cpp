@@ -13,6 +13,7 @@
 #include "room/enclosure.hpp"
 #include "room/triangle_shapes.hpp"
 #include "tracer/convex_room.hpp"
+#include "tracer/prepared_room.hpp"
 #include "tracer/touch.hpp"
 #include "walk/visibility.hpp"
 
@@ -145,7 +146,7 @@ class ReceiverPlacer {
 
   bool is_in_room(const glm::dvec3& point) {
     if (convex_) return !convex_->way_out(glm::vec3(tracer_.tracer_point(point)));
-    if (!enclosure_) find_lit_shells();
+    if (enclosure_ == nullptr) find_lit_shells();
     const Shells shells = enclosure_->shells_around(point);
     return std::find(lit_.begin(), lit_.end(), shells) != lit_.end();
   }
@@ -163,7 +164,7 @@ class ReceiverPlacer {
 
   // Where light starts, and the sets of closed shells around it.
   void find_lit_shells() {
-    enclosure_.emplace(room_);
+    enclosure_ = tracer_.prepared() != nullptr ? &tracer_.prepared()->enclosure() : &own_enclosure_.emplace(room_);
     const auto add = [this](const glm::dvec3& point, const std::optional<glm::dvec3>& normal) {
       origins_.push_back({point, normal});
       lit_.push_back(enclosure_->shells_around(point));
@@ -187,7 +188,8 @@ class ReceiverPlacer {
   const Tracer& tracer_;
   double extent_m_ = 0.0;
   std::optional<ConvexRoom> convex_;  // only if nothing casts a shadow
-  std::optional<Enclosure> enclosure_;
+  const Enclosure* enclosure_ = nullptr;
+  std::optional<Enclosure> own_enclosure_;  // of a tracer that needs none itself
   std::vector<LightOrigin> origins_;
   std::vector<Shells> lit_;  // of each
 };

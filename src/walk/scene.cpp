@@ -10,9 +10,9 @@
 #include "base/lanes.hpp"
 #include "lichtmc/error.hpp"
 #include "room/emitter_shape.hpp"
-#include "room/enclosure.hpp"
 #include "room/nearest_tile.hpp"
 #include "room/triangle_shapes.hpp"
+#include "tracer/prepared_room.hpp"
 
 namespace lichtmc {
 
@@ -46,7 +46,7 @@ std::uint32_t tiles_between(const TileMap& front, const TileMap& back) {
 }
 
 std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engine requested, Engine& chosen,
-                                    std::shared_ptr<const FacesInOnePlane> planes) {
+                                    std::shared_ptr<PreparedRoom> prepared) {
   std::string why_not;
   if (requested == Engine::automatic || requested == Engine::cuboid) {
     chosen = Engine::cuboid;
@@ -58,18 +58,18 @@ std::unique_ptr<Tracer> make_tracer(const Room& room, const Tiling& tiling, Engi
   }
   chosen = requested == Engine::embree_fast ? requested : Engine::embree;
   return make_embree_tracer(room, tiling, requested == Engine::embree_fast ? Edges::fast : Edges::robust,
-                            std::move(planes));
+                            std::move(prepared));
 }
 
 }  // namespace
 
-Scene::Scene(const Room& room, const Tiling& tiling, Engine requested, std::shared_ptr<const FacesInOnePlane> planes)
-    : tracer(make_tracer(room, tiling, requested, engine, std::move(planes))) {
+Scene::Scene(const Room& room, const Tiling& tiling, Engine requested, std::shared_ptr<PreparedRoom> prepared)
+    : tracer(make_tracer(room, tiling, requested, engine, std::move(prepared))) {
   set_reflectances(room);
   set_tiles(tiling);
   launcher = std::make_unique<Launcher>(room, *tracer);
   if (engine == Engine::embree && launcher->all_off_surfaces()) {
-    const Enclosure enclosure(room);
+    const Enclosure& enclosure = tracer->prepared()->enclosure();
     if (enclosure.has_closed_shell() && all_inside(room, enclosure)) misses = Misses::retrace;
   }
 }

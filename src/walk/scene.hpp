@@ -45,8 +45,9 @@ struct ReflectanceMapPlace {
 };
 
 struct Scene {
-  // Prepares the data for walks through `room`; the room must outlive it. planes: as for make_embree_tracer().
-  Scene(const Room& room, const Tiling& tiling, Engine engine, std::shared_ptr<const FacesInOnePlane> planes = nullptr);
+  // Prepares the data for walks through `room`; the room must outlive it. prepared: as for
+  // make_embree_tracer().
+  Scene(const Room& room, const Tiling& tiling, Engine engine, std::shared_ptr<PreparedRoom> prepared = nullptr);
 
   Engine engine = Engine::embree;  // the one used; declared before `tracer`, whose construction sets it
   std::unique_ptr<Tracer> tracer;
