@@ -20,6 +20,7 @@ class Enclosure {
  public:
   // The room, also that of the mesh, must outlive this.
   explicit Enclosure(const Room& room) : Enclosure(WeldedMesh(room)) {}
+  explicit Enclosure(Room&& room) = delete;
   explicit Enclosure(const WeldedMesh& mesh);
 
   bool has_closed_shell() const { return !shells_.empty(); }

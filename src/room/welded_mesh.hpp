@@ -31,6 +31,7 @@ class WeldedMesh {
 
   // The room must outlive the mesh.
   explicit WeldedMesh(const Room& room);
+  explicit WeldedMesh(Room&& room) = delete;
 
   const Room& room() const { return *room_; }
 

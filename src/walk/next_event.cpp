@@ -30,6 +30,9 @@ class NextEventGoal : public GoalBase {
         from_(batch_histories),
         ratio_(batch_histories, 0.0F),
         left_(Policy::scores_every_impact ? 0 : batch_histories) {
+    // Every thread makes a table in every step: in rooms of many facets that would take longer than the impacts.
+    constexpr std::size_t most_in_table = 65536;
+    if (scene.tracer->facets().size() > most_in_table) return;
     for (const Facet& facet : scene.tracer->facets()) normals_.emplace_back(world_normal(*scene.tracer, facet));
   }
 
@@ -114,7 +117,9 @@ class NextEventGoal : public GoalBase {
 
   Impact impact_of(const Wave& wave, std::size_t i) const {
     const Rays& rays = wave.rays;
-    const glm::vec3& normal = normals_[rays.facet[i]];
+    const glm::vec3 normal = normals_.empty()
+                                 ? glm::vec3(world_normal(*scene_->tracer, scene_->tracer->facets()[rays.facet[i]]))
+                                 : normals_[rays.facet[i]];
     const std::uint32_t photon = wave.photon[i];
     Impact impact;
     impact.start = rays.start(i);
@@ -160,7 +165,7 @@ class NextEventGoal : public GoalBase {
   std::uint32_t flight_ = 0;
   const ReceiverLanes* receivers_ = nullptr;
   BackwardCount* count_ = nullptr;
-  std::vector<glm::vec3> normals_;  // of the facets, world
+  std::vector<glm::vec3> normals_;  // of the facets, world; empty if there are many
   std::vector<Impact> impacts_;     // that have not yet contributed
   std::vector<float> value_;
   std::vector<double> sums_;  // by round and receiver

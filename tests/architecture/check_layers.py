@@ -30,10 +30,10 @@ PUBLIC = {
     "settings": "room", "fingerprint": "room",  # plain data that every layer may read
     "communicator": "run", "control": "run", "progress": "run", "state": "run", "mpi": "mpi",
     "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
-    "paths": "walk", "picture": "view",
+    "prepared_room": "tracer", "paths": "walk", "picture": "view",
     "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output", "folder_lock": "output",
 }
-ADAPTERS_SEE_RESULTS = {"output": ["result", "inspect", "study", "picture", "paths", "lit_room"], "gltf": ["result", "picture", "paths"]}
+ADAPTERS_SEE_RESULTS = {"output": ["prepared_room", "result", "inspect", "study", "picture", "paths", "lit_room"], "gltf": ["result", "picture", "paths"]}
 # Libraries that only these files or folders may include.
 LIBRARIES = {
     r"embree\d?/": ["src/tracer/embree.hpp"],

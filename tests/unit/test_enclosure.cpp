@@ -79,7 +79,8 @@ Room l_room() {
 }  // namespace
 
 TEST_CASE("a room without triangles has no shell and encloses nothing") {
-  const Enclosure nothing{Room{}};
+  const Room empty = Room{};
+  const Enclosure nothing(empty);
   CHECK_FALSE(nothing.has_closed_shell());
   CHECK_FALSE(nothing.encloses({0.0, 0.0, 0.0}));
 }
@@ -89,7 +90,8 @@ TEST_CASE("a cube encloses the points inside it and no others") {
     for (const double away : {0.0, 1000.0}) {
       CAPTURE(edge, away);
       const glm::dvec3 corner = away * edge * glm::dvec3(0.6, -0.5, 0.62);
-      const Enclosure enclosure(cube(edge, corner));
+      const Room whole = cube(edge, corner);
+      const Enclosure enclosure(whole);
       REQUIRE(enclosure.has_closed_shell());
       std::mt19937 words(7);
       std::uniform_real_distribution<double> uniform(-1.0, 2.0);
@@ -110,7 +112,8 @@ TEST_CASE("a cube encloses the points inside it and no others") {
 }
 
 TEST_CASE("if a ray meets an edge or a corner, the point is tested again in another direction") {
-  const Enclosure enclosure(cube());
+  const Room whole = cube();
+  const Enclosure enclosure(whole);
   // The first direction of encloses(), traced back from the diagonals and edges of the walls that it leads to.
   const glm::dvec3 direction(0.57735, 0.21132, 0.78868);
   int asked = 0;
@@ -188,7 +191,8 @@ TEST_CASE("a room with open and closed objects in it is enclosed by its own shel
 TEST_CASE("a box outside does not enclose points beside it") {
   Room room = cube();
   room.surfaces.pop_back();
-  const Enclosure enclosure(together(room, cube(1.0, {3.0, 0.0, 0.0})));
+  const Room whole = together(room, cube(1.0, {3.0, 0.0, 0.0}));
+  const Enclosure enclosure(whole);
   CHECK(enclosure.has_closed_shell());
   CHECK_FALSE(enclosure.encloses({0.5, 0.5, 0.5}));
   CHECK(enclosure.encloses({3.5, 0.5, 0.5}));
@@ -216,7 +220,8 @@ TEST_CASE("duplicate walls enclose like single walls") {
 }
 
 TEST_CASE("an L-shaped room encloses points in both its arms and none in its notch") {
-  const Enclosure enclosure(l_room());
+  const Room whole = l_room();
+  const Enclosure enclosure(whole);
   REQUIRE(enclosure.has_closed_shell());
   CHECK(enclosure.encloses({0.5, 0.5, 0.5}));
   CHECK(enclosure.encloses({1.5, 0.5, 0.5}));
@@ -228,7 +233,8 @@ TEST_CASE("an L-shaped room encloses points in both its arms and none in its not
 
 TEST_CASE("a fine sphere encloses its inside") {
   constexpr std::uint32_t n = 60;
-  const Enclosure enclosure(sphere(n));
+  const Room whole = sphere(n);
+  const Enclosure enclosure(whole);
   REQUIRE(enclosure.has_closed_shell());
   std::mt19937 words(3);
   std::normal_distribution<double> normal;
