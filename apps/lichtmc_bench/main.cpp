@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "backward.hpp"
+#include "direct.hpp"
 #include "lichtmc/simulate.hpp"
 #include "lichtmc/version.hpp"
 #include "measure.hpp"
@@ -211,6 +212,14 @@ Measured backward_variance(const Options& options) {
           {{"median_point", found.median}, {"mean_of_relative_variances", found.mean}}};
 }
 
+Measured direct_light(const Options& options) {
+  DirectStage stage;
+  const Ratio ratio =
+      compare_speeds([&] { return stage.all(); }, [&] { return stage.plain_eighth(); }, options.turns());
+  return {"direct light of a living room's tiles to a target of 2 %, against integration of each emitter", ratio.value,
+          10.0, true, "", details_of(ratio, "faces_per_second", "plain_faces_per_second")};
+}
+
 Measured many_lamps(const Options& options) {
   const Room one = storey_of_rooms(1, 1);
   const Room storey = storey_of_rooms(5, 4);
@@ -282,6 +291,7 @@ std::vector<Measured> measure_all(const Options& options) {
   add("estimators", [&] { return estimator(options, Estimator::absorption); });
   add("backward", [&] { return backward_speed(options); });
   add("backward", [&] { return backward_variance(options); });
+  add("direct", [&] { return direct_light(options); });
   add("lamps", [&] { return many_lamps(options); });
   std::vector<Measured> measured;
   if (options.only.empty() || options.only == "points") {
@@ -358,7 +368,7 @@ static int run_program(int argc, char** argv) {
   program.add_flag("--quick", options.quick, "Shorter turns: under a minute");
   program.add_option("--only", options.only, "One group of measurements")
       ->check(CLI::IsMember(
-          {"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators", "backward", "lamps", "points"}));
+          {"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators", "backward", "lamps", "points", "direct"}));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -25,4 +25,10 @@ inline std::size_t choose(const std::vector<double>& sums, double u) {
   return static_cast<std::size_t>(chosen - sums.begin());
 }
 
+// The position of u within the share k that it falls into: uniform in [0, 1] if u is.
+inline double share_within(const std::vector<double>& sums, std::size_t k, double u) {
+  const double before = k > 0 ? sums[k - 1] : 0.0;
+  return std::min((u - before) / (sums[k] - before), 1.0);
+}
+
 }  // namespace lichtmc

@@ -65,20 +65,14 @@ class SurfaceEmission {
   // further random words: one to decide about a proposal, three for the next.
   template <class Further>
   EmissionPlace choose_place(double u, double v, double w, const Further& further) const {
-    for (std::uint32_t k = 0;; ++k) {
-      const Piece& piece = pieces_[choose(shares_up_to_, u)];
-      const glm::dvec2 in_piece = uniform_on_triangle(v, w);
-      const glm::dvec2 a(piece.corners[0]);
-      const glm::dvec2 place =
-          a + in_piece.x * (glm::dvec2(piece.corners[1]) - a) + in_piece.y * (glm::dvec2(piece.corners[2]) - a);
-      const double found = value(piece.triangle, place);
-      if (found >= double{piece.highest}) return {piece.triangle, place, found / mean_};
-      const Words words = further(k);
-      if (unit_open(words[0]) * double{piece.highest} < found) return {piece.triangle, place, found / mean_};
-      u = unit_open(words[1]);
-      v = unit_open(words[2]);
-      w = unit_open(words[3]);
-    }
+    return choose_from(pieces_[choose(shares_up_to_, u)], v, w, further);
+  }
+
+  // The same by two numbers p and q, so that equal parts of the unit square are equal parts of the proposals.
+  template <class Further>
+  EmissionPlace choose_evenly(double p, double q, const Further& further) const {
+    const std::size_t k = choose(shares_up_to_, p);
+    return choose_from(pieces_[k], share_within(shares_up_to_, k, p), q, further);
   }
 
  private:
@@ -89,6 +83,23 @@ class SurfaceEmission {
     float highest = 0.0F;
   };
   class Division;
+
+  template <class Further>
+  EmissionPlace choose_from(Piece piece, double v, double w, const Further& further) const {
+    for (std::uint32_t k = 0;; ++k) {
+      const glm::dvec2 in_piece = uniform_on_triangle(v, w);
+      const glm::dvec2 a(piece.corners[0]);
+      const glm::dvec2 place =
+          a + in_piece.x * (glm::dvec2(piece.corners[1]) - a) + in_piece.y * (glm::dvec2(piece.corners[2]) - a);
+      const double found = value(piece.triangle, place);
+      if (found >= double{piece.highest}) return {piece.triangle, place, found / mean_};
+      const Words words = further(k);
+      if (unit_open(words[0]) * double{piece.highest} < found) return {piece.triangle, place, found / mean_};
+      piece = pieces_[choose(shares_up_to_, unit_open(words[1]))];
+      v = unit_open(words[2]);
+      w = unit_open(words[3]);
+    }
+  }
 
   double value(std::size_t triangle, const glm::dvec2& weights) const {
     const glm::uvec3 corner = surface_->triangles[triangle];

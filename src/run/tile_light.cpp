@@ -4,16 +4,24 @@
 
 #include "run/backward_work.hpp"
 #include "run/direct_error.hpp"
+#include "run/error_measure.hpp"
+#include "run/rough_tiles.hpp"
 
 namespace lichtmc {
 
 namespace {
 
-// The emitters' power over the area of all surfaces.
-double level_of(const Room& room) {
+// The emitters' power over the area of all surfaces: the mean direct irradiance, if no light leaves the room. The mean
+// irradiance, of which the error floor is a share, is not known before the walks; it is more.
+double mean_direct(const Room& room) {
   double area = 0.0;
   for (const Surface& surface : room.surfaces) area += surface_area(surface);
   return total_power(room) / area;
+}
+
+TileAccuracy accuracy_for(const Room& room, const Tiling& tiling, const Scene& scene, const Settings& settings) {
+  return {direct_error_of_tiles(settings), error_floor(settings, mean_direct(room)),
+          rough_irradiance(room, tiling, scene)};
 }
 
 }  // namespace
@@ -23,8 +31,8 @@ TileLight::TileLight(const Room& room, const Tiling& tiling, const Scene& scene,
     : tiles_(tiling.tiles.size()),
       light_(room, *scene.tracer),
       faces_(room, tiling, *scene.tracer),
-      direct_(light_, faces_, *scene.tracer, Stream(settings.seed, direction), direct_error_of_tiles(settings),
-              level_of(room)) {
+      direct_(light_, faces_, *scene.tracer, Stream(settings.seed, direction),
+              accuracy_for(room, tiling, scene, settings)) {
   if (direction == WalkDirection::backward) light_.learn_selection(scene);
 }
 

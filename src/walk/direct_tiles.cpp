@@ -1,329 +1,294 @@
 #include "walk/direct_tiles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
-#include <span>
+#include <memory>
+#include <utility>
 #include <vector>
 
-#include <glm/geometric.hpp>
-
-#include "base/frame.hpp"
-#include "chance/directions.hpp"
-#include "chance/places.hpp"
-#include "walk/triangle_integral.hpp"
+#include "chance/paired_strata.hpp"
+#include "walk/visibility.hpp"
 
 namespace lichtmc {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+// Binary logarithms of numbers of strata.
+constexpr std::uint32_t first_doublings = 5;  // of the samples that tell how many are needed: 64
+constexpr std::uint32_t least_doublings = 4;
+constexpr std::uint32_t last_doublings = 12;  // at most: 8192 samples
 
-// An emitter with more triangles is sampled: the closed form would cost more than the rays.
-constexpr std::size_t most_triangles = 64;
-
-// The integrated sub-triangles of a face.
-using Leaves = std::vector<IntegratedTriangle>;
-
-// Integrates light(reference point) over the pieces of a face for which may_receive(reference point) is true.
-template <class Light, class MayReceive, class Coarse, class IsZero>
-Leaves integrate_face(const TileFaces& faces, std::size_t face, const Light& light, const MayReceive& may_receive,
-                      const Coarse& coarse, const IsZero& is_zero, double relative, double absolute) {
-  const Surface& surface = faces.surface(face);
-  const std::span<const TilePiece> pieces = faces.pieces(face);
-  Leaves leaves;
-  for (std::size_t n = 0; n < pieces.size(); ++n) {
-    const TilePiece& piece = pieces[n];
-    ReferencePoint reference = faces.reference(face, {piece.triangle, piece.weights[0]});
-    if (!may_receive(reference)) continue;
-    const auto at = [&](const glm::dvec3& point) {
-      reference.point = point;
-      return light(reference);
-    };
-    const Triangle triangle{point_at(surface, piece.triangle, piece.weights[0]),
-                            point_at(surface, piece.triangle, piece.weights[1]),
-                            point_at(surface, piece.triangle, piece.weights[2])};
-    const std::size_t before = leaves.size();
-    integrate(triangle, at, coarse, is_zero, relative, absolute, leaves);
-    for (std::size_t k = before; k < leaves.size(); ++k) leaves[k].part = n;
-  }
-  return leaves;
+// The variance of strata falls faster than that of independent points. Of functions with edges in d dimensions, such as
+// shadows, as n^−(1 + 1/d) (J. Matoušek, Geometric Discrepancy, 1999, ch. 3): the exponent is 1.5 on a tile, 1.25 for
+// pairs of points of a tile and a light.
+double exponent_of(const LightOnFace& light) {
+  return 1.0 + 1.0 / static_cast<double>(light.dimensions().size());
 }
 
-double sum_of(const Leaves& leaves) {
-  double sum = 0.0;
-  for (const IntegratedTriangle& leaf : leaves) sum += leaf.integral;
-  return sum;
-}
-
-double error_of(const Leaves& leaves) {
-  double sum = 0.0;
-  for (const IntegratedTriangle& leaf : leaves) sum += leaf.error;
-  return sum;
-}
-
-// The position of a triangle in the beam of a point emitter.
-struct InBeam {
-  const PointLight& source;
-
-  // The angle between the axis and the centre of the triangle; half_size: half the angle that the triangle subtends.
-  double angle_to_centre(const Triangle& t, double& half_size) const {
-    const glm::dvec3 segment = centroid_of(t) - source.position();
-    const double distance = glm::length(segment);
-    const double radius = radius_of(t);
-    if (!(distance > radius)) {
-      half_size = pi;
-      return 0.0;
-    }
-    half_size = std::asin(radius / distance);
-    const glm::dvec3 towards = segment / distance;
-    return std::atan2(glm::length(glm::cross(towards, source.axis())), glm::dot(towards, source.axis()));
-  }
-
-  // The angle between the axis and the nearest direction to the triangle.
-  double angle_off(const Triangle& t, double& half_size) const {
-    return std::max(0.0, angle_to_centre(t, half_size) - half_size);
-  }
-
-  bool is_outside(const Triangle& t) const {
-    double half_size = 0.0;
-    return angle_off(t, half_size) > source.extent().half_angle;
-  }
-
-  // The irradiance changes over the distance from the emitter and over the width of its beam. In triangles smaller than
-  // half of either, the difference of the two rules is a reliable error estimate.
-  // Where the edge of a sharp beam crosses a triangle, all points of both rules may lie on one side of it. Of a
-  // triangle up to some 1/25 is then counted wrongly (a corner beyond the point nearest to it). After n divisions the
-  // edge crosses some 2 · 2ⁿ parts of 4⁻ⁿ of the area: 6 divisions leave at most 10⁻³ of the first triangle, with
-  // either sign.
-  bool coarse(const Triangle& t, int depth) const {
-    double half_size = 0.0;
-    const double angle = angle_to_centre(t, half_size);
-    constexpr double half = 0.5;
-    constexpr int divisions_at_edge = 6;
-    const EmitterExtent& extent = source.extent();
-    if (extent.sharp && depth < divisions_at_edge && std::abs(angle - extent.half_angle) < half_size) return true;
-    return half_size > half || half_size > half * extent.width;
-  }
-};
-
-// The fraction of the unshadowed flux that arrives on a face: the mean over pairs of points in s × s strata.
-struct VisibleFraction {
-  double value = 1.0;
-  double standard_error = 0.0;
-};
-
-struct Sample {
-  double weight = 0.0;  // flux that it represents, relative to the others
-  bool visible = false;
-};
-
-// The ratio Σ weight·visible/Σ weight over pairs, two samples in each stratum, and its error by the differences within
-// the pairs.
-VisibleFraction ratio_of(const std::vector<Sample>& samples) {
-  double all = 0.0;
-  double visible = 0.0;
-  for (const Sample& sample : samples) {
-    all += sample.weight;
-    if (sample.visible) visible += sample.weight;
-  }
-  if (!(all > 0.0)) return {};
-  VisibleFraction result{visible / all, 0.0};
-  const auto residual = [&](const Sample& sample) {
-    return sample.weight * ((sample.visible ? 1.0 : 0.0) - result.value);
-  };
-  double squares = 0.0;
-  for (std::size_t k = 0; k + 1 < samples.size(); k += 2) {
-    const double difference = residual(samples[k]) - residual(samples[k + 1]);
-    squares += difference * difference;
-  }
-  result.standard_error = std::sqrt(squares) / all;
-  return result;
-}
-
-// A point of the leaves: u chooses a leaf in proportion to its integral; the point is uniform on that leaf.
-struct LitPoint {
-  ReferencePoint reference;
-  double density = 0.0;  // integral per area of the chosen leaf
-};
-
-class LitPoints {
+// One emitter's light on a face.
+class Part {
  public:
-  LitPoints(const Leaves& leaves, const TileFaces& faces, std::size_t face)
-      : leaves_(leaves), faces_(faces), face_(face), all_(sum_of(leaves)) {
-    double sum = 0.0;
-    for (const IntegratedTriangle& leaf : leaves) up_to_.push_back(sum += leaf.integral);
+  Part(std::unique_ptr<LightOnFace> light, std::uint64_t number)
+      : light_(std::move(light)), number_(number), exponent_(exponent_of(*light_)) {}
+
+  LightOnFace& light() const { return *light_; }
+  double exponent() const { return exponent_; }
+
+  // Takes samples in 2^doublings strata in place of those before, whose random words are others.
+  void sample(std::uint32_t doublings, const FaceTriangles& face, const Stream& stream, const Tracer& tracer,
+              TraceCount& count);
+  std::uint32_t doublings() const { return doublings_; }
+  double samples() const { return static_cast<double>(sums_.points); }
+
+  // If the light without shadows is known, samples tell what shadows take away, relative to this fraction of it that is
+  // visible by the samples so far; those that follow are unbiased for any fraction.
+  void fix_factor() { factor_ = light_->unshadowed() && sums_.w > 0.0 ? sums_.v / sums_.w : 0.0; }
+  // Nothing casts a shadow: the light without shadows is all.
+  void set_exact() {
+    exact_ = true;
+    factor_ = 1.0;
   }
-  LitPoint at(double u, double v) const {
-    const double light = u * all_;
-    const auto found = std::upper_bound(up_to_.begin(), up_to_.end(), light);
-    const std::size_t k = std::min<std::size_t>(static_cast<std::size_t>(found - up_to_.begin()), leaves_.size() - 1);
-    const IntegratedTriangle& leaf = leaves_[k];
-    const double within = (light - (up_to_[k] - leaf.integral)) / leaf.integral;
-    const Triangle& t = leaf.triangle;
-    const glm::dvec2 weights = uniform_on_triangle(std::clamp(within, 0.0, 1.0), v);
-    return {reference(leaf, point_of_triangle(t[0], t[1], t[2], weights)), leaf.integral / area_of(t)};
+  bool is_exact() const { return exact_; }
+
+  double value() const {
+    const double known = factor_ * light_->unshadowed().value_or(0.0);
+    return exact_ ? known : known + sums_.mean(factor_);
   }
-  // The reference point at a point of a leaf.
-  ReferencePoint reference(const IntegratedTriangle& leaf, const glm::dvec3& point) const {
-    const TilePiece& piece = faces_.pieces(face_)[leaf.part];
-    ReferencePoint result = faces_.reference(face_, {piece.triangle, piece.weights[0]});
-    result.point = point;
-    return result;
+  double variance() const { return exact_ ? 0.0 : sums_.variance(factor_); }
+  double unshadowed() const {
+    if (const auto known = light_->unshadowed()) return *known;
+    return sums_.mean_w();
   }
+  bool all_visible() const { return sums_.v == sums_.w; }
 
  private:
-  const Leaves& leaves_;
-  const TileFaces& faces_;
-  std::size_t face_;
-  double all_;
-  std::vector<double> up_to_;
+  std::unique_ptr<LightOnFace> light_;
+  std::uint64_t number_;
+  double exponent_;
+  double factor_ = 0.0;
+  PairSums sums_;                // v: of the light that arrives, w: of all without shadows
+  std::uint32_t doublings_ = 0;  // of these
+  std::uint32_t drawn_ = 0;      // of these and those before
+  bool exact_ = false;
 };
 
-// Samples in increasingly fine strata until the error is small enough. sample_at(u, v, n): sample n at a point of the
-// unit square. If all samples are visible, or none, confirms(all) returns whether that is confirmed.
-template <class SampleAt, class Confirm>
-VisibleFraction visible_fraction(const SampleAt& sample_at, const Confirm& confirms, const Stream& stream,
-                                 std::uint64_t number, double allowed) {
-  constexpr std::uint32_t coarsest = 8;  // strata along each side
-  constexpr std::uint32_t finest = 32;
-  VisibleFraction result;
-  std::vector<Sample> samples;
-  std::uint32_t drawn = 0;
-  for (std::uint32_t s = coarsest; s <= finest; s *= 2) {
-    samples.clear();
-    for (std::uint32_t k = 0; k < 2 * s * s; ++k, ++drawn) {
-      const Words words = stream.draw(number, drawn, Purpose::direct_place);
-      const std::uint32_t column = k / 2 % s;
-      const std::uint32_t row = k / 2 / s;
-      samples.push_back(sample_at((column + unit_open(words[0])) / s, (row + unit_open(words[1])) / s, drawn));
+void Part::sample(std::uint32_t doublings, const FaceTriangles& face, const Stream& stream, const Tracer& tracer,
+                  TraceCount& count) {
+  const PairedStrata strata(doublings, light_->dimensions());
+  doublings_ = doublings;
+  constexpr std::uint32_t boxes_at_a_time = 256;
+  PairSums sums;
+  std::vector<Connection> found;
+  std::vector<std::array<double, 2>> visible;  // of each box
+  std::vector<std::array<double, 2>> all;
+  struct Tested {
+    double* sum;
+    double irradiance;
+  };
+  std::vector<Tested> tested;
+  ShadowRays rays(4 * boxes_at_a_time);
+  for (std::uint32_t first = 0; first < strata.boxes(); first += boxes_at_a_time) {
+    const std::uint32_t boxes = std::min(boxes_at_a_time, strata.boxes() - first);
+    visible.assign(boxes, {});
+    all.assign(boxes, {});
+    tested.clear();
+    rays.clear();
+    for (std::uint32_t k = 0; k < 2 * boxes; ++k, ++drawn_) {
+      const Words words = stream.draw(number_, drawn_, Purpose::direct_place);
+      found.clear();
+      light_->sample(strata.point(first + k / 2, words), found);
+      double& sum = visible[k / 2][k % 2];
+      for (const Connection& one : found) {
+        all[k / 2][k % 2] += one.irradiance;
+        const glm::dvec3 start = face.start(one.from);
+        const auto segment = tracer.casts_shadows() ? shadow_segment(tracer, start, one.target) : std::nullopt;
+        if (!segment) {
+          sum += one.irradiance;
+          continue;
+        }
+        tested.push_back({&sum, one.irradiance});
+        rays.add(glm::vec3(start), *segment);
+      }
     }
-    result = ratio_of(samples);
-    if (result.standard_error > allowed) continue;
-    const bool unanimous = result.value == 0.0 || result.value == 1.0;
-    if (s > coarsest || !unanimous || confirms(result.value == 1.0)) break;
+    if (rays.size > 0) tracer.find_blocked(rays, count);
+    for (std::size_t k = 0; k < tested.size(); ++k) {
+      if (rays.blocked[k] == 0) *tested[k].sum += tested[k].irradiance;
+    }
+    for (std::uint32_t k = 0; k < boxes; ++k) sums.add(visible[k], all[k]);
   }
-  return result;
+  sums_ = sums;
 }
 
 }  // namespace
 
-DirectTiles::DirectTiles(const DirectLight& light, const TileFaces& faces, const Tracer& tracer, const Stream& stream,
-                         double relative, double level)
-    : light_(&light), faces_(&faces), tracer_(&tracer), stream_(stream), relative_(relative), level_(level) {}
+// The light of all emitters on a face.
+class DirectTiles::Sum {
+ public:
+  Sum(const DirectTiles& tiles, std::size_t face, TraceCount& count)
+      : tiles_(tiles),
+        face_(face),
+        triangles_(*tiles.faces_, face, *tiles.tracer_),
+        floor_(tiles.accuracy_.floor),
+        count_(count) {
+    const std::vector<double>& least = tiles.accuracy_.least;
+    if (!least.empty()) floor_ = std::max(floor_, least[(*tiles.faces_)[face].tile]);
+    const std::size_t points = tiles.light_->points().size();
+    sources_ = points + tiles.light_->areas().size();
+    for (std::size_t k = 0; k < points; ++k) add_point(k, tiles.light_->points()[k]);
+    for (std::size_t k = points; k < sources_; ++k) add_area(k, tiles.light_->areas()[k - points]);
+  }
 
-// The flux of the leaves times the visible fraction. sample_at(reference point, n): sample n at a point of the face.
-template <class SampleAt>
-DirectIrradiance DirectTiles::shadowed(const Leaves& leaves, std::size_t face, std::uint64_t number,
-                                       const SampleAt& sample_at) const {
-  if (leaves.empty()) return {};
-  const double unshadowed = sum_of(leaves) / faces_->area_m2(face);
-  const double by_rules = error_of(leaves) / faces_->area_m2(face);
-  if (!tracer_->casts_shadows()) return {unshadowed, by_rules};
-  const LitPoints points(leaves, *faces_, face);
-  // The edge of a shadow, or of a patch of light, on a part of a tile mostly crosses the boundary of the tile. Points
-  // close to it, some on each side of each triangle, detect it.
-  const auto confirms = [&](bool all) {
-    constexpr double to_rim = 0.99;
-    constexpr int on_side = 6;
-    std::uint32_t n = std::uint32_t{1} << 24;  // beyond the numbers of the samples
-    for (const IntegratedTriangle& leaf : leaves) {
-      const glm::dvec3 middle = centroid_of(leaf.triangle);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const glm::dvec3 side = leaf.triangle[(k + 1) % 3] - leaf.triangle[k];
-        for (int i = 0; i < on_side; ++i) {
-          const glm::dvec3 rim = leaf.triangle[k] + (static_cast<double>(i) / on_side) * side;
-          const Sample sample = sample_at(points.reference(leaf, middle + to_rim * (rim - middle)), n++);
-          if (sample.weight > 0.0 && sample.visible != all) return false;
-        }
-      }
+  // The first samples determine how many are needed, and are not used otherwise: so neither the mean nor its error is
+  // biased by the choice.
+  DirectIrradiance compute() {
+    for (Part& part : parts_) {
+      if (part.is_exact()) continue;
+      sample(part, first_doublings);
+      part.fix_factor();
     }
-    return true;
-  };
-  const auto weighted_sample = [&](double u, double v, std::uint32_t n) {
-    const LitPoint chosen = points.at(u, v);
-    Sample sample = sample_at(chosen.reference, n);
-    sample.weight /= chosen.density;
-    return sample;
-  };
-  const VisibleFraction fraction =
-      visible_fraction(weighted_sample, confirms, stream_, number, relative_ * std::max(1.0, level_ / unshadowed));
-  return {unshadowed * fraction.value, std::hypot(unshadowed * fraction.standard_error, fraction.value * by_rules)};
-}
+    std::erase_if(parts_, [](const Part& part) { return !(part.unshadowed() > 0.0); });
+    for (Part& part : parts_) integrate_if_cheaper(part);
+    const std::vector<std::uint32_t> needed = needed_doublings();
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      if (!parts_[k].is_exact()) sample(parts_[k], needed[k]);
+    }
+    return total();
+  }
 
-DirectIrradiance DirectTiles::by_point(const PointLight& source, std::size_t face, std::uint64_t number,
-                                       TraceCount& count) const {
-  const InBeam beam{source};
-  const Leaves leaves = integrate_face(
-      *faces_, face, [&](const ReferencePoint& reference) { return source.sample_light(reference).irradiance; },
-      [&](const ReferencePoint& reference) {
-        return glm::dot(source.position() - reference.point, reference.normal) > 0.0;
-      },
-      [&](const Triangle& t, int depth) { return beam.coarse(t, depth); },
-      [&](const Triangle& t) { return beam.is_outside(t); }, relative_, relative_ * level_);
-  const auto sample_at = [&](const ReferencePoint& reference, std::uint32_t) {
-    return Sample{source.sample_light(reference).irradiance,
-                  !is_blocked(*tracer_, reference, source.position(), count)};
-  };
-  return shadowed(leaves, face, number, sample_at);
-}
+ private:
+  void sample(Part& part, std::uint32_t doublings) {
+    part.sample(doublings, triangles_, tiles_.stream_, *tiles_.tracer_, count_);
+  }
 
-DirectIrradiance DirectTiles::by_surface(std::size_t k, std::size_t face, std::uint64_t number,
-                                         TraceCount& count) const {
-  const AreaLight& source = light_->areas()[k];
-  if (!source.has_closed_form() || source.triangles() > most_triangles) {
+  DirectIrradiance total() const {
+    DirectIrradiance sum = apart_;
+    double variance = sum.standard_error * sum.standard_error;
+    for (const Part& part : parts_) {
+      const double of_rules = part.light().error_of_unshadowed();
+      sum.value += part.value();
+      variance += part.variance() + of_rules * of_rules;
+    }
+    sum.standard_error = std::sqrt(variance);
+    return sum;
+  }
+
+  // The error that the sum may have, W/m² or lx.
+  double allowed() const { return tiles_.accuracy_.relative * std::max(total().value, floor_); }
+
+  // A third of the whole, because it adds to the error of the samples.
+  IntegralAccuracy of_integrals() const {
+    const double relative = tiles_.accuracy_.relative / 3.0;
+    return {relative, relative * floor_};
+  }
+
+  void add_point(std::size_t k, const PointLight& source) {
+    auto light = std::make_unique<PointOnFace>(triangles_, source, of_integrals());
+    if (light->is_dark()) return;
+    parts_.emplace_back(std::move(light), face_ * sources_ + k);
+    if (!tiles_.tracer_->casts_shadows()) parts_.back().set_exact();
+  }
+
+  void add_area(std::size_t k, const AreaLight& source) {
+    auto light = std::make_unique<AreaOnFace>(triangles_, source);
+    if (light->is_dark()) return;
+    if (light->is_near() && light->has_many_triangles()) {
+      add_with_traced_flights(source, face_ * sources_ + k);
+      return;
+    }
+    const bool exact = !tiles_.tracer_->casts_shadows() && light->integrate(of_integrals());
+    parts_.emplace_back(std::move(light), face_ * sources_ + k);
+    if (exact) parts_.back().set_exact();
+  }
+
+  // As at receivers, from random points of the face.
+  void add_with_traced_flights(const AreaLight& source, std::uint64_t number) {
     const auto random_place = [&](std::uint32_t n) {
-      const Words words = stream_.draw(number, n, Purpose::direct_place);
-      return faces_->reference(face, faces_->place(face, unit_open(words[0]), unit_open(words[1])));
+      const Words words = tiles_.stream_.draw(number, n, Purpose::direct_place);
+      return tiles_.faces_->reference(face_, tiles_.faces_->place(face_, unit_open(words[0]), unit_open(words[1])));
     };
     constexpr std::uint32_t most = 4096;
-    DirectIrradiance result = sample_area_light(source, *tracer_, random_place, stream_, number,
-                                                {relative_, relative_ * level_, most}, count);
-    result.value *= faces_->uncovered_share(face);
-    result.standard_error *= faces_->uncovered_share(face);
-    return result;
+    const double relative = tiles_.accuracy_.relative;
+    const DirectIrradiance part = sample_area_light(source, *tiles_.tracer_, random_place, tiles_.stream_, number,
+                                                    {relative, relative * floor_, most}, count_);
+    const double share = tiles_.faces_->uncovered_share(face_);
+    apart_.value += share * part.value;
+    apart_.standard_error = std::hypot(apart_.standard_error, share * part.standard_error);
   }
-  const auto no = [](const Triangle&, int = 0) { return false; };
-  const Leaves leaves = integrate_face(
-      *faces_, face, [&](const ReferencePoint& reference) { return source.polygon_irradiance(reference); },
-      [&](const ReferencePoint& reference) { return source.reaches_above_horizon(reference); }, no, no, relative_,
-      relative_ * level_);
-  // Points sampled uniformly on a near emitter rarely lie where it contributes most. Near emitters are sampled by
-  // flights with Lambert's law instead, which hit the emitter with the probability of its projected solid angle over π.
-  constexpr double close = 0.1;
-  const double whole_hemisphere = pi * source.radiance(1.0);
-  const auto sample_at = [&](const ReferencePoint& reference, std::uint32_t n) {
-    const Words words = stream_.draw(number, n, Purpose::direct_point);
-    if (source.polygon_irradiance(reference) > close * whole_hemisphere) {
-      const glm::dvec3 local(sample_lambert(words[0], words[1]));
-      const Frame frame = frame_about(reference.normal);
-      const auto target = source.nearest_hit(
-          reference.point, local.x * frame.tangent + local.y * frame.bitangent + local.z * frame.normal);
-      if (!target) return Sample{};
-      return Sample{whole_hemisphere, !is_blocked(*tracer_, reference, *target, count)};
+
+  // If nothing was in the way, a light with a closed form may be integrated instead.
+  void integrate_if_cheaper(Part& part) {
+    if (part.is_exact() || part.light().unshadowed() || !part.all_visible()) return;
+    const double excess = 2.0 * part.variance() / (allowed() * allowed());
+    const double needed = part.samples() * std::pow(excess, 1.0 / part.exponent());
+    if (excess > 1.0 && needed > part.light().integration_cost() && part.light().integrate(of_integrals()))
+      part.fix_factor();
+  }
+
+  // A patch of light or shadow may lie between the samples of a part. There are at least so many that the share of the
+  // tile between them contributes no more than is allowed.
+  std::uint32_t least_doublings_of(const Part& part) const {
+    constexpr double most = 256.0;
+    if (!tiles_.tracer_->casts_shadows()) return least_doublings;
+    const double samples = std::min(most, part.unshadowed() / allowed());
+    return std::max(least_doublings, static_cast<std::uint32_t>(std::ceil(std::log2(std::max(1.0, 0.5 * samples)))));
+  }
+
+  // The doublings of each part: more where they reduce the expected variance most for their number, until the sum is
+  // as accurate as required.
+  std::vector<std::uint32_t> needed_doublings() const {
+    struct Expected {
+      double variance = 0.0;
+      std::uint32_t doublings = 0;
+      // Twice the samples: so much less.
+      double gain(double exponent) const { return variance * (1.0 - std::exp2(-exponent)); }
+    };
+    std::vector<Expected> expected;
+    double variance = 0.0;
+    for (const Part& part : parts_) {
+      const std::uint32_t least = least_doublings_of(part);
+      const double change = static_cast<double>(least) - static_cast<double>(part.doublings());
+      expected.push_back({part.variance() * std::exp2(-part.exponent() * change), least});
+      variance += expected.back().variance;
     }
-    const LightSample sample =
-        source.sample_light(reference, unit_open(words[0]), unit_open(words[1]), unit_open(words[2]));
-    if (!(sample.irradiance > 0.0)) return Sample{};
-    return Sample{sample.irradiance, !is_blocked(*tracer_, reference, sample.target, count)};
-  };
-  return shadowed(leaves, face, number, sample_at);
-}
+    const double limit = allowed() * allowed();
+    while (variance > limit) {
+      std::size_t best = parts_.size();
+      double most = 0.0;
+      for (std::size_t k = 0; k < parts_.size(); ++k) {
+        const double gain =
+            expected[k].gain(parts_[k].exponent()) * std::exp2(-static_cast<double>(expected[k].doublings));
+        if (expected[k].doublings >= last_doublings || !(gain > most)) continue;
+        most = gain;
+        best = k;
+      }
+      if (best == parts_.size()) break;
+      const double gain = expected[best].gain(parts_[best].exponent());
+      variance -= gain;
+      expected[best].variance -= gain;
+      ++expected[best].doublings;
+    }
+    std::vector<std::uint32_t> doublings;
+    for (const Expected& one : expected) doublings.push_back(one.doublings);
+    return doublings;
+  }
+
+  const DirectTiles& tiles_;
+  std::size_t face_;
+  FaceTriangles triangles_;
+  double floor_;  // W/m² or lx: errors are relative to at least this
+  TraceCount& count_;
+  std::size_t sources_ = 0;
+  std::vector<Part> parts_;
+  DirectIrradiance apart_;  // of emitters that are sampled otherwise
+};
+
+DirectTiles::DirectTiles(const DirectLight& light, const TileFaces& faces, const Tracer& tracer, const Stream& stream,
+                         TileAccuracy accuracy)
+    : light_(&light), faces_(&faces), tracer_(&tracer), stream_(stream), accuracy_(std::move(accuracy)) {}
 
 DirectIrradiance DirectTiles::mean(std::size_t face, TraceCount& count) const {
-  DirectIrradiance sum;
-  double variance = 0.0;
-  const std::size_t points = light_->points().size();
-  const std::size_t sources = points + light_->areas().size();
-  for (std::size_t k = 0; k < sources; ++k) {
-    const std::uint64_t number = face * sources + k;
-    const DirectIrradiance part =
-        k < points ? by_point(light_->points()[k], face, number, count) : by_surface(k - points, face, number, count);
-    sum.value += part.value;
-    variance += part.standard_error * part.standard_error;
-  }
-  sum.standard_error = std::sqrt(variance);
-  return sum;
+  return Sum(*this, face, count).compute();
 }
 
 }  // namespace lichtmc

@@ -1,50 +1,53 @@
-// The direct light on tiles, integrated over their area instead of estimated by photons.
+// The direct light on tiles, computed before the walks instead of estimated by photons.
 //
-// First the irradiance without shadows is integrated over triangles. They are divided until a rule of degree 5 and one
-// of degree 2 agree and they are small against the distance from the emitter and the width of its beam. Shadow rays
-// then estimate the visible fraction: the mean over pairs of points in strata of the unshadowed flux, unbiased up to
-// the second order of its own error. If nothing casts a shadow, no rays are traced.
+// Each emitter's light on a face is a mean over pairs of points in strata (light_on_face.hpp), with a shadow ray for
+// each pair. A few samples of every emitter come first. They tell how the rest is divided among the emitters, so that
+// the error of their sum is small enough. The standard error comes from the differences within the strata.
 //
-// Emitters without a closed form (surfaces that do not follow Lambert's law, have an emission map, or very many
-// triangles) are sampled as at receivers, from points distributed over the tile.
+// What does not depend on shadows is integrated where that is cheaper than sampling: point emitters always, area lights
+// of few triangles if all of their samples are visible and many would be needed. Samples then give the part that
+// shadows take away. Rooms where nothing casts a shadow need no samples, unless a light has no closed form.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "chance/stream.hpp"
 #include "tracer/tracer.hpp"
 #include "walk/direct_light.hpp"
+#include "walk/light_on_face.hpp"
 #include "walk/tile_faces.hpp"
-#include "walk/triangle_integral.hpp"
 
 namespace lichtmc {
 
+// The error to reach: `relative` times the largest of the direct irradiance of a face, `floor`, and what its tile
+// receives at least, if that is known.
+struct TileAccuracy {
+  double relative = 3e-3;
+  double floor = 0.0;              // W/m² or lx
+  std::vector<double> least = {};  // the same, of each tile; or empty
+};
+
 class DirectTiles {
  public:
-  // relative: the error to reach, relative to the direct irradiance of a face or to `level` (W/m² or lx), whichever is
-  // larger; `level` is the emitted power over the area of all surfaces. All references must outlive this.
+  // All references must outlive this.
   DirectTiles(const DirectLight& light, const TileFaces& faces, const Tracer& tracer, const Stream& stream,
-              double relative, double level);
+              TileAccuracy accuracy);
 
-  // The mean direct irradiance of a face. Its error contains a bound on that of the integration and the
-  // standard error of the visible fraction. Random points depend on (seed, face) only.
+  // The mean direct irradiance of a face and its standard error, which includes a bound on the error of what is
+  // integrated. Random points depend on (seed, face) only.
   DirectIrradiance mean(std::size_t face, TraceCount& count) const;
 
  private:
-  template <class SampleAt>
-  DirectIrradiance shadowed(const std::vector<IntegratedTriangle>& leaves, std::size_t face, std::uint64_t number,
-                            const SampleAt& sample_at) const;
-  DirectIrradiance by_point(const PointLight& source, std::size_t face, std::uint64_t number, TraceCount& count) const;
-  DirectIrradiance by_surface(std::size_t k, std::size_t face, std::uint64_t number, TraceCount& count) const;
+  class Sum;
 
   const DirectLight* light_;
   const TileFaces* faces_;
   const Tracer* tracer_;
   Stream stream_;
-  double relative_;
-  double level_;
+  TileAccuracy accuracy_;
 };
 
 }  // namespace lichtmc

@@ -80,15 +80,14 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// A random point of an emitter with an emission map. If the first proposal, by u, v and w, is rejected, the words for
+// If the first proposal for a point of an emitter with an emission map, by u, v and w, is rejected, the words for
 // others are a function of these three numbers: as random as they are, and independent of them.
-EmissionPlace place_by_map(const SurfaceEmission& emission, double u, double v, double w) {
+auto further_words(double u, double v, double w) {
   const auto word = [](double unit) { return static_cast<std::uint32_t>(unit * 0x1p32); };
-  const auto bits = std::bit_cast<std::uint64_t>(u);
-  return emission.choose_place(u, v, w, [&](std::uint32_t k) {
+  return [bits = std::bit_cast<std::uint64_t>(u), v_word = word(v), w_word = word(w)](std::uint32_t k) {
     return philox4x32_10({static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32), k, 0},
-                         {word(v), word(w)});
-  });
+                         {v_word, w_word});
+  };
 }
 
 }  // namespace
@@ -125,12 +124,16 @@ AreaLight::AreaLight(const Room& room, const SurfaceEmitter& emitter, std::optio
       emission_(std::move(emission)) {
   if (planes != nullptr) leave_out_covered(room, *planes);
   std::vector<double> areas;
+  prepared_.resize(surface_->triangles.size());
   low_ = glm::dvec3(std::numeric_limits<double>::infinity());
   high_ = -low_;
   for (std::size_t k = 0; k < surface_->triangles.size(); ++k) {
     const double area = glm::length(cross_of(*surface_, k));
     if (!(area > 0.0)) continue;
     areas.push_back(area);
+    const glm::dvec3 corner = corner_of(*surface_, k, 0);
+    prepared_[k] = {corner, corner_of(*surface_, k, 1) - corner, corner_of(*surface_, k, 2) - corner,
+                    glm::normalize(cross_of(*surface_, k))};
     triangles_.push_back(k);
     for (int c = 0; c < 3; ++c) {
       low_ = glm::min(low_, corner_of(*surface_, k, c));
@@ -184,11 +187,12 @@ double AreaLight::distance_m(const glm::dvec3& point) const {
 
 // Cramer's rule for point + λ direction = a + s b + t c (T. Möller, B. Trumbore, Fast, Minimum Storage Ray/Triangle
 // Intersection, 1997): λ > 0, if the front of the triangle is hit.
-std::optional<double> AreaLight::front_hit(std::size_t triangle, const glm::dvec3& point,
-                                           const glm::dvec3& direction) const {
-  const glm::dvec3 a = corner_of(*surface_, triangle, 0);
-  const glm::dvec3 b = corner_of(*surface_, triangle, 1) - a;
-  const glm::dvec3 c = corner_of(*surface_, triangle, 2) - a;
+std::optional<AreaLight::FrontHit> AreaLight::front_hit(std::size_t triangle, const glm::dvec3& point,
+                                                        const glm::dvec3& direction) const {
+  const Prepared& here = prepared_[triangle];
+  const glm::dvec3& a = here.corner;
+  const glm::dvec3& b = here.side_1;
+  const glm::dvec3& c = here.side_2;
   const glm::dvec3 across = glm::cross(direction, c);
   const double determinant = glm::dot(b, across);  // above 0 if the front is hit
   if (!(determinant > 0.0)) return std::nullopt;
@@ -197,7 +201,7 @@ std::optional<double> AreaLight::front_hit(std::size_t triangle, const glm::dvec
   const glm::dvec3 up = glm::cross(from, b);
   const double t = glm::dot(direction, up) / determinant;
   const double length = glm::dot(c, up) / determinant;
-  if (s >= 0.0 && t >= 0.0 && s + t <= 1.0 && length > 0.0) return length;
+  if (s >= 0.0 && t >= 0.0 && s + t <= 1.0 && length > 0.0) return FrontHit{length, {s, t}};
   return std::nullopt;
 }
 
@@ -207,18 +211,33 @@ int AreaLight::fronts_hit(const glm::dvec3& point, const glm::dvec3& direction) 
   }));
 }
 
-std::optional<glm::dvec3> AreaLight::nearest_hit(const glm::dvec3& point, const glm::dvec3& direction) const {
-  double nearest = std::numeric_limits<double>::infinity();
+void AreaLight::add_fronts_hit(const ReferencePoint& reference, const glm::dvec3& direction,
+                               std::vector<LightSample>& samples) const {
+  const double cosine = glm::dot(direction, reference.normal);
   for (const std::size_t triangle : triangles_) {
-    if (const auto length = front_hit(triangle, point, direction)) nearest = std::min(nearest, *length);
+    const auto hit = front_hit(triangle, reference.point, direction);
+    if (!hit || is_covered(triangle, hit->weights)) continue;
+    const double cosine_there = -glm::dot(direction, prepared_[triangle].normal);
+    if (!(cosine_there > 0.0)) continue;
+    const double relative = emission_ ? emission_->relative(triangle, hit->weights) : 1.0;
+    samples.push_back({pi * radiance(cosine_there) * relative, reference.point + hit->length * direction,
+                       cosine * cosine_there / (pi * hit->length * hit->length), relative});
   }
-  if (!std::isfinite(nearest)) return std::nullopt;
-  return point + nearest * direction;
+}
+
+double AreaLight::least_distance_m(const glm::dvec3& point) const {
+  return glm::length(point - glm::clamp(point, low_, high_));
+}
+
+// Most area lights follow Lambert's law, whose power is the cosine itself.
+double AreaLight::density_at(double cosine) const {
+  if (law_.exponent != 1.0 || cosine <= 0.0) return law_.density_at(cosine);
+  return 2.0 / (2.0 * pi) * cosine;
 }
 
 // L = Φ (m+1)/(2π A) cos^(m−1) θ.
 double AreaLight::radiance(double cosine) const {
-  return flux_ / area_m2_ * law_.density_at(cosine) / cosine;
+  return flux_ / area_m2_ * density_at(cosine) / cosine;
 }
 
 double AreaLight::mean_radiance() const {
@@ -226,23 +245,35 @@ double AreaLight::mean_radiance() const {
 }
 
 LightSample AreaLight::sample_light(const ReferencePoint& reference, double u, double v, double w) const {
-  const EmissionPlace place = emission_ ? place_by_map(*emission_, u, v, w)
-                                        : EmissionPlace{triangles_[choose(areas_up_to_, u)], uniform_on_triangle(v, w)};
+  if (emission_) return sample_at(reference, emission_->choose_place(u, v, w, further_words(u, v, w)));
+  return sample_at(reference, {triangles_[choose(areas_up_to_, u)], uniform_on_triangle(v, w)});
+}
+
+LightSample AreaLight::sample_evenly(const ReferencePoint& reference, double p, double q) const {
+  if (emission_) return sample_at(reference, emission_->choose_evenly(p, q, further_words(p, q, 0.0)));
+  const std::size_t k = choose(areas_up_to_, p);
+  return sample_at(reference, {triangles_[k], uniform_on_triangle(share_within(areas_up_to_, k, p), q)});
+}
+
+bool AreaLight::is_covered(std::size_t triangle, const glm::dvec2& weights) const {
+  return planes_ != nullptr &&
+         !planes_->counts({static_cast<std::uint32_t>(first_facet_ + triangle), weights.x, weights.y, false});
+}
+
+LightSample AreaLight::sample_at(const ReferencePoint& reference, const EmissionPlace& place) const {
   const std::size_t triangle = place.triangle;
-  if (planes_ != nullptr &&
-      !planes_->counts({static_cast<std::uint32_t>(first_facet_ + triangle), place.weights.x, place.weights.y, false}))
-    return {};
-  const glm::dvec3 target = point_of_triangle(corner_of(*surface_, triangle, 0), corner_of(*surface_, triangle, 1),
-                                              corner_of(*surface_, triangle, 2), place.weights);
+  if (is_covered(triangle, place.weights)) return {};
+  const Prepared& here = prepared_[triangle];
+  const glm::dvec3 target = here.corner + place.weights.x * here.side_1 + place.weights.y * here.side_2;
   const glm::dvec3 segment = target - reference.point;
   const double r = glm::length(segment);
   if (!(r > 0.0)) return {};
   const glm::dvec3 towards = segment / r;
   const double cosine = glm::dot(towards, reference.normal);
-  const double cosine_there = -glm::dot(towards, glm::normalize(cross_of(*surface_, triangle)));
+  const double cosine_there = -glm::dot(towards, here.normal);
   if (cosine <= 0.0 || cosine < reference.least_cosine || cosine_there <= 0.0) return {};
   // The exitance at the point and the density of the points are proportional: their ratio is the flux everywhere.
-  return {flux_ * law_.density_at(cosine_there) * cosine / (r * r), target, cosine * cosine_there / (pi * r * r),
+  return {flux_ * density_at(cosine_there) * cosine / (r * r), target, cosine * cosine_there / (pi * r * r),
           place.relative};
 }
 

@@ -76,15 +76,25 @@ class AreaLight {
   // mean is the irradiance by the emitter, without shadows.
   LightSample sample_light(const ReferencePoint& reference, double u, double v, double w) const;
 
+  // The same at the point that p and q in [0, 1) select. Equal parts of the unit square are parts of the emitter of
+  // equal flux; with an emission map only roughly.
+  LightSample sample_evenly(const ReferencePoint& reference, double p, double q) const;
+
+  // What a flight by Lambert's law from a reference point in a direction (world, length 1) brings from the emitter:
+  // adds a sample, π times the radiance, for the front of each triangle that it meets. Their mean over flights is the
+  // irradiance over the whole hemisphere, without shadows.
+  void add_fronts_hit(const ReferencePoint& reference, const glm::dvec3& direction,
+                      std::vector<LightSample>& samples) const;
+
+  // A lower bound of the distance of a point from the emitter, in m.
+  double least_distance_m(const glm::dvec3& point) const;
+
   // The least distance, in m, of a point from the part of the emitter whose front it sees; infinite if it sees none.
   double distance_m(const glm::dvec3& point) const;
 
   // The number of triangles whose front a ray from a point hits, one behind the other; polygon_irradiance() is π times
   // the radiance times its mean over directions by Lambert's law.
   int fronts_hit(const glm::dvec3& point, const glm::dvec3& direction) const;
-
-  // The first point where a ray from a point hits the front of the emitter, if nothing else is hit before.
-  std::optional<glm::dvec3> nearest_hit(const glm::dvec3& point, const glm::dvec3& direction) const;
 
   // Whether the emitter's bounding box reaches above the horizon of a reference point; if not, the irradiance is 0.
   bool reaches_above_horizon(const ReferencePoint& reference) const;
@@ -110,7 +120,15 @@ class AreaLight {
   double mean_radiance() const;
 
  private:
-  std::optional<double> front_hit(std::size_t triangle, const glm::dvec3& point, const glm::dvec3& direction) const;
+  // A hit of the front of a triangle: distance in lengths of the direction, and where.
+  struct FrontHit {
+    double length = 0.0;
+    glm::dvec2 weights{0.0};
+  };
+  std::optional<FrontHit> front_hit(std::size_t triangle, const glm::dvec3& point, const glm::dvec3& direction) const;
+  LightSample sample_at(const ReferencePoint& reference, const EmissionPlace& place) const;
+  double density_at(double cosine) const;
+  bool is_covered(std::size_t triangle, const glm::dvec2& weights) const;
 
   void leave_out_covered(const Room& room, const FacesInOnePlane& planes);
 
@@ -125,6 +143,14 @@ class AreaLight {
   std::optional<SurfaceEmission> emission_;  // if it is not uniform
   glm::dvec3 low_{0.0};                      // bounding box
   glm::dvec3 high_{0.0};
+  // Of each triangle of surface_: a corner, the sides from it, the normal of the front.
+  struct Prepared {
+    glm::dvec3 corner{0.0};
+    glm::dvec3 side_1{0.0};
+    glm::dvec3 side_2{0.0};
+    glm::dvec3 normal{0.0};
+  };
+  std::vector<Prepared> prepared_;
   std::vector<double> areas_up_to_;
   std::vector<std::size_t> triangles_;  // those with an area
 };
