@@ -50,7 +50,9 @@ ADDED_TO_SURFACES = {
     "covered_area": "the area that other surfaces in one plane cover, since 0.2.0",
 }
 # Figures of summary.json that a base may not have.
-ADDED = {"unreached_tiles", "tile_images", "rms_relative_error_without_floor", "error_floor"}
+ADDED = {"unreached_tiles", "tile_images"}
+# The same, also within other keys.
+ADDED_ANYWHERE = {"rms_relative_error_without_floor", "error_floor"}
 # Keys of summary.json that hold times or follow from one: two runs of one program differ in them.
 TIMES = {"seconds", "impacts_per_second", "figure_of_merit", "checkpoint_seconds"}
 
@@ -283,7 +285,7 @@ def without(value, keys):
 def numbers_of(summary, run):
     """summary.json without times, exceptions and sentences (choices, warnings, ignored, mended)."""
     sentences = ("choices", "warnings", "ignored", "mended", "overrides", "room")
-    left_out = TIMES | EXCEPTIONS.keys() | EXCEPTIONS_OF_RUNS.get(run, set())
+    left_out = TIMES | ADDED_ANYWHERE | EXCEPTIONS.keys() | EXCEPTIONS_OF_RUNS.get(run, set())
     return without({key: value for key, value in summary.items() if key not in sentences}, left_out)
 
 
