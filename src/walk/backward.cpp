@@ -20,7 +20,7 @@ template <class Policy, class Origins>
 class BackwardGoal : public GoalBase {
  public:
   BackwardGoal(const Scene& scene, const DirectLight& light, const Origins& origins, const Stream& stream,
-               const RoundPlan& plan, double threshold)
+               const RoundPlan& plan, double threshold, std::uint32_t max_flights)
       : scene_(&scene),
         light_(&light),
         origins_(&origins),
@@ -28,6 +28,7 @@ class BackwardGoal : public GoalBase {
         group_(plan.backward),
         forward_per_walk_(plan.forward_per_walk()),
         threshold_(threshold),
+        max_flights_(max_flights),
         points_(plan.backward, Origins::is_extended),
         first_flights_(batch_histories),
         surface_light_(light, *scene.tracer, stream),
@@ -120,8 +121,10 @@ class BackwardGoal : public GoalBase {
     for (std::size_t k = 0; k < n; ++k) absorb(wave, at[k], scene_->reflectance_of[wave.surface[at[k]]]);
   }
 
-  // Light sampling at every surface that a photon survived.
+  // Light sampling at every surface that a photon survived. To the end of the last flight that is allowed, light comes
+  // by one flight more.
   void reflect(Wave& wave, std::uint32_t flight) {
+    if (flight == max_flights_) return;
     if (!light_->takes_all() || light_->has_area_lights()) number_histories(wave);
     surface_light_.sample(wave, flight, forward_per_walk_ > 0.0 ? forward_ratio_.data() : nullptr, count_->traced);
     const std::vector<double>& irradiance = surface_light_.irradiance();
@@ -184,9 +187,10 @@ class BackwardGoal : public GoalBase {
   const DirectLight* light_;
   const Origins* origins_;
   Stream stream_;
-  std::uint32_t group_;      // walks in a round
-  double forward_per_walk_;  // histories from the emitters for each walk, whose contributions are weighted together
-  double threshold_;         // of the roulette, see roulette.hpp
+  std::uint32_t group_;        // walks in a round
+  double forward_per_walk_;    // histories from the emitters for each walk, whose contributions are weighted together
+  double threshold_;           // of the roulette, see roulette.hpp
+  std::uint32_t max_flights_;  // of a path from an emitter to an origin; 0: no limit
   RoundPoints points_;
   FirstFlights first_flights_;
   SurfaceLight surface_light_;
@@ -215,7 +219,8 @@ class PolicyBackwardWalk final : public BackwardWalk {
                      const RoundPlan& plan, std::uint64_t seed, std::uint32_t max_flights)
       : scale_(scale),
         group_(plan.backward),
-        goal_(scene, light, origins, Stream(seed, WalkDirection::backward), plan, threshold_of(scene, light, scale)),
+        goal_(scene, light, origins, Stream(seed, WalkDirection::backward), plan, threshold_of(scene, light, scale),
+              max_flights),
         kernel_(scene, Stream(seed, WalkDirection::backward), max_flights) {}
 
   void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,

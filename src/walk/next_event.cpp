@@ -18,9 +18,10 @@ template <class Policy>
 class NextEventGoal : public GoalBase {
  public:
   NextEventGoal(const Room& room, const Scene& scene, const DirectLight& light, const Stream& stream,
-                const RoundPlan& plan, const ReceiverReach* reach)
+                const RoundPlan& plan, const ReceiverReach* reach, std::uint32_t max_flights)
       : scene_(&scene),
         stream_(stream),
+        max_flights_(max_flights),
         reach_(reach),
         words_(stream, plan.forward),
         first_impact_(room, *scene.tracer, light),
@@ -90,7 +91,9 @@ class NextEventGoal : public GoalBase {
       score_last(wave.photon[at[k]], 1.0 / (1.0 - scene_->reflectance_of[wave.surface[at[k]]]));
   }
 
+  // From the impact at the end of the last flight that is allowed, another flight leads to the receiver.
   void reflect(const Wave& wave, std::uint32_t flight) {
+    if (flight == max_flights_) return;
     for (std::size_t i = 0; i < wave.rays.size; ++i) {
       Impact impact = impact_of(wave, i);
       if (receivers_->has_cells()) place_in_cells(wave.photon[i], flight, impact);
@@ -157,6 +160,7 @@ class NextEventGoal : public GoalBase {
 
   const Scene* scene_;
   Stream stream_;
+  std::uint32_t max_flights_;  // of a path from an emitter to a receiver; 0: no limit
   const ReceiverReach* reach_;
   QuasiRandomWords words_;
   FirstImpact first_impact_;
@@ -181,7 +185,9 @@ class PolicyNextEvent final : public NextEvent {
  public:
   PolicyNextEvent(const Room& room, const Scene& scene, const DirectLight& light, std::uint64_t seed,
                   const RoundPlan& plan, const ReceiverReach* reach, std::uint32_t max_flights)
-      : plan_(plan), goal_(room, scene, light, Stream(seed), plan, reach), kernel_(scene, Stream(seed), max_flights) {}
+      : plan_(plan),
+        goal_(room, scene, light, Stream(seed), plan, reach, max_flights),
+        kernel_(scene, Stream(seed), max_flights) {}
 
   std::uint32_t rounds_at_a_time() const override { return batch_histories / plan_.forward; }
 

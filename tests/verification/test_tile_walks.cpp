@@ -221,3 +221,43 @@ TEST_CASE("tiles: a target error ends both walks, and impossible settings are re
   with_receiver.receivers.push_back({"here", {0.5, 0.0, 0.5}, {0, 1, 0}, 90.0, 1.0});
   CHECK_THROWS_WITH(simulate(with_receiver, settings), ContainsSubstring("--tiles backward"));
 }
+
+// The smallest bias that would fail is 0.8 % of every tile; one flight more or less changes all tiles by 7 % and more.
+TEST_CASE("tiles: with a limited number of flights walks from the tiles find as much light as photons") {
+  Room lamp = unit_cube(0.6, paper_emitter());
+  Room luminous_ceiling = unit_cube(0.6, surface_emitter(1, 1.0));
+  for (const Room& room : {lamp, luminous_ceiling}) {
+    for (const std::uint32_t flights : {1U, 2U, 3U, 5U}) {
+      Settings forward = settings_of(Estimator::weight, Engine::automatic, 2e6, 21, 0.25);
+      forward.max_bounces = flights;
+      Settings backward = from_tiles(Estimator::weight, Engine::automatic, 4e5, 22, 0.25);
+      backward.max_bounces = flights;
+      const Result photons = simulate(room, forward);
+      const std::string what = std::to_string(flights) + " flights";
+      check(what, compare(well_counted(photons, simulate(room, backward))));
+      // Mutation: one flight more.
+      backward.max_bounces = flights + 1;
+      CHECK_FALSE(compare(well_counted(photons, simulate(room, backward))).agrees);
+    }
+  }
+}
+
+TEST_CASE("receivers: with one flight there is direct light only, with more all walks find the same") {
+  Room room = unit_cube(0.6, paper_emitter());
+  room.receivers.push_back({"desk", {0.4, 0.3, 0.6}, {0.0, 1.0, 0.0}, 90.0, 1.0});
+  for (const std::uint32_t flights : {1U, 3U}) {
+    std::vector<ReceiverResult> found;
+    for (const ReceiverWalk walk : {ReceiverWalk::next_event, ReceiverWalk::backward, ReceiverWalk::two_way}) {
+      Settings settings = settings_of(Estimator::weight, Engine::automatic, 4e5, 31);
+      settings.measured = Measured::receivers;
+      settings.receiver_walk = walk;
+      settings.max_bounces = flights;
+      found.push_back(simulate(room, settings).receiver_results[0]);
+      if (flights == 1) CHECK(found.back().indirect == 0.0);
+    }
+    if (flights == 1) continue;
+    for (std::size_t k = 1; k < found.size(); ++k)
+      check("walk " + std::to_string(k),
+            compare({{found[k].indirect, found[k].standard_error, found[0].indirect, found[0].standard_error}}));
+  }
+}
