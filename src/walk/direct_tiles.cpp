@@ -35,15 +35,19 @@ class Part {
   LightOnFace& light() const { return *light_; }
   double exponent() const { return exponent_; }
 
-  // Takes samples in 2^doublings strata in place of those before, whose random words are others.
+  // Takes samples in 2^doublings strata, in addition to those before, whose random words are others.
   void sample(std::uint32_t doublings, const FaceTriangles& face, const Stream& stream, const Tracer& tracer,
               TraceCount& count);
+  void forget_samples() { levels_.clear(); }
   std::uint32_t doublings() const { return doublings_; }
-  double samples() const { return static_cast<double>(sums_.points); }
+  double samples() const { return std::exp2(doublings_ + 1.0); }
 
   // If the light without shadows is known, samples tell what shadows take away, relative to this fraction of it that is
   // visible by the samples so far; those that follow are unbiased for any fraction.
-  void fix_factor() { factor_ = light_->unshadowed() && sums_.w > 0.0 ? sums_.v / sums_.w : 0.0; }
+  void fix_factor() {
+    const PairSums& first = levels_.front();
+    factor_ = light_->unshadowed() && first.w > 0.0 ? first.v / first.w : 0.0;
+  }
   // Nothing casts a shadow: the light without shadows is all.
   void set_exact() {
     exact_ = true;
@@ -51,25 +55,39 @@ class Part {
   }
   bool is_exact() const { return exact_; }
 
-  double value() const {
-    const double known = factor_ * light_->unshadowed().value_or(0.0);
-    return exact_ ? known : known + sums_.mean(factor_);
-  }
-  double variance() const { return exact_ ? 0.0 : sums_.variance(factor_); }
+  double value() const { return factor_ * light_->unshadowed().value_or(0.0) + of_samples().first; }
+  double variance() const { return of_samples().second; }
+  double error_of_rules() const { return factor_ * light_->error_of_unshadowed(); }
   double unshadowed() const {
     if (const auto known = light_->unshadowed()) return *known;
-    return sums_.mean_w();
+    return levels_.front().mean_w();
   }
-  bool all_visible() const { return sums_.v == sums_.w; }
+  bool all_visible() const { return levels_.front().v == levels_.front().w; }
 
  private:
+  // Mean and variance. Each level is an independent estimate with a weight proportional to the reciprocal of its likely
+  // variance.
+  std::pair<double, double> of_samples() const {
+    double weights = 0.0;
+    double mean = 0.0;
+    double variance = 0.0;
+    for (const PairSums& level : levels_) {
+      const double weight = std::pow(static_cast<double>(level.points), exponent_);
+      weights += weight;
+      mean += weight * level.mean(factor_);
+      variance += weight * weight * level.variance(factor_);
+    }
+    if (levels_.empty()) return {0.0, 0.0};
+    return {mean / weights, variance / (weights * weights)};
+  }
+
   std::unique_ptr<LightOnFace> light_;
   std::uint64_t number_;
   double exponent_;
   double factor_ = 0.0;
-  PairSums sums_;                // v: of the light that arrives, w: of all without shadows
-  std::uint32_t doublings_ = 0;  // of these
-  std::uint32_t drawn_ = 0;      // of these and those before
+  std::vector<PairSums> levels_;  // v: of the light that arrives, w: of all without shadows
+  std::uint32_t doublings_ = 0;   // of the last of them
+  std::uint32_t drawn_ = 0;       // of all, and of those that are forgotten
   bool exact_ = false;
 };
 
@@ -117,7 +135,7 @@ void Part::sample(std::uint32_t doublings, const FaceTriangles& face, const Stre
     }
     for (std::uint32_t k = 0; k < boxes; ++k) sums.add(visible[k], all[k]);
   }
-  sums_ = sums;
+  levels_.push_back(sums);
 }
 
 }  // namespace
@@ -140,7 +158,8 @@ class DirectTiles::Sum {
   }
 
   // The first samples determine how many are needed, and are not used otherwise: so neither the mean nor its error is
-  // biased by the choice.
+  // biased by the choice. If they have missed what most of the variance comes from, such as a small patch of light,
+  // more follow.
   DirectIrradiance compute() {
     for (Part& part : parts_) {
       if (part.is_exact()) continue;
@@ -149,9 +168,17 @@ class DirectTiles::Sum {
     }
     std::erase_if(parts_, [](const Part& part) { return !(part.unshadowed() > 0.0); });
     for (Part& part : parts_) integrate_if_cheaper(part);
-    const std::vector<std::uint32_t> needed = needed_doublings();
+    std::vector<std::uint32_t> needed = needed_doublings();
     for (std::size_t k = 0; k < parts_.size(); ++k) {
-      if (!parts_[k].is_exact()) sample(parts_[k], needed[k]);
+      if (parts_[k].is_exact()) continue;
+      parts_[k].forget_samples();
+      sample(parts_[k], needed[k]);
+    }
+    constexpr double far_above = 2.0;
+    if (total().standard_error <= far_above * allowed()) return total();
+    needed = needed_doublings();
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      if (needed[k] > parts_[k].doublings()) sample(parts_[k], needed[k]);
     }
     return total();
   }
@@ -165,7 +192,7 @@ class DirectTiles::Sum {
     DirectIrradiance sum = apart_;
     double variance = sum.standard_error * sum.standard_error;
     for (const Part& part : parts_) {
-      const double of_rules = part.light().error_of_unshadowed();
+      const double of_rules = part.error_of_rules();
       sum.value += part.value();
       variance += part.variance() + of_rules * of_rules;
     }
@@ -229,6 +256,7 @@ class DirectTiles::Sum {
   // tile between them contributes no more than is allowed.
   std::uint32_t least_doublings_of(const Part& part) const {
     constexpr double most = 256.0;
+    if (part.is_exact()) return 0;
     if (!tiles_.tracer_->casts_shadows()) return least_doublings;
     const double samples = std::min(most, part.unshadowed() / allowed());
     return std::max(least_doublings, static_cast<std::uint32_t>(std::ceil(std::log2(std::max(1.0, 0.5 * samples)))));
