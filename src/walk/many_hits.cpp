@@ -8,21 +8,16 @@
 namespace lichtmc {
 
 ManyHits::ManyHits(std::size_t tiles, std::size_t tile_maps)
-    : tiles_(tiles), touched_(tiles + 1), tile_map_scores_(tile_maps), closed_(tile_maps) {}
+    : tiles_(tiles), tile_map_scores_(tile_maps), closed_(tile_maps) {}
 
 const std::vector<std::uint64_t>& ManyHits::close_batch(std::uint32_t n, Totals& totals) {
-  const std::uint32_t most_counted = n == batch_histories ? 2 : 0;
-  for (std::size_t k = 0; k < touched_count_; ++k) {
-    std::uint32_t& at = tiles_[touched_[k]];
-    const std::uint32_t hits = at & most_hits;
-    if (hits > most_counted) {
-      settle(touched_[k], hits, n, totals);
-      continue;
-    }
-    at += (hits == 1 ? once : twice) - hits;
-    if ((at & most_once) == most_once || at >= most_twice) settle(touched_[k], 0, n, totals);
+  if (n == batch_histories && batch_ != batch_mask) {
+    batch_ += batch_unit;
+  } else {
+    // Only hits of full batches may be added later, and no number is used twice.
+    settle_all(n, totals);
+    batch_ = batch_unit;
   }
-  touched_count_ = 0;
   std::swap(tile_map_scores_, closed_);
   std::fill(tile_map_scores_.begin(), tile_map_scores_.end(), 0);
   return closed_;
@@ -50,36 +45,51 @@ void ManyHits::score_tile_maps(const std::uint32_t* tile_maps, std::size_t n) {
   }
 }
 
-// Adds the hits of a batch of n histories, and the batches counted before, to the totals.
-void ManyHits::settle(std::uint32_t tile, std::uint64_t hits, std::uint32_t n, Totals& totals) {
-  if (hits != 0) totals.tiles[tile].add(hits + take_carried(tile), n);
-  add_counted(tile, totals);
-  tiles_[tile] = 0;
+void ManyHits::add(std::uint32_t at, std::uint32_t tile, std::uint32_t n, Totals& totals) const {
+  Moments& sums = totals.tiles[tile];
+  const std::uint32_t hits = hits_of(at);
+  if (n != batch_histories) {  // its last batch was counted as full
+    if (hits == 1) at -= once;
+    if (hits == 2) at -= twice;
+  }
+  sums.add_full_batches((at & once_mask) / once, 1);
+  sums.add_full_batches(at / twice, 2);
+  if (hits > 2 || (n != batch_histories && hits > 0)) sums.add(hits + carried(tile), n);
 }
 
-void ManyHits::add_counted(std::uint32_t tile, Totals& totals) const {
-  totals.tiles[tile].add_full_batches((tiles_[tile] & most_once) / once, 1);
-  totals.tiles[tile].add_full_batches(tiles_[tile] / twice, 2);
+void ManyHits::settle(std::uint32_t at, std::uint32_t tile, std::uint32_t n, Totals& totals) {
+  add(at, tile, n, totals);
+  if (!carried_.empty()) std::erase_if(carried_, [tile](const Carried& one) { return one.tile == tile; });
+}
+
+// Of the batch being simulated there are n histories; all others are full.
+void ManyHits::settle_all(std::uint32_t n, Totals& totals) {
+  for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile) {
+    std::uint32_t& at = tiles_[tile];
+    if (at == 0) continue;
+    settle(at, tile, (at & batch_mask) == batch_ ? n : batch_histories, totals);
+    at = 0;
+  }
 }
 
 void ManyHits::carry(std::uint32_t tile) {
+  constexpr std::uint32_t left = no_hit + 3;  // as many as show that they are several
   auto carried = std::find_if(carried_.begin(), carried_.end(), [tile](const Carried& c) { return c.tile == tile; });
   if (carried == carried_.end()) carried = carried_.insert(carried_.end(), {tile, 0});
-  carried->hits += most_hits - 1;
-  tiles_[tile] -= most_hits - 1;
+  carried->hits += hits_mask - left;
+  tiles_[tile] -= hits_mask - left;
 }
 
-std::uint64_t ManyHits::take_carried(std::uint32_t tile) {
-  const auto carried =
+std::uint64_t ManyHits::carried(std::uint32_t tile) const {
+  const auto found =
       std::find_if(carried_.begin(), carried_.end(), [tile](const Carried& c) { return c.tile == tile; });
-  if (carried == carried_.end()) return 0;
-  const std::uint64_t hits = carried->hits;
-  carried_.erase(carried);
-  return hits;
+  return found == carried_.end() ? 0 : found->hits;
 }
 
 void ManyHits::add_to(Totals& totals) const {
-  for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile) add_counted(tile, totals);
+  for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile) {
+    if (tiles_[tile] != 0) add(tiles_[tile], tile, batch_histories, totals);
+  }
 }
 
 }  // namespace lichtmc

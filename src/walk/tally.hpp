@@ -32,7 +32,7 @@ class Tally {
     if (auto* few = std::get_if<FewTiles>(&batch_)) {
       few->score_each(tiles, n);
     } else {
-      std::get<ManyHits>(batch_).score_each(tiles, tile_maps, n);
+      std::get<ManyHits>(batch_).score_each(tiles, tile_maps, n, totals_);
     }
   }
   // units[i] (> 0) for impact i, if hits are counted separately.

@@ -133,6 +133,17 @@ TEST_CASE("a tile is hit in more batches than a byte can count") {
   check_same(tallied(batches, first_tile, Hits::are_the_score), defined(batches, first_tile, Hits::are_the_score));
 }
 
+TEST_CASE("tiles are hit in more batches than a tile's number of its last batch can distinguish") {
+  const auto first_tile = three_maps(4200);
+  std::vector<Batch> batches(9000);
+  for (std::uint32_t b = 0; b < batches.size(); ++b) {
+    const std::uint32_t tile = b % 4095;  // again when the numbers begin anew
+    batches[b].impacts.assign(1 + b % 5, {tile, 1});
+    if (b == 4096 || b == 6000) batches[b].histories = 7;
+  }
+  check_same(tallied(batches, first_tile, Hits::are_the_score), defined(batches, first_tile, Hits::are_the_score));
+}
+
 TEST_CASE("scores are added even if the sum of their squares exceeds 64 bits") {
   const auto first_tile = three_maps(6);
   std::vector<Batch> batches(40);
