@@ -22,8 +22,9 @@ class ManyHits {
 
   // A hit for each of n impacts.
   void score_each(const std::uint32_t* tiles, const std::uint32_t* tile_maps, std::size_t n, Totals& totals) {
+    constexpr std::size_t ahead = 8;  // measured; 16 and 32 are 1 to 4 % slower
     for (std::size_t i = 0; i < n; ++i) {
-      __builtin_prefetch(&tiles_[tiles[i + 16 < n ? i + 16 : n - 1]], 1);
+      __builtin_prefetch(&tiles_[tiles[i + ahead < n ? i + ahead : n - 1]], 1);
       std::uint32_t& tile = tiles_[tiles[i]];
       const std::uint32_t at = tile;
       if ((at & batch_mask) == batch_) {
