@@ -1,13 +1,16 @@
 #include "run_job.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <memory>
 #include <span>
 #include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "interrupt.hpp"
@@ -125,6 +128,30 @@ void write_all(RunJob& job, Result& result, const std::vector<std::string>& prin
   if (!job.quiet) print_outcome(result, job.folder, job.with_report, job.files.tile_images);
 }
 
+std::string gigabytes(double bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g GB", bytes / 1e9);
+  return text;
+}
+
+// Before anything is prepared: a run that gets no more memory is ended by the system, without a message.
+void tell_memory(const RunJob& job) {
+  const unsigned threads =
+      job.report.threads > 0 ? job.report.threads : std::max(1U, std::thread::hardware_concurrency());
+  const MemoryForecast memory = forecast_memory(job.room, job.settings.tile_edge_m, threads);
+  const std::string needs = "he run needs about " + gigabytes(memory.needed) + " of memory";
+  constexpr double large = 1e9;
+  if (memory.needed > memory.available) {
+    std::cerr
+        << "Warning: T" << needs << ", but only " << gigabytes(memory.available)
+        << " are free: the system may end it. Give --tile a greater length, use meshes of fewer triangles, or end "
+           "other programs.\n";
+  } else if (memory.needed > large && !job.quiet) {
+    std::cerr << "Note: t" << needs
+              << (std::isfinite(memory.available) ? "; " + gigabytes(memory.available) + " are free" : "") << ".\n";
+  }
+}
+
 // What the user should know before the simulation.
 void print_notes(const RunJob& job) {
   if (!job.lock->supported())
@@ -150,6 +177,7 @@ void carry_out_run(RunJob& job, const std::function<Result(const Control&)>& sim
     const ReleaseAtEnd release(job.lock);
     hold_folder(job);
     print_notes(job);
+    tell_memory(job);
     StepLine line(show);
     const auto prepared = prepare(job.room, job.report.threads, [&line](std::string_view step) { line.update(step); });
     const double edge_m = job.settings.tile_edge_m;

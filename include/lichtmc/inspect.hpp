@@ -107,7 +107,7 @@ struct Inspection {
   std::vector<EmitterFacts> emitters;  // those with at least 64 of the 32 768 photons; empty without own emitters
 
   std::uint64_t tiles = 0;       // 0 if they need more memory than there is: a fault
-  double memory_bytes = 0.0;     // estimate for the tiles of a run with two threads
+  double memory_bytes = 0.0;     // estimate for a run with two threads and its report, see memory_needed()
   double suggested_scale = 1.0;  // factor on ReadOptions::scale; 1 if the size is plausible
   bool probably_z_up = false;    // the vertical axis of the file is probably Z
 

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "base/memory.hpp"
 #include "base/message.hpp"
 #include "inspect/finding_text.hpp"
 
@@ -26,12 +27,18 @@ void find_texture_coordinates(const Room& /*room*/, Inspection& facts) {
 void find_tiles(const Room& /*room*/, Inspection& facts) {
   if (facts.tiles == 0) return;
   constexpr double large = 2e9;
-  add(facts, facts.memory_bytes > large ? Severity::warning : Severity::note, "tiles",
-      to_text(static_cast<std::size_t>(facts.tiles), "tile") + ", about " + short_number(facts.memory_bytes / 1e6) +
-          " MB of memory for a run of two threads.",
-      facts.memory_bytes > large
-          ? "Give --tile a greater length. Each thread beyond two (--threads) needs up to a quarter more."
-          : "Nothing to do; --tile changes the edge of a tile.");
+  const double available = memory_available();
+  const bool too_much = facts.memory_bytes > available;
+  const bool warn = too_much || facts.memory_bytes > large;
+  std::string text = to_text(static_cast<std::size_t>(facts.tiles), "tile") + ", " +
+                     to_text(facts.triangles, "triangle") + ": about " + short_number(facts.memory_bytes / 1e6) +
+                     " MB of memory for a run of two threads with its report";
+  if (too_much) text += "; only " + short_number(available / 1e6) + " MB are free";
+  add(facts, warn ? Severity::warning : Severity::note, "tiles", text + ".",
+      warn ? "Give --tile a greater length, or a mesh of fewer triangles. Each thread beyond two (--threads) needs up "
+             "to "
+             "a quarter more for the tiles."
+           : "Nothing to do; --tile changes the edge of a tile.");
 }
 
 }  // namespace lichtmc

@@ -58,7 +58,7 @@ void inspect_surfaces(const Room& room, Inspection& facts) {
   }
 }
 
-void inspect_tiles(const Tiling& tiling, double tile_edge_m, Inspection& facts) {
+void inspect_tiles(const Room& room, const Tiling& tiling, double tile_edge_m, Inspection& facts) {
   for (const TileMap& map : tiling.maps) {
     SurfaceFacts& surface = facts.surfaces[map.surface];
     surface.chart = map.chart;
@@ -70,7 +70,7 @@ void inspect_tiles(const Tiling& tiling, double tile_edge_m, Inspection& facts) 
   }
   for (const Tile& tile : tiling.tiles) ++facts.surfaces[tiling.maps[tile.map].surface].tiles;
   facts.tiles = tiling.tiles.size();
-  facts.memory_bytes = memory_needed(tiling);
+  facts.memory_bytes = memory_needed(room, tiling);
 }
 
 // The tiles with this edge, and what there is to say of them. If they need too much memory, adds a fault, says nothing
@@ -78,7 +78,7 @@ void inspect_tiles(const Tiling& tiling, double tile_edge_m, Inspection& facts) 
 Tiling tiling_within_memory(PreparedRoom& prepared, double tile_edge_m, Inspection& facts) {
   try {
     Tiling tiling = prepared.take_tiling(tile_edge_m);
-    inspect_tiles(tiling, tile_edge_m, facts);
+    inspect_tiles(prepared.room(), tiling, tile_edge_m, facts);
     return tiling;
   } catch (const InputError& fault) {
     if (!(tile_edge_m > 0.0) || !std::isfinite(tile_edge_m)) throw;
@@ -181,7 +181,7 @@ Inspection inspect_with(const Room& room, const Tiling* tiling, double tile_edge
     made = tiling_within_memory(*prepared, tile_edge_m, facts);
     tiling = &*made;
   } else {
-    inspect_tiles(*tiling, tile_edge_m, facts);
+    inspect_tiles(room, *tiling, tile_edge_m, facts);
   }
   trace_rays(room, *tiling, own_emitters, prepared, facts);
   add_findings(room, prepared->enclosure(), facts);

@@ -1,9 +1,14 @@
 #include "output/tables.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
 
 #include "base/csv.hpp"
 #include "base/message.hpp"
+#include "base/parallel.hpp"
 
 namespace lichtmc {
 
@@ -44,16 +49,27 @@ void write_tiles_csv(const Result& result, const Sink& sink) {
   const std::string unit(irradiance_unit(result.quantity));
   std::vector<std::string> names;
   for (const TileMap& map : result.tiling.maps) names.push_back(csv_field(map.name));
-  for (std::size_t i = 0; i < result.tiles.size(); ++i) {
+  const auto row = [&](std::size_t i, std::string& rows) {
     const Tile& tile = result.tiling.tiles[i];
     const TileResult& figures = result.tiles[i];
-    append_row(table, std::to_string(i), names[tile.map], std::to_string(tile.column), std::to_string(tile.row),
+    append_row(rows, std::to_string(i), names[tile.map], std::to_string(tile.column), std::to_string(tile.row),
                to_text(tile.point.x), to_text(tile.point.y), to_text(tile.point.z), to_text(tile.area_m2),
                to_text(figures.power), to_text(figures.irradiance), to_text(figures.standard_error),
                std::to_string(figures.hits), unit_and_parts(unit, figures.irradiance, figures.direct));
-    flush(table, sink);
+  };
+  flush(table, sink);
+  // Blocks of rows are made on all threads of the run, some at a time, and written in order.
+  constexpr std::size_t rows_of_block = 8192;
+  const unsigned threads = std::max(1U, result.threads);
+  std::vector<std::string> blocks(std::size_t{2} * threads);
+  for (std::size_t first = 0; first < result.tiles.size(); first += blocks.size() * rows_of_block) {
+    for_each_on_threads(threads, blocks.size(), [&](std::size_t k) {
+      blocks[k].clear();
+      const std::size_t end = std::min(result.tiles.size(), first + (k + 1) * rows_of_block);
+      for (std::size_t i = first + k * rows_of_block; i < end; ++i) row(i, blocks[k]);
+    });
+    for (const std::string& block : blocks) sink(block);
   }
-  sink(table);
 }
 
 void write_receivers_csv(const Result& result, const Sink& sink) {

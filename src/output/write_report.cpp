@@ -2,12 +2,12 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <future>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/atomic_file.hpp"
+#include "base/parallel.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/lit_room.hpp"
 #include "lichtmc/output.hpp"
@@ -95,18 +95,16 @@ class ReportWriter {
     content_.plans = std::move(plans.plans);
     content_.without_plan = std::move(plans.left_out);
     const std::vector<std::string> names = plan_names(*result_, content_.plans);
-    // Encoding takes longer than drawing: one thread per plan, at most 12.
-    std::vector<std::future<Drawn>> drawings;
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      drawings.push_back(std::async(std::launch::async, [this, &names, k] {
-        const SurfacePlan& plan = content_.plans[k];
-        Drawn drawn{names[k], &plan.picture, png_of(plan.picture), {}};
-        drawn.svg = plan_svg(*result_, plan, drawn.png, content_.scale, names[k]);
-        return drawn;
-      }));
-    }
-    for (std::future<Drawn>& drawing : drawings) {
-      all.push_back(drawing.get());
+    // Encoding takes longer than drawing.
+    std::vector<Drawn> drawings(names.size());
+    for_each_on_threads(options_->threads > 0 ? options_->threads : usable_processors(), names.size(),
+                        [&](std::size_t k) {
+                          const SurfacePlan& plan = content_.plans[k];
+                          drawings[k] = {names[k], &plan.picture, png_of(plan.picture), {}};
+                          drawings[k].svg = plan_svg(*result_, plan, drawings[k].png, content_.scale, names[k]);
+                        });
+    for (Drawn& drawing : drawings) {
+      all.push_back(std::move(drawing));
       content_.plan_pictures.push_back(all.back().svg);
     }
     const std::vector<PhotonPath> paths = trace();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -8,6 +9,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/message.hpp"
+#include "base/parallel.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/output.hpp"
 #include "output/folder.hpp"
@@ -36,6 +38,17 @@ std::error_code try_to_write(const fs::path& folder) {
   return fault ? fault : removal;
 }
 
+// Images are made on all threads of the run, as many at a time, and written in order.
+void write_images(const Result& result, const std::vector<std::string>& names, StagedFiles& staged) {
+  const unsigned threads = std::max(1U, result.threads);
+  std::vector<std::string> images(threads);
+  for (std::size_t first = 0; first < names.size(); first += images.size()) {
+    const std::size_t count = std::min(images.size(), names.size() - first);
+    for_each_on_threads(threads, count, [&](std::size_t k) { images[k] = tile_image(result, first + k); });
+    for (std::size_t k = 0; k < count; ++k) staged.write(fs::path("tiles") / names[first + k], images[k]);
+  }
+}
+
 }  // namespace
 
 FolderLock prepare_output(const fs::path& folder) {
@@ -61,7 +74,7 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
   if (!result.tiles.empty() && files.tile_images) {
     const std::vector<std::string> names = tile_image_names(result.tiling);
     images.insert(names.begin(), names.end());
-    for (std::size_t m = 0; m < names.size(); ++m) staged.write(fs::path("tiles") / names[m], tile_image(result, m));
+    write_images(result, names, staged);
   }
   if (!result.tiles.empty()) {
     staged.write("tiles.csv", [&](const Sink& sink) { write_tiles_csv(result, sink); });

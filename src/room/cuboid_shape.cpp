@@ -24,11 +24,12 @@ struct Corners {
   glm::dvec3 cross{0.0};  // normal times twice the area
 };
 
+// Ends when there are too many.
 std::vector<Corners> solid_triangles(const Room& room) {
   std::vector<Corners> all;
   for (std::size_t k = 0; k < room.surfaces.size(); ++k) {
     const Surface& surface = room.surfaces[k];
-    for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
+    for (std::size_t n = 0; n < surface.triangles.size() && all.size() <= most_triangles; ++n) {
       const glm::uvec3 t = surface.triangles[n];
       Corners corners{k, n, {surface.positions[t.x], surface.positions[t.y], surface.positions[t.z]}, {}};
       corners.cross = glm::cross(corners.position[1] - corners.position[0], corners.position[2] - corners.position[0]);

@@ -246,10 +246,38 @@ void add_back(Tiling& tiling, std::size_t first_tile) {
 
 }  // namespace
 
-double memory_needed(const Tiling& tiling) {
+namespace {
+
+double memory_for(const Room& room, double cells, unsigned threads) {
+  // Measured as a whole: program, Embree and pictures; positions, facets, tree, charts and the search for faces in one
+  // plane for each triangle.
+  constexpr double bytes_of_program = 70e6;
+  constexpr double bytes_per_triangle = 480.0;
+  constexpr double of_a_thread = 0.25;  // of the memory for cells: a tally
+  double triangles = 0.0;
+  for (const Surface& surface : room.surfaces) triangles += static_cast<double>(surface.triangles.size());
+  const double more_threads = threads > 2 ? threads - 2.0 : 0.0;
+  return bytes_of_program + bytes_per_triangle * triangles +
+         bytes_per_cell * cells * (1.0 + of_a_thread * more_threads);
+}
+
+}  // namespace
+
+double memory_needed(const Room& room, const Tiling& tiling, unsigned threads) {
   double cells = 0.0;
   for (const TileMap& tile_map : tiling.maps) cells += static_cast<double>(tile_map.tile_of_cell.size());
-  return bytes_per_cell * cells;
+  return memory_for(room, cells, threads);
+}
+
+MemoryForecast forecast_memory(const Room& room, double edge_m, unsigned threads) {
+  constexpr double cells_over_area = 1.2;  // of charts, on average (docs/rooms.md)
+  double cells = 0.0;
+  for (const Surface& surface : room.surfaces) {
+    const double sides = surface.sides == Sides::both ? 2.0 : 1.0;
+    cells +=
+        sides * (surface.measured ? std::max(1.0, cells_over_area * surface_area(surface) / (edge_m * edge_m)) : 1.0);
+  }
+  return {memory_for(room, cells, threads), memory_used() + memory_available()};
 }
 
 Tiling make_tiling(const Room& room, double edge_m, unsigned threads) {

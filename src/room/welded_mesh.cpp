@@ -80,7 +80,8 @@ bool has_three_corners(const WeldedMesh::Triangle& t) {
 }
 
 // Keeps one of several triangles with the same corners; the others get three equal corners.
-std::vector<std::size_t> drop_copies(std::vector<WeldedMesh::Triangle>& triangles, std::size_t places) {
+std::vector<std::size_t> drop_copies(std::vector<WeldedMesh::Triangle>& triangles, std::size_t places,
+                                     unsigned threads) {
   std::vector<std::pair<WeldedMesh::Triangle, std::size_t>> order;
   order.reserve(triangles.size());
   for (std::size_t n = 0; n < triangles.size(); ++n) {
@@ -89,7 +90,7 @@ std::vector<std::size_t> drop_copies(std::vector<WeldedMesh::Triangle>& triangle
     std::sort(order.back().first.begin(), order.back().first.end());
   }
   sort_in_groups(
-      order, places, [](const auto& one) { return one.first[0]; }, std::less<>());
+      order, places, [](const auto& one) { return one.first[0]; }, std::less<>(), threads);
   std::vector<std::size_t> copies;
   for (std::size_t i = 1; i < order.size(); ++i) {
     if (order[i].first != order[i - 1].first) continue;
@@ -100,7 +101,8 @@ std::vector<std::size_t> drop_copies(std::vector<WeldedMesh::Triangle>& triangle
   return copies;
 }
 
-std::vector<WeldedEdge> sorted_edges(const std::vector<WeldedMesh::Triangle>& triangles, std::size_t places) {
+std::vector<WeldedEdge> sorted_edges(const std::vector<WeldedMesh::Triangle>& triangles, std::size_t places,
+                                     unsigned threads) {
   std::vector<WeldedEdge> edges;
   edges.reserve(3 * triangles.size());
   for (std::size_t n = 0; n < triangles.size(); ++n) {
@@ -113,13 +115,14 @@ std::vector<WeldedEdge> sorted_edges(const std::vector<WeldedMesh::Triangle>& tr
       edges, places, [](const WeldedEdge& edge) { return edge.from; },
       [](const WeldedEdge& a, const WeldedEdge& b) {
         return std::pair(a.to, a.triangle) < std::pair(b.to, b.triangle);
-      });
+      },
+      threads);
   return edges;
 }
 
 }  // namespace
 
-WeldedMesh::WeldedMesh(const Room& room) : room_(&room) {
+WeldedMesh::WeldedMesh(const Room& room, unsigned threads) : room_(&room) {
   std::size_t count = 0;
   for (const Surface& surface : room.surfaces) {
     first_.push_back(count);
@@ -149,8 +152,8 @@ WeldedMesh::WeldedMesh(const Room& room) : room_(&room) {
       ++n;
     }
   }
-  copies_ = drop_copies(triangles_, places_.size());
-  edges_ = sorted_edges(triangles_, places_.size());
+  copies_ = drop_copies(triangles_, places_.size(), threads);
+  edges_ = sorted_edges(triangles_, places_.size(), threads);
 }
 
 WeldedMesh::Corners WeldedMesh::corners(std::size_t triangle) const {

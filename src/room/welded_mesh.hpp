@@ -29,8 +29,8 @@ class WeldedMesh {
   using Triangle = std::array<std::uint32_t, 3>;  // numbers of its corners' positions
   using Corners = std::array<glm::dvec3, 3>;      // m
 
-  // The room must outlive the mesh.
-  explicit WeldedMesh(const Room& room);
+  // The room must outlive the mesh. The work is done on up to `threads` (≥ 1) threads where it can be divided.
+  explicit WeldedMesh(const Room& room, unsigned threads = 1);
   explicit WeldedMesh(Room&& room) = delete;
 
   const Room& room() const { return *room_; }

@@ -35,7 +35,7 @@ const std::shared_ptr<const FacesInOnePlane>& PreparedRoom::planes() {
 void PreparedRoom::weld() {
   std::call_once(mesh_once_, [this] {
     announce("Joining the meshes");
-    const WeldedMesh mesh(*room_);
+    const WeldedMesh mesh(*room_, threads_);
     constexpr std::size_t places = 5;
     mesh_.duplicates = mesh.copies().size();
     for_each_edge(mesh.edges(), [&](std::size_t first, std::size_t end) {

@@ -2,6 +2,8 @@
 // vector register, one instruction looks them up for all lanes; this is written with Highway.
 #include "walk/cell_finder.hpp"
 
+#include "base/parallel.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "walk/cell_finder.cpp"
 #include <hwy/foreach_target.h>
@@ -112,16 +114,25 @@ LICHTMC_LANES void find_many(std::size_t n, const CellFinder::Row* LICHTMC_APART
 
 }  // namespace
 
-CellFinder::CellFinder(const std::vector<Facet>& facets, const std::vector<SurfaceGrid>& grids) {
+CellFinder::CellFinder(const std::vector<Facet>& facets, const std::vector<SurfaceGrid>& grids, unsigned threads)
+    : rows_(facets.size()) {
   for (const SurfaceGrid& grid : grids) {
     grids_.push_back({static_cast<std::int32_t>(grid.columns - 1), static_cast<std::int32_t>(grid.rows - 1),
                       static_cast<std::int32_t>(grid.columns), static_cast<std::int32_t>(grid.first_cell)});
   }
-  for (const Facet& facet : facets) {
-    rows_.push_back({static_cast<float>(facet.cell_0.x), static_cast<float>(facet.cell_s.x),
-                     static_cast<float>(facet.cell_t.x), static_cast<float>(facet.cell_0.y),
-                     static_cast<float>(facet.cell_s.y), static_cast<float>(facet.cell_t.y), facet.surface});
-  }
+  constexpr std::size_t at_a_time = 65536;
+  for_each_range(threads, facets.size(), at_a_time, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      const Facet& facet = facets[k];
+      rows_[k] = {static_cast<float>(facet.cell_0.x),
+                  static_cast<float>(facet.cell_s.x),
+                  static_cast<float>(facet.cell_t.x),
+                  static_cast<float>(facet.cell_0.y),
+                  static_cast<float>(facet.cell_s.y),
+                  static_cast<float>(facet.cell_t.y),
+                  facet.surface};
+    }
+  });
   for (std::size_t k = 0; k < rows_.size() && k < most_lanes; ++k) {
     const Row& row = rows_[k];
     const Grid& grid = grids_[row.surface];

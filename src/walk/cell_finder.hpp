@@ -20,7 +20,8 @@ struct SurfaceGrid {
 
 class CellFinder {
  public:
-  CellFinder(const std::vector<Facet>& facets, const std::vector<SurfaceGrid>& grids);
+  // On up to `threads` (≥ 1) threads.
+  CellFinder(const std::vector<Facet>& facets, const std::vector<SurfaceGrid>& grids, unsigned threads = 1);
 
   // The cells that n points lie in, and their surfaces. A point that rounding moves outside the grid belongs to its
   // outermost cells. All arrays have whole_lanes(n) elements; all elements of `facet` are valid.

@@ -135,8 +135,10 @@ void Scene::set_tiles(const Tiling& tiling) {
     const std::vector<std::uint32_t> filled = nearest_tiles(map);
     tile_of_cell.insert(tile_of_cell.end(), filled.begin(), filled.end());
   }
+  surface_of.reserve(tracer->facets().size());
   for (const Facet& facet : tracer->facets()) surface_of.push_back(facet.surface);
-  cells = std::make_unique<CellFinder>(tracer->facets(), grids);
+  const unsigned threads = tracer->prepared() != nullptr ? tracer->prepared()->threads() : 1;
+  cells = std::make_unique<CellFinder>(tracer->facets(), grids, threads);
   cells_are_tiles = true;
   for (std::size_t cell = 0; cell < tile_of_cell.size(); ++cell)
     cells_are_tiles = cells_are_tiles && tile_of_cell[cell] == cell;
