@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include <glm/geometric.hpp>
 
@@ -21,25 +23,91 @@ namespace lichtmc {
 
 namespace {
 
-// Directions at these angles to the third axis of a frame, with uniform azimuth.
-LICHTMC_LANES void aim(std::size_t n, const float* LICHTMC_APART sine_polar, const float* LICHTMC_APART cosine_polar,
-                       const std::uint32_t* LICHTMC_APART words, const glm::mat3& frame, float* LICHTMC_APART dx,
-                       float* LICHTMC_APART dy, float* LICHTMC_APART dz) {
-  const glm::vec3 a = frame[0];
-  const glm::vec3 b = frame[1];
-  const glm::vec3 c = frame[2];
+// The first two components of directions at these angles to the third axis, with uniform azimuth.
+LICHTMC_LANES void turn(std::size_t n, const float* LICHTMC_APART sine_polar, const std::uint32_t* LICHTMC_APART words,
+                        float* LICHTMC_APART x, float* LICHTMC_APART y) {
   for (std::size_t i = 0; i < n; ++i) {
     float sine = 0.0F;
     float cosine = 0.0F;
     sine_cosine(static_cast<float>(words[i]) * 0x1p-32F, sine, cosine);
-    const float x = sine_polar[i] * cosine;
-    const float y = sine_polar[i] * sine;
-    const float z = cosine_polar[i];
-    dx[i] = x * a.x + y * b.x + z * c.x;
-    dy[i] = x * a.y + y * b.y + z * c.y;
-    dz[i] = x * a.z + y * b.z + z * c.z;
+    x[i] = sine_polar[i] * cosine;
+    y[i] = sine_polar[i] * sine;
   }
 }
+
+// Directions in a frame, in the coordinates of its axes.
+LICHTMC_LANES void rotate(std::size_t n, const float* LICHTMC_APART x, const float* LICHTMC_APART y,
+                          const float* LICHTMC_APART z, const glm::mat3& frame, float* LICHTMC_APART dx,
+                          float* LICHTMC_APART dy, float* LICHTMC_APART dz) {
+  const glm::vec3 a = frame[0];
+  const glm::vec3 b = frame[1];
+  const glm::vec3 c = frame[2];
+  for (std::size_t i = 0; i < n; ++i) {
+    dx[i] = x[i] * a.x + y[i] * b.x + z[i] * c.x;
+    dy[i] = x[i] * a.y + y[i] * b.y + z[i] * c.y;
+    dz[i] = x[i] * a.z + y[i] * b.z + z[i] * c.z;
+  }
+}
+
+// Directions of photons begin … end − 1 in the frames of their emitters, which all have this law.
+template <class Law, class Launches>
+void sample_directions(const Law& law, Launches& launches, std::uint32_t begin, std::uint32_t end) {
+  polar_angles(law, end - begin, &launches.polar[begin], &launches.sine[begin], &launches.z[begin]);
+  turn(end - begin, &launches.sine[begin], &launches.azimuth[begin], &launches.x[begin], &launches.y[begin]);
+}
+
+// Starts photons begin … end − 1, whose directions have been sampled, from one emitter.
+template <class Source, class Launches>
+void start_together(const Source& point, const Launches& launches, std::uint32_t begin, std::uint32_t end, Rays& rays) {
+  const std::size_t n = end - begin;
+  rotate(n, &launches.x[begin], &launches.y[begin], &launches.z[begin], glm::mat3(point.to_tracer), &rays.dx[begin],
+         &rays.dy[begin], &rays.dz[begin]);
+  std::fill_n(&rays.facet[begin], n, no_facet);
+  std::fill_n(&rays.x[begin], n, point.start.point.x);
+  std::fill_n(&rays.y[begin], n, point.start.point.y);
+  std::fill_n(&rays.z[begin], n, point.start.point.z);
+}
+
+// Whether the photons of two emitters can be sampled together: equal laws that are sampled in lanes, and none of them
+// touches a surface.
+template <class Source>
+bool go_together(const Source& a, const Source& b) {
+  if (!a.start.steps.empty() || !b.start.steps.empty()) return false;
+  return std::visit(
+      [](const auto& law, const auto& other) {
+        using Law = std::decay_t<decltype(law)>;
+        if constexpr (LaneLaw<Law> && std::is_same_v<Law, std::decay_t<decltype(other)>>) {
+          return same_angles(law, other);
+        } else {
+          return false;
+        }
+      },
+      a.law, b.law);
+}
+
+// choose() for many numbers below 1, given as the upper bits of words: a table has, for each value of a word's first
+// byte, the first share at which the search begins (H. C. Chen, Y. Asau: On generating random variates from an
+// empirical distribution. AIIE Transactions 6(2), 1974).
+class GuidedChoice {
+ public:
+  explicit GuidedChoice(const std::vector<double>& sums) : sums_(sums) {
+    std::uint32_t k = 0;
+    for (std::size_t j = 0; j < guide_.size(); ++j) {
+      while (sums[k] <= static_cast<double>(j) / static_cast<double>(guide_.size())) ++k;
+      guide_[j] = k;
+    }
+  }
+  std::uint32_t operator()(std::uint64_t word) const {
+    const double u = static_cast<double>(word >> 11U) * 0x1p-53;
+    std::uint32_t k = guide_[word >> 56U];
+    while (sums_[k] <= u) ++k;
+    return k;
+  }
+
+ private:
+  const std::vector<double>& sums_;
+  std::array<std::uint32_t, 256> guide_;
+};
 
 }  // namespace
 
@@ -117,7 +185,10 @@ struct Launcher::Launches {
   std::array<std::uint32_t, batch_histories> azimuth;
   std::array<std::uint64_t, batch_histories> chance;
   std::array<float, batch_histories> sine;
-  std::array<float, batch_histories> cosine;
+  // Direction in the frame of the emitter.
+  std::array<float, batch_histories> x;
+  std::array<float, batch_histories> y;
+  std::array<float, batch_histories> z;
 };
 
 void Launcher::launch_in_turn(const Stream& stream, std::uint64_t first, std::uint32_t n,
@@ -145,23 +216,41 @@ void Launcher::launch_all(const LaunchWords& words, std::uint64_t first, std::ui
     return launch_from(*only_source_, launches, 0, n, words, first, rays, photon);
   }
 
-  // Photons of one emitter are adjacent in the wave.
+  // Photons of one emitter are adjacent in the wave. Those of successive emitters with one law are sampled together: in
+  // a building of hundreds of lamps each emits a few photons of a batch.
   const std::vector<std::uint32_t> ends = sort_by_source(n, launches, photon, emitter);
   std::uint32_t begin = 0;
-  for (std::size_t k = 0; k < sources_.size(); ++k) {
-    if (ends[k] > begin) launch_from(k, launches, begin, ends[k], words, first, rays, photon);
-    begin = ends[k];
+  for (std::size_t k = 0; k < sources_.size();) {
+    std::size_t last = k + 1;
+    const auto* point = std::get_if<PointSource>(&sources_[k]);
+    const auto follows = [&](std::size_t other) {
+      const auto* next = std::get_if<PointSource>(&sources_[other]);
+      return next != nullptr && go_together(*point, *next);
+    };
+    while (point != nullptr && last < sources_.size() && follows(last)) ++last;
+    if (last == k + 1) {
+      if (ends[k] > begin) launch_from(k, launches, begin, ends[k], words, first, rays, photon);
+      begin = ends[k++];
+      continue;
+    }
+    const auto sample = [&](const auto& law) {
+      if constexpr (LaneLaw<std::decay_t<decltype(law)>>) sample_directions(law, launches, begin, ends[last - 1]);
+    };
+    std::visit(sample, point->law);
+    for (; k < last; begin = ends[k++]) {
+      if (ends[k] > begin) start_together(std::get<PointSource>(sources_[k]), launches, begin, ends[k], rays);
+    }
   }
 }
 
 // Chooses the source of each photon and sorts the photons by source; returns the end of the photons of each source.
 std::vector<std::uint32_t> Launcher::sort_by_source(std::uint32_t n, Launches& launches, std::uint32_t* photon,
-                                                   std::uint32_t* emitter) const {
+                                                    std::uint32_t* emitter) const {
   std::vector<std::uint32_t> place(sources_.size());
   std::array<std::uint32_t, batch_histories> source;
+  const GuidedChoice choice(powers_up_to_);
   for (std::uint32_t i = 0; i < n; ++i) {
-    source[i] =
-        static_cast<std::uint32_t>(choose(powers_up_to_, static_cast<double>(launches.chance[i] >> 11) * 0x1p-53));
+    source[i] = choice(launches.chance[i]);
     ++place[source[i]];
   }
   if (emitter != nullptr) std::copy_n(source.begin(), n, emitter);
@@ -182,12 +271,12 @@ void Launcher::launch_from(std::size_t k, Launches& launches, std::uint32_t begi
                            const LaunchWords& words, std::uint64_t first, Rays& rays,
                            const std::uint32_t* photon) const {
   if (const auto* surface = std::get_if<SurfaceSource>(&sources_[k])) {
-    polar_angles(surface->law, end - begin, &launches.polar[begin], &launches.sine[begin], &launches.cosine[begin]);
+    polar_angles(surface->law, end - begin, &launches.polar[begin], &launches.sine[begin], &launches.z[begin]);
     for (std::uint32_t i = begin; i < end; ++i) {
       float sine = 0.0F;
       float cosine = 0.0F;
       sine_cosine(static_cast<float>(launches.azimuth[i]) * 0x1p-32F, sine, cosine);
-      const glm::vec3 local(launches.sine[i] * cosine, launches.sine[i] * sine, launches.cosine[i]);
+      const glm::vec3 local(launches.sine[i] * cosine, launches.sine[i] * sine, launches.z[i]);
       start_on(*surface, local, words, first + photon[i], rays, i);
     }
     return;
@@ -203,14 +292,8 @@ void Launcher::launch_from_point(const PointSource& point, const Law& law, Launc
                                  std::uint32_t end, Rays& rays) const {
   if constexpr (LaneLaw<Law>) {
     if (point.start.steps.empty()) {
-      const std::size_t n = end - begin;
-      polar_angles(law, n, &launches.polar[begin], &launches.sine[begin], &launches.cosine[begin]);
-      aim(n, &launches.sine[begin], &launches.cosine[begin], &launches.azimuth[begin], glm::mat3(point.to_tracer),
-          &rays.dx[begin], &rays.dy[begin], &rays.dz[begin]);
-      std::fill_n(&rays.facet[begin], n, no_facet);
-      std::fill_n(&rays.x[begin], n, point.start.point.x);
-      std::fill_n(&rays.y[begin], n, point.start.point.y);
-      std::fill_n(&rays.z[begin], n, point.start.point.z);
+      sample_directions(law, launches, begin, end);
+      start_together(point, launches, begin, end, rays);
       return;
     }
   }
