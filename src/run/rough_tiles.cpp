@@ -16,7 +16,7 @@ std::vector<double> rough_irradiance(const Room& room, const Tiling& tiling, con
   constexpr std::uint64_t seed = 0x5851F42D4C957F2D;  // any
   constexpr std::uint64_t photons_per_tile = 8;       // with four flights: some 30 hits
   constexpr std::uint64_t fewest = 16 * batch_histories;
-  constexpr std::uint64_t most = 4096 * batch_histories;  // a second of work
+  constexpr std::uint64_t most = 4096 * batch_histories;  // some seconds of work
   Settings settings;
   settings.estimator = Estimator::weight;
   settings.max_bounces = 4;
