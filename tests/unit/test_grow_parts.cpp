@@ -42,8 +42,8 @@ Patch as_patch(const Surface& surface) {
   for (std::uint32_t k = 0; k < surface.triangles.size(); ++k) {
     patch.triangles.push_back(k);
     const glm::uvec3 t = surface.triangles[k];
-    patch.flat.push_back({glm::dvec2(surface.positions[t.x]), glm::dvec2(surface.positions[t.y]),
-                          glm::dvec2(surface.positions[t.z])});
+    patch.flat.push_back(
+        {glm::dvec2(surface.positions[t.x]), glm::dvec2(surface.positions[t.y]), glm::dvec2(surface.positions[t.z])});
   }
   return patch;
 }

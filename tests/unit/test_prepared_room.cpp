@@ -139,7 +139,7 @@ TEST_CASE("the forecast of memory is that of the tiles within a quarter") {
   CHECK(forecast.available > 0.0);
   CHECK(forecast_memory(room, 0.01, 6).needed > 1.5 * forecast.needed);
   const Room fine = subdivided(room, 2);
-  const double per_triangle = (forecast_memory(fine, 0.1).needed - forecast_memory(room, 0.1).needed) /
-                              static_cast<double>(2228 * 15);
+  const double per_triangle =
+      (forecast_memory(fine, 0.1).needed - forecast_memory(room, 0.1).needed) / static_cast<double>(2228 * 15);
   CHECK(per_triangle == Approx(480.0).epsilon(0.01));
 }

@@ -101,11 +101,18 @@ TEST_CASE("photons of a wave survive as they do one by one") {
 
 TEST_CASE("photons of a wave start as they do one by one") {
   Room room = make_cuboid({2, 3, 4}, uniform_reflectance(0.5));
+  // Successive emitters with one law are launched together, also where one of them touches a surface or emits nothing.
   room.emitters = {lambert({1, 2, 3}, {1, 1, 1}, 1e6, 0.5),
+                   lambert({1, 1, 1}, {0, 1, 1}, 1e6, 0.25),
+                   lambert({1, 1, 2}, {1, 0, -1}, 1e6, 0.0),
+                   lambert({0.5, 1, 2}, {1, 0, 0}, 1e6, 0.75),
+                   lambert({0.5, 2, 2}, {1, 0, 0}, 2.0, 0.75),
                    isotropic({0.5, 0.5, 0.5}, 2.0),
+                   isotropic({1.5, 0.5, 0.5}, 1.0),
                    {"spot", 1.0, SpotEmitter{{1, 1, 1}, {0, -1, 0}, 0.1, 0.5}},
                    {"none", 0.0, IsotropicEmitter{{1, 1, 2}}},
                    surface_emitter(1, 1.5, 2.0),
+                   isotropic({0.3, 2.0, 1.0}),
                    isotropic({1.0, 0.0, 1.0})};  // on the floor
   const Stream stream(5);
   for (std::size_t emitters = room.emitters.size(); emitters > 0; --emitters) {
