@@ -1,6 +1,7 @@
 #include "room/box_tree.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/parallel.hpp"
 
@@ -27,19 +28,22 @@ BoxTree::BoxTree(const std::vector<Bounds>& boxes, unsigned threads) {
   if (number_.empty()) return;
   const auto count = static_cast<std::uint32_t>(number_.size());
   nodes_.resize(nodes_of(count));
+  // Level by level. The first part is the smallest, and none has more than one box more for each level.
   std::vector<Part> parts{{0, 1, 0, count}};
-  for (std::size_t k = 0; k < parts.size();) {
-    if (parts[k].count <= most_of_a_thread) {
-      ++k;
-      continue;
-    }
-    const auto halves = divide(parts[k], boxes);
-    parts[k] = (*halves)[0];
-    parts.push_back((*halves)[1]);
+  while (parts.front().count > most_of_a_thread) {
+    std::vector<Part> halves(2 * parts.size());
+    for_each_on_threads(threads, parts.size(), [&](std::size_t k) {
+      const auto both = divide(parts[k], boxes);
+      halves[2 * k] = (*both)[0];
+      halves[2 * k + 1] = (*both)[1];
+    });
+    parts = std::move(halves);
   }
   for_each_on_threads(threads, parts.size(), [&](std::size_t k) { divide_all(parts[k], boxes); });
-  boxes_.reserve(number_.size());
-  for (const std::uint32_t n : number_) boxes_.push_back(boxes[n]);
+  boxes_.resize(number_.size());
+  for_each_range(threads, number_.size(), most_of_a_thread, [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) boxes_[n] = boxes[number_[n]];
+  });
 }
 
 void BoxTree::divide_all(const Part& part, const std::vector<Bounds>& boxes) {
