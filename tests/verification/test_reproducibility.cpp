@@ -90,6 +90,11 @@ TEST_CASE("progress is reported and a stop request keeps what was simulated") {
   Control control;
   control.stop = stop.get_token();
   control.progress = [&](const Progress& progress) {
+    if (progress.stage == Progress::Stage::preparation) {
+      CHECK(calls == 0);
+      CHECK_FALSE(progress.step.empty());
+      return;
+    }
     CHECK(progress.histories > 0);
     CHECK(progress.target == settings.photons);
     CHECK(progress.impacts > 0);
@@ -116,10 +121,14 @@ TEST_CASE("a time limit ends the run") {
 
 TEST_CASE("an exception from the progress callback leaves the simulation") {
   struct Refusal {};
-  Control control;
-  control.progress = [](const Progress&) { throw Refusal(); };
-  CHECK_THROWS_AS(simulate(uneven_room(), settings_of(Estimator::collision, Engine::cuboid, 1e12, 5), control),
-                  Refusal);
+  for (const Progress::Stage stage : {Progress::Stage::preparation, Progress::Stage::tiles}) {
+    Control control;
+    control.progress = [stage](const Progress& progress) {
+      if (progress.stage == stage) throw Refusal();
+    };
+    CHECK_THROWS_AS(simulate(uneven_room(), settings_of(Estimator::collision, Engine::cuboid, 1e12, 5), control),
+                    Refusal);
+  }
 }
 
 TEST_CASE("one history has an irradiance but no error") {
