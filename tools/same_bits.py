@@ -180,9 +180,8 @@ RUNS = {
     "cube_many_tiles_weight": ("cube_paper.gltf", "--photons 200000 --tile 0.01 --estimator weight"),
     "cube_target": ("cube_paper.gltf", "--target-error 3%"),
     "cube_auto": ("cube_paper.gltf", "--photons 1000000 --estimator auto"),
-    # With an estimator: since 0.3.0 the pilots of auto are shorter in runs with a target error.
-    "cube_target": ("cube_paper.gltf", "--target-error 2% --estimator collision --tile 0.05"),
-    "living_target": ("living_room.glb", "--target-error 14% --estimator weight --tile 0.5 --receivers POINTS"),
+    "cube_auto_target": ("cube_paper.gltf", "--target-error 2% --estimator auto --tile 0.05"),
+    "living_auto_target": ("living_room.glb", "--target-error 14% --estimator auto --tile 0.5 --receivers POINTS"),
     "cube_grid": ("cube_paper.gltf", "--photons 300000 --grid 0.4 --grid-spacing 0.2 --estimator weight"),
     "l_room_collision": ("l_room.gltf", "--photons 200000"),
     "l_room_grid": ("l_room.gltf", "--photons 100000 --grid 0.5 --only backward --estimator absorption"),

@@ -55,13 +55,12 @@ CheckSchedule BackwardWork::schedule() const {
   return {first, range_.last - range_.first, 1, 4};
 }
 
-std::uint64_t BackwardWork::pilot_rounds(const RunContext& context, const BackwardTask& task, Estimator estimator,
-                                         std::uint64_t histories) {
+std::uint64_t BackwardWork::pilot_rounds(const RunContext& context, const BackwardTask& task, Estimator estimator) {
   // Some walks from every origin: without them there is nothing to compare.
   constexpr std::uint64_t fewest_rounds = 8;
   const std::uint64_t together = task.plan.histories(task.origins);
   Settings settings = context.settings;
-  settings.photons = std::max(pilot_histories(histories, estimator), fewest_rounds * together);
+  settings.photons = std::max(pilot_histories(settings.photons, estimator), fewest_rounds * together);
   const HistoryRange rounds = rounds_of(settings, together);
   return rounds.last - rounds.first;
 }
@@ -163,7 +162,7 @@ void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, std::vec
   const std::uint64_t rounds = last - first;
   const auto [together, parts, pieces] = pieces_of(rounds);
   const Part mine = part_of(context_.control.communicator, pieces);  // of this rank
-  const std::uint64_t skipped = range_.first - rounds_before_;       // rounds are numbered from the first of the run
+  const std::uint64_t skipped = range_.first - rounds_before_;  // rounds are numbered from the first of the run
   std::vector<BackwardSums> sums;
   while (!context_.watch.would_stop()) {
     const std::uint64_t piece = mine.first + next_.fetch_add(1);
@@ -261,8 +260,8 @@ class BackwardMeasurement final : public Measurement {
   std::unique_ptr<Work> make_work(Estimator estimator, Progress::Stage stage) override {
     return std::make_unique<BackwardWork>(context_, task_, estimator, stage, direct_);
   }
-  std::uint64_t pilot_count(Estimator estimator, std::uint64_t histories) const override {
-    return BackwardWork::pilot_rounds(context_, task_, estimator, histories);
+  std::uint64_t pilot_count(Estimator estimator) const override {
+    return BackwardWork::pilot_rounds(context_, task_, estimator);
   }
   bool keeps_pilot() const override { return false; }
   Choice judge(std::vector<Pilot>& pilots) override {

@@ -84,8 +84,7 @@ class BackwardWork final : public Work {
   const OriginEstimates& estimates() const { return found_; }
 
   // Rounds of a pilot of this many histories.
-  static std::uint64_t pilot_rounds(const RunContext& context, const BackwardTask& task, Estimator estimator,
-                                    std::uint64_t histories);
+  static std::uint64_t pilot_rounds(const RunContext& context, const BackwardTask& task, Estimator estimator);
 
  private:
   // A division of rounds × origins into pieces of work.

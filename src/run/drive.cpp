@@ -1,7 +1,5 @@
 #include "run/drive.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,11 +66,9 @@ class Driver {
   EstimatorChoice choose(const std::vector<Estimator>& candidates) {
     std::vector<std::unique_ptr<Work>> works;
     std::vector<Pilot> pilots;
-    std::uint64_t expected = context_.settings.photons;
     for (const Estimator estimator : candidates) {
       works.push_back(measurement_.make_work(estimator, Progress::Stage::pilot));
-      if (works.size() == 1) expected = std::min(expected, histories_to_target(*works.back(), estimator));
-      simulate_up_to(*works.back(), measurement_.pilot_count(estimator, expected));
+      simulate_up_to(*works.back(), measurement_.pilot_count(estimator));
       pilots.push_back(works.back()->pilot());
       if (context_.watch.reason()) {
         const std::string name(to_string(candidates.front()));
@@ -88,18 +84,6 @@ class Driver {
     std::unique_ptr<Work> best = measurement_.keeps_pilot() ? std::move(works[choice.best])
                                                             : measurement_.make_work(estimator, Progress::Stage::tiles);
     return {std::move(best), estimator, choice.reason, true};
-  }
-
-  // By the error after the shortest pilot; a pilot is a small part of the histories that the target requires.
-  std::uint64_t histories_to_target(Work& work, Estimator estimator) {
-    std::uint64_t histories = no_photon_limit;
-    if (!context_.settings.target_error) return histories;
-    simulate_up_to(work, measurement_.pilot_count(estimator, 1));
-    const auto done = static_cast<double>(work.histories_of(work.done()));
-    const double needed = done * std::pow(work.error() / *context_.settings.target_error, 2);
-    if (needed < static_cast<double>(no_photon_limit)) histories = static_cast<std::uint64_t>(needed);
-    broadcast(context_.control.communicator, histories);
-    return histories;
   }
 
   StopReason complete() {

@@ -32,8 +32,9 @@ class ForwardTiles final : public Measurement {
   std::unique_ptr<Work> make_work(Estimator estimator, Progress::Stage stage) override {
     return std::make_unique<ForwardWork>(context_, estimator, stage, direct_, measure_);
   }
-  std::uint64_t pilot_count(Estimator estimator, std::uint64_t histories) const override {
-    return std::min(pilot_histories(histories, estimator), context_.settings.photons);
+  std::uint64_t pilot_count(Estimator estimator) const override {
+    const std::uint64_t photons = context_.settings.photons;
+    return std::min(pilot_histories(photons, estimator), photons);
   }
   bool keeps_pilot() const override { return true; }
   Choice judge(std::vector<Pilot>& pilots) override {

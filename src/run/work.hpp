@@ -75,8 +75,8 @@ class Measurement {
   // A walk with one estimator, for one session.
   virtual std::unique_ptr<Work> make_work(Estimator estimator, Progress::Stage stage) = 0;
 
-  // For Estimator::automatic. The count that a pilot simulates if the run simulates this number of histories:
-  virtual std::uint64_t pilot_count(Estimator estimator, std::uint64_t histories) const = 0;
+  // For Estimator::automatic. The count that a pilot simulates:
+  virtual std::uint64_t pilot_count(Estimator estimator) const = 0;
   // Whether the histories of the chosen pilot are the first of the run; else they are discarded.
   virtual bool keeps_pilot() const = 0;
   virtual Choice judge(std::vector<Pilot>& pilots) = 0;

@@ -66,7 +66,7 @@ class LongRuns(ProgramTest):
         self.refused("resume", part, "--room", SCENES / "cube_paper.gltf", says=["another room", "cube_paper"])
 
     def test_merge_in_any_order_and_grouping(self):
-        whole = self.run_to("whole", "--photons", "100000")
+        whole = self.run_to("whole", "--photons", "100000", "--estimator", "collision")  # as parts
         parts = [self.run_to(name, "--histories", histories)
                  for name, histories in (("a", "0:30720"), ("b", "30720:61440"), ("c", "61440:100000"))]
         both = self.folder / "both"
@@ -108,7 +108,7 @@ class LongRuns(ProgramTest):
         """Rounds of walks for 100 receivers end elsewhere than the parts: each round is in one part only."""
         options = ["--grid", "0.5", "--grid-spacing", "0.1", "--no-report"]
         whole = self.folder / "whole"
-        self.succeeds("run", SCENES / "cube_paper.gltf", "-o", whole, "--photons", "32768", *options)
+        self.succeeds("run", SCENES / "cube_paper.gltf", "-o", whole, "--photons", "32768", "--estimator", "collision", *options)
         names = []
         for first, last in ((0, 8192), (8192, 16384), (16384, 32768)):
             names.append(self.folder / str(first))
