@@ -79,7 +79,7 @@ class LongRuns(ProgramTest):
         self.succeeds("merge", *reversed(parts), "-o", merged)
         self.assert_same(whole, merged)
         # The sum can be resumed.
-        longer = self.run_to("longer", "--photons", "150k")
+        longer = self.run_to("longer", "--photons", "150k", "--estimator", "collision")
         self.succeeds("resume", merged, "--photons", "150k")
         self.assert_same(longer, merged)
 
