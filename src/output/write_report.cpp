@@ -80,33 +80,34 @@ class ReportWriter {
     return drawn;
   }
 
+  Drawn plan_picture(const std::string& name, const SurfacePlan& plan) const {
+    Drawn drawn{name, &plan.picture, png_of(plan.picture), {}};
+    drawn.svg = plan_svg(*result_, plan, drawn.png, content_.scale, name);
+    return drawn;
+  }
+
   void draw() {
     announce("Drawing the room");
     const RoomPainter painter(*room_, *result_, options_->threads, options_->prepared);
     const Picture room = painter.draw(View::corner, content_.scale, picture_width, picture_height);
     const Picture above = painter.draw(View::above, content_.scale, picture_width, picture_height);
-    // The pictures of the room come first: a surface with the name "room" then gets another file name.
-    std::vector<Drawn> all{room_picture("room", room, View::corner), room_picture("above", above, View::above)};
-    content_.room_picture = all[0].svg;
-    content_.above_picture = all[1].svg;
-
     announce("Drawing plans of the surfaces");
     SurfacePlans plans = draw_plans(*room_, *result_, painter.lit_sides(), content_.scale);
     content_.plans = std::move(plans.plans);
     content_.without_plan = std::move(plans.left_out);
     const std::vector<std::string> names = plan_names(*result_, content_.plans);
-    // Encoding takes longer than drawing.
-    std::vector<Drawn> drawings(names.size());
-    for_each_on_threads(options_->threads > 0 ? options_->threads : usable_processors(), names.size(),
+    // The pictures of the room come first: a surface with the name "room" then gets another file name. Encoding takes
+    // longer than drawing.
+    std::vector<Drawn> all(2 + names.size());
+    for_each_on_threads(options_->threads > 0 ? options_->threads : usable_processors(), all.size(),
                         [&](std::size_t k) {
-                          const SurfacePlan& plan = content_.plans[k];
-                          drawings[k] = {names[k], &plan.picture, png_of(plan.picture), {}};
-                          drawings[k].svg = plan_svg(*result_, plan, drawings[k].png, content_.scale, names[k]);
+                          all[k] = k == 0   ? room_picture("room", room, View::corner)
+                                   : k == 1 ? room_picture("above", above, View::above)
+                                            : plan_picture(names[k - 2], content_.plans[k - 2]);
                         });
-    for (Drawn& drawing : drawings) {
-      all.push_back(std::move(drawing));
-      content_.plan_pictures.push_back(all.back().svg);
-    }
+    content_.room_picture = all[0].svg;
+    content_.above_picture = all[1].svg;
+    for (std::size_t k = 2; k < all.size(); ++k) content_.plan_pictures.push_back(all[k].svg);
     const std::vector<PhotonPath> paths = trace();
 
     announce("Writing pictures");

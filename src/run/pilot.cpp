@@ -20,7 +20,7 @@ std::vector<Estimator> candidates_for(const Room& room, const Settings& settings
 
 std::uint64_t pilot_histories(std::uint64_t photons, Estimator estimator) {
   constexpr std::uint64_t fewest = 16;  // batches: sufficient for a variance summed over many tiles
-  constexpr std::uint64_t most = 1024;
+  constexpr std::uint64_t most = 256;
   const std::uint64_t batches = std::clamp(photons / 20 / batch_histories, fewest, most);
   // If tiles are small against the room, absorption has 1/(1 − ρ) times the variance of collision for the same walk: a
   // short pilot is sufficient.

@@ -41,7 +41,7 @@ TEST_CASE("a pilot takes a small share of a long run, and never more than it nee
   CHECK(pilot_histories(1000, Estimator::weight) == 16 * 1024);
   CHECK(pilot_histories(20 * 1024 * 100, Estimator::weight) == 100 * 1024);
   CHECK(pilot_histories(20 * 1024 * 100, Estimator::absorption) == 25 * 1024);
-  CHECK(pilot_histories(std::uint64_t{1} << 60U, Estimator::collision) == 1024 * 1024);
+  CHECK(pilot_histories(std::uint64_t{1} << 60U, Estimator::collision) == 256 * 1024);
 }
 
 TEST_CASE("the pilot with the smallest variance for the same number of flights is chosen") {
