@@ -14,7 +14,7 @@ import unittest
 from support import PROGRAM, SCENES, ProgramTest, lichtmc
 
 CUBE = SCENES / "cube_paper.gltf"
-KILLS = int(os.environ.get("LICHTMC_KILLS", "100"))
+KILLS = int(os.environ.get("LICHTMC_KILLS", "40"))
 MPIRUN = os.environ.get("LICHTMC_MPIRUN", "")
 
 
