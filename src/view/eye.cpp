@@ -59,7 +59,8 @@ void Eye::keep_unfinished(VisibleHit* hits) {
     travelled_[i] += rays_.length[i];
     const std::uint32_t behind = rays_.behind[i];
     if (opaque_[2 * std::size_t{hit_[i]} + behind] != 0) {
-      hits[ray_[i]] = {hit_[i], tile_[i], travelled_[i], facets[hit_[i]].normal};
+      const bool measured = scene_->surfaces[surface_[i]].map != SurfaceOptics::no_map;
+      hits[ray_[i]] = {hit_[i], measured ? tile_[i] : unmeasured, travelled_[i], facets[hit_[i]].normal};
       continue;
     }
     rays_.move_landing(i, kept);

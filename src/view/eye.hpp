@@ -15,6 +15,9 @@
 
 namespace lichtmc {
 
+// In VisibleHit::tile: a surface that is not measured.
+inline constexpr std::uint32_t unmeasured = no_tile - 1;
+
 // The first visible impact of a ray from the eye.
 struct VisibleHit {
   std::uint32_t facet = no_facet;

@@ -33,6 +33,7 @@ constexpr std::size_t samples = 3;      // rays per pixel, along each side
 constexpr std::size_t band = 16;        // rows of pixels that a thread draws at a time
 constexpr double crease_cosine = 0.94;  // cos 20°: a larger angle between neighbouring normals is an edge
 constexpr float line_opacity = 0.62F;
+const glm::vec3 unmeasured_light(0.62F);  // a grey that no scale has
 
 // Whether two neighbouring rays have an edge between them: another surface, another normal, or a step in depth.
 bool is_edge(const VisibleHit& a, const VisibleHit& b, const std::vector<Facet>& facets, float reach) {
@@ -172,7 +173,9 @@ void finish_rows(const Band& samples_of, const Result& result, const ColourScale
       for (std::size_t k = 0; k < samples * samples; ++k) {
         const std::size_t at = samples_of.sample_at(x, y, k);
         const VisibleHit& hit = samples_of.hit(at);
-        if (hit.tile != no_tile) {
+        if (hit.tile == unmeasured) {
+          sum += glm::vec4(samples_of.on_line(at) ? with_line(unmeasured_light) : unmeasured_light, 1.0F);
+        } else if (hit.tile != no_tile) {
           const double own = result.tiles[hit.tile].irradiance;
           const glm::vec3 light = light_of(colour_of(scale, own));
           sum += glm::vec4(samples_of.on_line(at) ? with_line(light) : light, 1.0F);

@@ -157,7 +157,7 @@ Viewpoints::Seen Viewpoints::seen(const Camera& camera, std::size_t width, std::
         width, [&](std::size_t x) { return camera.ray(middle(x).x, middle(x).y); }, row.data());
     for (std::size_t x = 0; x < width; ++x) {
       const std::uint32_t tile = row[x].tile;
-      if (tile == no_tile) continue;
+      if (tile == no_tile || tile == unmeasured) continue;
       const glm::dvec3 direction = tracer.directions() * camera.ray(middle(x).x, middle(x).y).direction;
       const double distance = row[x].depth * glm::length(tracer.world_vector(direction));
       const double cosine = std::abs(glm::dot(glm::dvec3(row[x].normal), direction));

@@ -122,10 +122,12 @@ void Scene::set_tiles(const Tiling& tiling) {
     while (n < tiling.tiles.size() && tiling.tiles[n].map < m) ++n;
     first_tile.push_back(static_cast<std::uint32_t>(n));
   }
+  maps_are_surfaces = tiling.maps.size() == surfaces.size();
   std::vector<SurfaceGrid> grids(surfaces.size());
   for (std::size_t m = 0; m < tiling.maps.size(); ++m) {
     const TileMap& map = tiling.maps[m];
     SurfaceOptics& surface = surfaces[map.surface];
+    maps_are_surfaces = maps_are_surfaces && map.surface == m;
     if (map.side == Side::back) {
       surface.tiles_to_back = tiles_between(tiling.maps[m - 1], map);
       continue;
@@ -152,7 +154,7 @@ void Scene::tile_of_each(const Rays& rays, std::uint32_t* tile, std::uint32_t* m
       tile[i] = tile_of_cell[tile[i]];
     }
   }
-  if (first_tile.size() == surfaces.size() + 1) {  // no back has its own tiles: tile map = surface
+  if (maps_are_surfaces) {
     std::copy_n(surface, rays.size, map);
     return;
   }

@@ -20,8 +20,11 @@ namespace lichtmc {
 
 // The data of a surface that a walk needs.
 struct SurfaceOptics {
+  static constexpr std::uint32_t no_map = 0xFFFFFFFF;
+
   double reflectance = 0.0;
-  std::uint32_t map = 0;            // its tile map; that of its back, if there is one, is the next
+  // Its tile map; that of its back, if there is one, is the next. no_map in the tiling of a result without this surface.
+  std::uint32_t map = no_map;
   std::uint32_t tiles_to_back = 0;  // tile number on the back minus that on the front; 0: both share one tile map
 };
 
@@ -60,6 +63,7 @@ struct Scene {
   std::vector<std::int64_t> survival_of;    // the same in units of 2⁻⁵³, rounded up
   std::vector<std::uint32_t> surface_of;    // of each facet
   std::unique_ptr<CellFinder> cells;
+  bool maps_are_surfaces = false;         // tile map k is that of surface k: no back has its own
   bool cells_are_tiles = false;           // tile_of_cell[k] = k: rooms of rectangles
   std::vector<std::uint32_t> first_tile;  // of each tile map; the last element is the number of all tiles
   bool reflects_all_somewhere = false;    // a surface, or a point of one, has ρ = 1

@@ -1,4 +1,5 @@
 // The error of tiles in one number, and results of some surfaces only.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -134,4 +135,32 @@ TEST_CASE("surfaces that are not measured reflect, and the results do not includ
 TEST_CASE("surfaces to measure are chosen by names that exist") {
   Room room = unit_cube(0.6, paper_emitter());
   CHECK_THROWS_AS(measure_only(room, {"flor"}), InputError);
+}
+
+TEST_CASE("pictures show surfaces that are not measured in grey, without a value") {
+  Room room = unit_cube(0.6, paper_emitter());
+  room.surfaces[0].sides = Sides::both;  // as many tile maps as surfaces
+  measure_only(room, {"floor", "surface:wall_x*", "ceiling", "wall_z0"});
+  REQUIRE_FALSE(room.surfaces[5].measured);
+  const Result result = simulate(room, settings_of(Estimator::weight, Engine::automatic, 20 * 1024, 5));
+  const Picture all = RoomPainter(room, result, 1).draw(View::corner, choose_scale(result), 200, 150);
+  measure_only(room, {"floor"});
+  const Result floor = simulate(room, settings_of(Estimator::weight, Engine::automatic, 20 * 1024, 5));
+  const Picture picture = RoomPainter(room, floor, 1).draw(View::corner, choose_scale(floor), 200, 150);
+  const auto [least, most] = std::minmax_element(
+      floor.tiles.begin(), floor.tiles.end(), [](const auto& a, const auto& b) { return a.irradiance < b.irradiance; });
+  std::size_t grey = 0;
+  std::size_t measured = 0;
+  for (std::size_t k = 0; k < picture.colour.size(); ++k) {
+    if (picture.colour[k].w == 1.0F && std::isnan(picture.irradiance[k])) ++grey;
+    if (std::isnan(picture.irradiance[k])) continue;
+    ++measured;
+    CHECK(picture.irradiance[k] >= static_cast<float>(least->irradiance));
+    CHECK(picture.irradiance[k] <= static_cast<float>(most->irradiance));
+  }
+  CHECK(grey > 1000);
+  CHECK(measured > 1000);
+  const auto without_value =
+      std::count_if(all.irradiance.begin(), all.irradiance.end(), [](float e) { return std::isnan(e); });
+  CHECK(without_value > 0);
 }
