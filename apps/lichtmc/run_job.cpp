@@ -139,15 +139,15 @@ void tell_memory(const RunJob& job) {
   const unsigned threads =
       job.report.threads > 0 ? job.report.threads : std::max(1U, std::thread::hardware_concurrency());
   const MemoryForecast memory = forecast_memory(job.room, job.settings.tile_edge_m, threads);
-  const std::string needs = "he run needs about " + gigabytes(memory.needed) + " of memory";
+  const std::string needs = " run needs about " + gigabytes(memory.needed) + " of memory";
   constexpr double large = 1e9;
   if (memory.needed > memory.available) {
     std::cerr
-        << "Warning: T" << needs << ", but only " << gigabytes(memory.available)
+        << "Warning: The" << needs << ", but only " << gigabytes(memory.available)
         << " are free: the system may end it. Give --tile a greater length, use meshes of fewer triangles, or end "
            "other programs.\n";
   } else if (memory.needed > large && !job.quiet) {
-    std::cerr << "Note: t" << needs
+    std::cerr << "Note: the" << needs
               << (std::isfinite(memory.available) ? "; " + gigabytes(memory.available) + " are free" : "") << ".\n";
   }
 }

@@ -17,6 +17,7 @@
 #include "output/picture_marks.hpp"
 #include "output/picture_parts.hpp"
 #include "output/svg.hpp"
+#include "room/measured_surfaces.hpp"
 
 namespace lichtmc {
 
@@ -134,10 +135,8 @@ std::string room_svg(const Room& room, const Result& result, const Picture& pict
   svg += marks.emitters(room);
   svg += colour_legend(scale, result.quantity, picture_side + width, picture_top + 20.0, legend_height);
 
-  const bool all = std::all_of(room.surfaces.begin(), room.surfaces.end(),
-                               [](const Surface& surface) { return surface.measured; });
   std::string note = scale_words(scale) + "sides of surfaces without light are not drawn" +
-                     (all ? "" : "; grey: surfaces that are not measured") + marks.left_out();
+                     (measures_all(room) ? "" : "; grey: surfaces that are not measured") + marks.left_out();
   double y = picture_top + height + 18.5;
   double start = picture_side;
   if (view == View::above) {

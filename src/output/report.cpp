@@ -13,6 +13,7 @@
 #include "output/report_figures.hpp"
 #include "output/report_origin.hpp"
 #include "output/svg.hpp"
+#include "room/measured_surfaces.hpp"
 
 namespace lichtmc {
 
@@ -25,9 +26,7 @@ bool embeds_room(const ReportContent& content) {
 }
 
 std::string mean_of_what(const Room& room, const Result& result) {
-  const bool all =
-      std::all_of(room.surfaces.begin(), room.surfaces.end(), [](const Surface& surface) { return surface.measured; });
-  if (!all) return "mean over the measured surfaces";
+  if (!measures_all(room)) return "mean over the measured surfaces";
   return unreached_text(result).empty() ? "mean over all surfaces" : "mean over all that light can reach";
 }
 

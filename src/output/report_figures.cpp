@@ -11,6 +11,7 @@
 #include "output/html.hpp"
 #include "output/readable.hpp"
 #include "output/svg.hpp"
+#include "room/measured_surfaces.hpp"
 
 namespace lichtmc {
 
@@ -188,15 +189,13 @@ std::string balance_section(const Room& room, const Result& result) {
   // Surfaces that are not measured absorb the rest.
   double of_measured = 0.0;
   for (const Share& share : shares) of_measured += share.power;
-  const bool all =
-      std::all_of(room.surfaces.begin(), room.surfaces.end(), [](const Surface& surface) { return surface.measured; });
   if (shares.size() > max_surfaces) {
     Share others{"absorbed by " + to_text(shares.size() - max_surfaces + 1, "other surface"), 0.0, "#56B4E9"};
     for (std::size_t k = max_surfaces - 1; k < shares.size(); ++k) others.power += shares[k].power;
     shares.resize(max_surfaces - 1);
     shares.push_back(others);
   }
-  if (!all && std::isfinite(b.absorbed))
+  if (!measures_all(room) && std::isfinite(b.absorbed))
     shares.push_back({"absorbed by surfaces that are not measured", b.absorbed - of_measured, "#56B4E9"});
   std::string note =
       "The power that a surface absorbs is its incident power times (1 − reflectance); its relative standard error is "

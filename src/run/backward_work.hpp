@@ -48,8 +48,10 @@ struct BackwardTask {
   // One for each thread.
   std::function<std::unique_ptr<BackwardWalk>(const Settings&, const RoundPlan&)> make_walk;
   std::function<RunError(const OriginEstimates&)> error;  // its relative error is compared with Settings::target_error
-  std::function<double(const std::vector<double>&)> floor;  // the error floor by the irradiances at the origins
-  std::vector<double> weights;        // of the origins in the mean of squares whose root is `error`
+  // Only for a choice among several candidates: the error floor by the irradiances at the origins, and the weights of
+  // these in the mean of squares whose root is `error`.
+  std::function<double(const std::vector<double>&)> floor;
+  std::vector<double> weights;
   std::string name;                   // of the origins
   std::vector<Estimator> candidates;  // for an estimator
   std::string reason;                 // for the plan and the estimator, if they were chosen

@@ -15,24 +15,6 @@ struct NeverHit {
   double variance = 0.0;  // of their power, by what was integrated
 };
 
-double root_of_mean(double squares, double area) {
-  return area > 0.0 ? std::sqrt(squares / area) : std::numeric_limits<double>::quiet_NaN();
-}
-
-// Without a floor: tiles with an irradiance above 0, relative to it.
-double error_without_floor(const Tiling& tiling, const std::vector<TileResult>& tiles,
-                           const std::vector<bool>& measured) {
-  double squares = 0.0;
-  double area = 0.0;
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    if (!measured[i] || !(tiles[i].irradiance > 0.0)) continue;
-    const double relative = tiles[i].standard_error / tiles[i].irradiance;
-    squares += tiling.tiles[i].area_m2 * relative * relative;
-    area += tiling.tiles[i].area_m2;
-  }
-  return root_of_mean(squares, area);
-}
-
 }  // namespace
 
 double rms_relative_error(const Tiling& tiling, const std::vector<TileResult>& tiles, const ErrorReference& reference) {
@@ -42,7 +24,8 @@ double rms_relative_error(const Tiling& tiling, const std::vector<TileResult>& t
     const double against = std::max(irradiance, reference.floor);
     // By backward walks a tile may have no score and no known error.
     if (!(against > 0.0) || (irradiance == 0.0 && standard_error == 0.0)) return;
-    squares += area_m2 * std::pow(standard_error / against, 2);
+    const double relative = standard_error / against;
+    squares += area_m2 * relative * relative;
     area += area_m2;
   };
   std::vector<NeverHit> never_hit(reference.floor > 0.0 ? reference.powers_of_no_hit.size() : 0);
@@ -65,7 +48,7 @@ double rms_relative_error(const Tiling& tiling, const std::vector<TileResult>& t
     const double error = std::sqrt(std::pow(reference.powers_of_no_hit[m], 2) + group.variance);
     add(group.area, error / group.area, group.power / group.area);
   }
-  return root_of_mean(squares, area);
+  return area > 0.0 ? std::sqrt(squares / area) : std::numeric_limits<double>::quiet_NaN();
 }
 
 TileErrorMeasure::TileErrorMeasure(const Room& room, const Tiling& tiling, const UnreachedSides& unreached,
@@ -85,7 +68,7 @@ RunError TileErrorMeasure::of(const std::vector<TileResult>& tiles, const std::v
   for (std::size_t i = 0; i < tiles.size(); ++i) irradiances[i] = tiles[i].irradiance;
   RunError error;
   error.floor = floor(irradiances);
-  error.without_floor = error_without_floor(*tiling_, tiles, measured_);
+  error.without_floor = rms_relative_error(*tiling_, tiles, {measured_, irradiances, 0.0, powers_of_no_hit});
   error.relative = error.floor > 0.0
                        ? rms_relative_error(*tiling_, tiles, {counted_, irradiances, error.floor, powers_of_no_hit})
                        : error.without_floor;

@@ -1,11 +1,12 @@
 #include "run/keep_measured.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include "room/measured_surfaces.hpp"
 
 namespace lichtmc {
 
@@ -26,13 +27,12 @@ void keep_elements(std::vector<Element>& elements, const Keep& keep) {
 }  // namespace
 
 void keep_measured(const Room& room, Result& result) {
-  const auto is_measured = [](const Surface& surface) { return surface.measured; };
-  if (std::all_of(room.surfaces.begin(), room.surfaces.end(), is_measured)) return;
+  if (measures_all(room)) return;
   Tiling& tiling = result.tiling;
   constexpr std::uint32_t removed = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> new_map;
   std::uint32_t maps = 0;
-  for (const TileMap& map : tiling.maps) new_map.push_back(is_measured(room.surfaces[map.surface]) ? maps++ : removed);
+  for (const TileMap& map : tiling.maps) new_map.push_back(room.surfaces[map.surface].measured ? maps++ : removed);
   std::vector<std::uint32_t> new_tile;
   std::uint32_t tiles = 0;
   for (const Tile& tile : tiling.tiles) new_tile.push_back(new_map[tile.map] != removed ? tiles++ : removed);

@@ -193,8 +193,6 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
     return make_receiver_walk(parts, scale, own, plan);
   };
   task.error = [&](const OriginEstimates& found) { return error_of_receivers(context.settings, found); };
-  task.floor = [&](const std::vector<double>& means) { return receiver_error_floor(context.settings, means); };
-  task.weights.assign(task.origins, 1.0);
   task.name = "the receivers";
   task.slot = &StateData::receivers;
   BackwardOutcome outcome = walk_backward(context, std::move(task));

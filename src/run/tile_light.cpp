@@ -6,21 +6,16 @@
 #include "run/direct_error.hpp"
 #include "run/error_measure.hpp"
 #include "run/rough_tiles.hpp"
+#include "walk/backward.hpp"
 
 namespace lichtmc {
 
 namespace {
 
-// The emitters' power over the area of all surfaces: the mean direct irradiance, if no light leaves the room. The mean
-// irradiance, of which the error floor is a share, is not known before the walks; it is more.
-double mean_direct(const Room& room) {
-  double area = 0.0;
-  for (const Surface& surface : room.surfaces) area += surface_area(surface);
-  return total_power(room) / area;
-}
-
+// The mean direct irradiance stands for the mean irradiance, of which the error floor is a share: that is not known
+// before the walks, and more.
 TileAccuracy accuracy_for(const Room& room, const Tiling& tiling, const Scene& scene, const Settings& settings) {
-  return {direct_error_of_tiles(settings), error_floor(settings, mean_direct(room)),
+  return {direct_error_of_tiles(settings), error_floor(settings, BackwardScale(room).mean_irradiance()),
           rough_irradiance(room, tiling, scene)};
 }
 
