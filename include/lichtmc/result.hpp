@@ -7,10 +7,12 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "lichtmc/channel.hpp"
 #include "lichtmc/cover.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
@@ -69,7 +71,7 @@ struct ReceiverResult {
   double direct = 0.0;          // by the emitters, without reflection
   double indirect = 0.0;        // reflected at least once
   double standard_error = 0.0;  // of the irradiance; NaN with a single history
-  double gain = 0.0;            // H = irradiance · area / emitted power
+  double gain = 0.0;            // H = irradiance · area · optical_gain() / emitted power
 };
 
 // An error check of a run.
@@ -149,6 +151,7 @@ struct Result {
   Tiling tiling;
   std::vector<Receiver> receivers;               // the room's
   std::vector<ReceiverResult> receiver_results;  // of each; empty if only tiles were measured
+  std::optional<ImpulseResponses> channels;      // if Settings::channel asks for them
   std::vector<Ignored> ignored;                  // Room::ignored, and parts of the room that this run did not use
   std::vector<std::string> overrides;            // Room::overrides
   State state;                                   // to continue from, or to merge with others

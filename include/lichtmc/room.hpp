@@ -124,6 +124,7 @@ struct Emitter {
   std::string name;    // for messages and tables
   double power = 1.0;  // Φ: radiant flux in W or luminous flux in lm, ≥ 0
   std::variant<IsotropicEmitter, LambertEmitter, SpotEmitter, SurfaceEmitter> shape;
+  double delay_s = 0.0;  // s, ≥ 0: of its light behind the signal, for impulse responses
 };
 
 // The directional law of an emitter.
@@ -137,13 +138,20 @@ struct Receiver {
   glm::dvec3 position{0.0};          // m
   glm::dvec3 normal{0.0, 1.0, 0.0};  // axis of the field of view, any length but 0
   double half_angle_deg = 90.0;      // half angle of the field of view, 0 … 90
-  double area_m2 = 1.0;              // for its gain H = E·A/Φ, ≥ 0
+  double area_m2 = 1.0;              // for its gain H = E·A·g·T/Φ, ≥ 0
+  // Refractive index n ≥ 1 of an ideal concentrator: within the field of view it has the gain g = n²/sin² Ψ, Ψ the half
+  // angle. None: g = 1.
+  std::optional<double> concentrator_index = std::nullopt;
+  double filter_gain = 1.0;  // T ≥ 0 of an optical filter
   // A cell of a calculation grid: the irradiance is the mean over the parallelogram with these edges, in m, about the
   // position. Both 0: the irradiance at the position.
   glm::dvec3 cell_u{0.0};
   glm::dvec3 cell_v{0.0};
 
   bool is_cell() const { return cell_u != glm::dvec3(0.0) || cell_v != glm::dvec3(0.0); }
+  // g·T: received power over incident power; 1 without concentrator and filter, 0 with an empty field of view and a
+  // concentrator.
+  double optical_gain() const;
 };
 
 // Whether something has an influence on the figures.

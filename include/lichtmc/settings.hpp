@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "lichtmc/channel.hpp"
 #include "lichtmc/walk_direction.hpp"
 
 namespace lichtmc {
@@ -83,7 +84,8 @@ struct Settings {
   std::optional<std::uint32_t> max_bounces;
   double tile_edge_m = 0.1;  // m, > 0
   std::uint64_t seed = 1;
-  unsigned threads = 0;  // 0: one per processor
+  ChannelSettings channel;  // impulse responses at the receivers
+  unsigned threads = 0;     // 0: one per processor
   Engine engine = Engine::automatic;
 };
 

@@ -75,6 +75,7 @@ class RoomChecksum {
   void add(const Emitter& emitter) {
     sum_.add(emitter.name);
     sum_.add(emitter.power);
+    sum_.add(emitter.delay_s);
     sum_.add(std::uint64_t{emitter.shape.index()});
     std::visit([this](const auto& shape) { add(shape); }, emitter.shape);
   }
@@ -84,6 +85,8 @@ class RoomChecksum {
     add(receiver.normal);
     sum_.add(receiver.half_angle_deg);
     sum_.add(receiver.area_m2);
+    sum_.add(receiver.concentrator_index.value_or(0.0));
+    sum_.add(receiver.filter_gain);
     if (!receiver.is_cell()) return;
     add(receiver.cell_u);
     add(receiver.cell_v);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -182,16 +183,16 @@ void check_cell(const Room& room, const Receiver& receiver) {
   if (!receiver.is_cell()) return;
   const glm::dvec3 across = glm::cross(receiver.cell_u, receiver.cell_v);
   const double sides = glm::length(receiver.cell_u) * glm::length(receiver.cell_v);
-  constexpr double parallel = 1e-6;   // sine of the angle between the edges
-  constexpr double tilted = 1e-6;     // sine of the angle of their plane to that of the receiver
+  constexpr double parallel = 1e-6;  // sine of the angle between the edges
+  constexpr double tilted = 1e-6;    // sine of the angle of their plane to that of the receiver
   const double sine = glm::length(across) / sides;
   require(std::isfinite(sides) && sine > parallel, room,
           "sine of the angle between the edges of the cell of receiver " + in_quotes(receiver.name), sine,
           "above 1e-6, with two edges of finite length", "Give two edges in different directions.");
   const double tilt = glm::length(glm::cross(glm::normalize(across), glm::normalize(receiver.normal)));
   require(tilt < tilted, room,
-          "sine of the angle between the normal of receiver " + in_quotes(receiver.name) + " and that of its cell", tilt,
-          "below 1e-6", "Give edges at right angles to the normal.");
+          "sine of the angle between the normal of receiver " + in_quotes(receiver.name) + " and that of its cell",
+          tilt, "below 1e-6", "Give edges at right angles to the normal.");
 }
 
 void check_receiver(const Room& room, const Receiver& receiver) {
@@ -204,6 +205,11 @@ void check_receiver(const Room& room, const Receiver& receiver) {
   check_cell(room, receiver);
   require(receiver.area_m2 >= 0.0 && std::isfinite(receiver.area_m2), room, "area in m² " + of, receiver.area_m2,
           "a finite number, 0 or more", "Give its sensitive area.");
+  const double index = receiver.concentrator_index.value_or(1.0);
+  require(index >= 1.0 && std::isfinite(index), room, "refractive index of the concentrator " + of, index,
+          "a finite number, 1 or more", "Give the index of its material, for example 1.5.");
+  require(receiver.filter_gain >= 0.0 && std::isfinite(receiver.filter_gain), room, "gain of the filter " + of,
+          receiver.filter_gain, "a finite number, 0 or more", "Give the share of the light that it lets through.");
 }
 
 }  // namespace
@@ -239,6 +245,8 @@ void check_emitters(const Room& room) {
     require(emitter.power >= 0.0 && std::isfinite(emitter.power), room,
             "power in " + std::string(power_unit(room.quantity)) + " " + of, emitter.power,
             "a finite number, 0 or more", "Give its power.");
+    require(emitter.delay_s >= 0.0 && std::isfinite(emitter.delay_s), room, "delay in s " + of, emitter.delay_s,
+            "a finite number, 0 or more", "Count the delays of all emitters from the earliest one.");
     std::visit([&](const auto& shape) { check_shape(room, shape, of); }, emitter.shape);
   }
   const double power = total_power(room);
@@ -260,6 +268,12 @@ double surface_area(const Surface& surface) {
     twice += glm::length(glm::cross(surface.positions[triangle.y] - a, surface.positions[triangle.z] - a));
   }
   return 0.5 * twice;
+}
+
+double Receiver::optical_gain() const {
+  if (!concentrator_index) return filter_gain;
+  const double sine = std::sin(half_angle_deg * std::numbers::pi / 180.0);
+  return sine > 0.0 ? *concentrator_index * *concentrator_index / (sine * sine) * filter_gain : 0.0;
 }
 
 double total_power(const Room& room) {

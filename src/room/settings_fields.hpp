@@ -27,6 +27,15 @@ void visit_fields(const F& f, Things&... s) {
   f(Field{"direct", same, "direct light of tiles", "", "--direct"}, s.direct...);
   f(Field{"direct_error", same, "error of direct light", "", "--direct-error"}, s.direct_error...);
   f(Field{"max_bounces", same, "flights after which a history ends", "", "--max-bounces"}, s.max_bounces...);
+  f(Field{"bin_width_s", same, "width of a time bin", "s", "--impulse-response"}, s.channel.bin_width_s...);
+  f(Field{"time_span_s", same, "time span of impulse responses", "s", "--time-span"}, s.channel.time_span_s...);
+  f(Field{"orders", same, "reflections kept apart", "", "--orders"}, s.channel.orders...);
+  f(Field{"per_emitter", same, "channels of each emitter", "", "--per-emitter"}, s.channel.per_emitter...);
+  f(Field{"first_frequency_hz", same, "first frequency", "Hz", "--frequencies"}, s.channel.frequencies.first_hz...);
+  f(Field{"last_frequency_hz", same, "last frequency", "Hz", "--frequencies"}, s.channel.frequencies.last_hz...);
+  f(Field{"frequency_step_hz", same, "step of frequencies", "Hz", "--frequencies"}, s.channel.frequencies.step_hz...);
+  f(Field{"squared_weights", request, "delay spread with weights h²", "", "--squared-weights"},
+    s.channel.squared_weights...);
   f(Field{"first_history", request, "first history", "", "--histories"}, s.first_history...);
   f(Field{"part", request, "part of a run", "", "--histories"}, s.part...);
   f(Field{"photons", request, "histories asked for", "", "--photons"}, s.photons...);

@@ -140,7 +140,7 @@ std::vector<ReceiverResult> receiver_results(const Room& room, const OriginEstim
     one.indirect = found.indirect(k);
     one.irradiance = one.direct + one.indirect;
     one.standard_error = receiver_error(found, k);
-    one.gain = one.irradiance * room.receivers[k].area_m2 / power;
+    one.gain = one.irradiance * room.receivers[k].area_m2 * room.receivers[k].optical_gain() / power;
   }
   return results;
 }
