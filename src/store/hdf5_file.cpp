@@ -1,52 +1,20 @@
 #include "store/hdf5_file.hpp"
 
 #include <array>
-#include <mutex>
 #include <system_error>
-#include <utility>
 
 #include <hdf5.h>
+
+#include "base/hdf5.hpp"
 
 namespace lichtmc {
 
 namespace {
 
-std::mutex& library_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
+using Handle = Hdf5Handle;
 
-using Closer = herr_t (*)(hid_t);
-
-// An HDF5 object, closed by the destructor.
-class Handle {
- public:
-  Handle() = default;
-  Handle(hid_t id, Closer closer, const char* what) : id_(id), closer_(closer) {
-    if (id < 0) throw Hdf5Error(std::string("cannot ") + what);
-  }
-  ~Handle() {
-    if (id_ >= 0) closer_(id_);
-  }
-  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), closer_(other.closer_) {}
-  Handle& operator=(Handle&& other) noexcept {
-    std::swap(id_, other.id_);
-    std::swap(closer_, other.closer_);
-    return *this;
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-
-  operator hid_t() const { return id_; }
-  bool close() { return id_ < 0 || closer_(std::exchange(id_, -1)) >= 0; }
-
- private:
-  hid_t id_ = -1;
-  Closer closer_ = nullptr;
-};
-
-void check(herr_t status, const char* what) {
-  if (status < 0) throw Hdf5Error(std::string("cannot ") + what);
+void check(herr_t status, const std::string& what) {
+  check_hdf5(status, what);
 }
 
 Handle space_of(Shape shape) {
@@ -57,40 +25,19 @@ Handle space_of(Shape shape) {
 // Requires a member of the group itself, not a link.
 void require_member(hid_t group, const char* name) {
   H5L_info_t info{};
-  check(H5Lget_info(group, name, &info, H5P_DEFAULT), (std::string("find ") + name).c_str());
+  check(H5Lget_info(group, name, &info, H5P_DEFAULT), std::string("find ") + name);
   if (info.type != H5L_TYPE_HARD) throw Hdf5Error(std::string(name) + " is a link to something elsewhere");
-}
-
-Handle file_access() {
-  Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up HDF5");
-  check(H5Pset_fclose_degree(list, H5F_CLOSE_STRONG), "set up HDF5");
-  return list;
 }
 
 }  // namespace
 
 struct Hdf5File::Handles {
-  std::unique_lock<std::mutex> lock{library_mutex()};
-  // Errors are exceptions, not text on stderr.
-  H5E_auto2_t old_report = nullptr;
-  void* old_data = nullptr;
+  Hdf5Session session;  // ends after the objects below are closed
   Handle file;
   Handle group;
   bool writes = false;
   std::uint64_t user_bytes = 0;
   std::uint64_t file_bytes = 0;  // of a file to read
-
-  Handles() {
-    H5Eget_auto2(H5E_DEFAULT, &old_report, &old_data);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Handles() {
-    group.close();
-    file.close();
-    H5Eset_auto2(H5E_DEFAULT, old_report, old_data);
-  }
-  Handles(const Handles&) = delete;
-  Handles& operator=(const Handles&) = delete;
 
   void write_attribute(const char* name, hid_t type, const void* value) const {
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "describe an attribute");
@@ -149,23 +96,15 @@ Hdf5File& Hdf5File::operator=(Hdf5File&&) noexcept = default;
 
 Hdf5File Hdf5File::in_memory(std::uint64_t user_bytes, std::uint64_t about) {
   Hdf5File made;
-  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "set up HDF5");
-  check(H5Pset_userblock(creation, user_bytes), "set up HDF5");
-  // The same state gives the same bytes.
-  check(H5Pset_obj_track_times(creation, false), "set up HDF5");
-  const Handle access = file_access();
-  constexpr std::uint64_t page = 1 << 16;
-  constexpr bool on_disk = false;
-  check(H5Pset_fapl_core(access, (about / page + 1) * page, on_disk), "set up HDF5");
   made.handles_->writes = true;
   made.handles_->user_bytes = user_bytes;
-  made.handles_->file = Handle(H5Fcreate("state.h5", H5F_ACC_TRUNC, creation, access), H5Fclose, "make a file");
+  made.handles_->file = make_hdf5_in_memory(user_bytes, about);
   return made;
 }
 
 // Without file locks, which network file systems may not support.
 Hdf5File::Hdf5File(const std::filesystem::path& file) : Hdf5File() {
-  const Handle access = file_access();
+  const Handle access = hdf5_file_access();
   check(H5Pset_file_locking(access, false, true), "set up HDF5");
   std::error_code unknown;
   handles_->file_bytes = std::filesystem::file_size(file, unknown);
@@ -176,14 +115,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& file) : Hdf5File() {
 std::string_view Hdf5File::image() {
   Handles& h = *handles_;
   h.group.close();
-  check(H5Fflush(h.file, H5F_SCOPE_GLOBAL), "finish the file");
-  // Without the user block, and without the reserve after the last byte in use.
-  const ssize_t size = H5Fget_file_image(h.file, nullptr, 0);
-  if (size < 0) throw Hdf5Error("cannot finish the file");
-  // For a file in memory the handle points to the pointer to its bytes.
-  void* handle = nullptr;
-  check(H5Fget_vfd_handle(h.file, H5P_DEFAULT, &handle), "finish the file");
-  return {*static_cast<const char* const*>(handle) + h.user_bytes, static_cast<std::size_t>(size)};
+  return hdf5_image(h.file, h.user_bytes);
 }
 
 void Hdf5File::enter(const std::string& group) {
@@ -217,9 +149,7 @@ void Hdf5File::write(const char* attribute, double value) {
   handles_->write_attribute(attribute, H5T_NATIVE_DOUBLE, &value);
 }
 void Hdf5File::write(const char* attribute, const std::string& text) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "describe text");
-  check(H5Tset_size(type, text.size() + 1), "describe text");
-  check(H5Tset_cset(type, H5T_CSET_UTF8), "describe text");
+  const Handle type = hdf5_text_type(text.size());
   handles_->write_attribute(attribute, type, text.c_str());
 }
 void Hdf5File::write(const char* array, const std::uint64_t* values, Shape shape) {

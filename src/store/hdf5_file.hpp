@@ -1,7 +1,6 @@
 // The subset of HDF5 that states need: groups with attributes (numbers, text) and arrays of 64-bit numbers.
 //
-// HDF5 has state for the whole process and may be called by one thread at a time: an Hdf5File holds a lock during its
-// lifetime. A file is made in memory, because HDF5 1.10 cannot close a file on a full disk.
+// One thread may call HDF5 at a time: an Hdf5File holds a lock during its lifetime (base/hdf5.hpp).
 //
 // Reading accepts only what writing makes: integers, reals and text of the written types, groups and arrays that are
 // members of the file itself, arrays with all rows stored in it. HDF5 itself would convert other types, follow links to
@@ -11,18 +10,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace lichtmc {
+#include "base/hdf5_error.hpp"
 
-// HDF5 failed, or the contents differ from those of a state. The text is a part of a message.
-class Hdf5Error : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace lichtmc {
 
 // Rows of `columns` numbers; one column: a one-dimensional array.
 struct Shape {

@@ -27,7 +27,7 @@ BELOW = {
 PUBLIC = {
     "error": "base", "walk_direction": "base", "emitter_law": "chance", "units": "base", "version": "base", "visible_text": "base",
     "room": "room", "cover": "room", "cuboid": "room", "overrides": "room", "tiles": "room", "receiver_table": "room",
-    "settings": "room", "fingerprint": "room",  # plain data that every layer may read
+    "settings": "room", "channel": "room", "fingerprint": "room",  # plain data that every layer may read
     "communicator": "run", "control": "run", "progress": "run", "state": "run", "mpi": "mpi",
     "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
     "prepared_room": "tracer", "paths": "walk", "picture": "view",
@@ -44,7 +44,8 @@ LIBRARIES = {
     r"meshoptimizer": ["src/gltf/"],
     r"stb/": ["src/base/", "src/gltf/"],
     r"hwy/": ["src/chance/", "src/walk/"],
-    r"hdf5\.h": ["src/store/"],
+    r"hdf5\.h": ["src/base/hdf5", "src/store/", "src/output/channels_h5"],
+    r"matio": ["src/output/"],
     r"xxhash": ["src/base/"],
     r"mpi\.h": ["src/mpi/"],
 }
