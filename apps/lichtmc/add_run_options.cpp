@@ -70,8 +70,8 @@ void add_estimator_options(CLI::App& command, RunOptions& options, const std::st
       .add_option(
           "--estimator", options.estimator,
           "weight, collision or absorption (or 1, 2, 3): same mean, different variance. auto: the most efficient "
-          "of them, determined by a short pilot of each [auto; weight with --max-bounces, collision with "
-          "--histories]")
+          "of them, determined by a short pilot of each [auto; weight with --max-bounces or --impulse-response, "
+          "collision with --histories]")
       ->type_name("NAME")
       ->group(group);
   command
@@ -129,8 +129,8 @@ void add_receiver_options(CLI::App& command, RunOptions& options) {
   const std::string group = "Receivers, in addition to the tiles";
   command
       .add_option("--receivers", options.receivers,
-                  "Table of receivers: columns x,y,z,nx,ny,nz and name by their heading, or in this order without one; "
-                  "positions in metres; - for stdin")
+                  "Table of receivers: columns x,y,z,nx,ny,nz and name by their heading, or in this order without one, "
+                  "with a heading also area, fov, concentrator_index, filter_gain; metres; - for stdin")
       ->type_name("FILE.csv")
       ->group(group);
   command
@@ -165,6 +165,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_execution_options(command, options, method);
   add_part_options(command, options);
   add_receiver_options(command, options);
+  add_channel_options(command, options.channel);
   add_report_options(command, options.report_arguments);
   add_room_options(command, options.reading);
   command.add_flag("--quiet", options.quiet, "Print only warnings of check and errors, no progress and no summary");

@@ -81,6 +81,10 @@ void print_materials(const Inspection& facts) {
   }
 }
 
+std::string delay_text(const Emitter& emitter) {
+  return emitter.delay_s > 0.0 ? ", delay " + four_digits(1e9 * emitter.delay_s) + " ns" : std::string();
+}
+
 void print_emitters(const Room& room) {
   constexpr std::size_t shown = 20;
   const std::string unit(power_unit(room.quantity));
@@ -88,9 +92,31 @@ void print_emitters(const Room& room) {
             << ")\n";
   for (std::size_t k = 0; k < std::min(shown, room.emitters.size()); ++k)
     std::cout << "  " << visible_text(room.emitters[k].name) << ": " << four_digits(room.emitters[k].power) << ' '
-              << unit << '\n';
+              << unit << delay_text(room.emitters[k]) << '\n';
   if (room.emitters.size() > shown)
     std::cout << "  … and " << room.emitters.size() - shown << " more (--json lists all)\n";
+}
+
+// Only receivers of a file with more than a position and a normal.
+void print_receivers(const Room& room) {
+  constexpr std::size_t shown = 20;
+  const Receiver plain;
+  const bool optics = std::any_of(room.receivers.begin(), room.receivers.end(), [&plain](const Receiver& r) {
+    return r.area_m2 != plain.area_m2 || r.half_angle_deg != plain.half_angle_deg || r.optical_gain() != 1.0;
+  });
+  if (!optics) return;
+  std::cout << "\nReceivers (" << room.receivers.size() << "; area, half angle of the field of view)\n";
+  for (std::size_t k = 0; k < std::min(shown, room.receivers.size()); ++k) {
+    const Receiver& r = room.receivers[k];
+    std::cout << "  " << visible_text(r.name) << ": " << four_digits(r.area_m2) << " m^2, "
+              << four_digits(r.half_angle_deg) << " degrees";
+    if (r.concentrator_index) std::cout << ", concentrator of index " << four_digits(*r.concentrator_index);
+    if (r.filter_gain != 1.0) std::cout << ", filter gain " << four_digits(r.filter_gain);
+    if (r.optical_gain() != 1.0) std::cout << "; optical gain " << four_digits(r.optical_gain());
+    std::cout << '\n';
+  }
+  if (room.receivers.size() > shown)
+    std::cout << "  … and " << room.receivers.size() - shown << " more (--json lists all)\n";
 }
 
 void print_facts(const Room& room, const Inspection& facts) {
@@ -108,6 +134,7 @@ void print_facts(const Room& room, const Inspection& facts) {
   for (const std::string& change : room.overrides) std::cout << row("Override", visible_text(change));
   print_materials(facts);
   print_emitters(room);
+  print_receivers(room);
 }
 
 // A finding, and below it what to do.

@@ -104,6 +104,81 @@ double parse_seconds(std::string_view text, std::string_view option) {
   return number;
 }
 
+namespace {
+
+// A number with the suffix of one of these powers of ten, rounded once: "0.2ns" is the double next to 2·10⁻¹⁰, which
+// the product of 0.2 and 10⁻⁹ need not be.
+struct PowerOfTen {
+  std::string_view suffix;
+  int exponent;
+};
+
+template <std::size_t N>
+std::optional<double> decimal(std::string_view text, const std::array<PowerOfTen, N>& powers) {
+  double number = 0.0;
+  std::string_view unit;
+  if (!split_number(text, number, unit)) return std::nullopt;
+  const auto power = std::find_if(powers.begin(), powers.end(), [&](const PowerOfTen& p) { return p.suffix == unit; });
+  if (power == powers.end()) return std::nullopt;
+  std::array<char, 32> digits{};  // the shortest decimal number is the one that was given, up to 15 digits
+  const char* end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::scientific).ptr;
+  const std::string_view written(digits.data(), static_cast<std::size_t>(end - digits.data()));
+  const std::size_t e = written.find('e');
+  const int exponent = std::atoi(written.data() + e + 1) + power->exponent;
+  const std::string shifted = std::string(written.substr(0, e)) + "e" + std::to_string(exponent);
+  const auto [stop, error] = std::from_chars(shifted.data(), shifted.data() + shifted.size(), number);
+  if (error != std::errc()) return std::nullopt;  // too small or too large for a double
+  return number;
+}
+
+constexpr std::array<PowerOfTen, 6> times{{{"s", 0}, {"ms", -3}, {"us", -6}, {"µs", -6}, {"ns", -9}, {"ps", -12}}};
+
+}  // namespace
+
+double parse_short_time(std::string_view text, std::string_view option) {
+  if (const auto seconds = decimal(text, times)) return *seconds;
+  refuse(option, text, "a time with its unit ps, ns, us, ms or s, for example 5ns");
+}
+
+double parse_delay(std::string_view text, std::string_view option) {
+  constexpr std::array<PowerOfTen, 3> lengths{{{"m", 0}, {"cm", -2}, {"mm", -3}}};
+  if (const auto seconds = decimal(text, times)) return *seconds;
+  if (const auto metres = decimal(text, lengths)) return *metres / speed_of_light;
+  refuse(
+      option, text,
+      "a time with its unit ps, ns, us, ms or s, or a length of path with its unit mm, cm or m, for example 0.2ns or "
+      "0.1m");
+}
+
+std::uint32_t parse_orders(std::string_view text, std::string_view option) {
+  std::uint32_t count = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc() || stop != text.data() + text.size()) refuse(option, text, "a whole number from 0 to 64");
+  return count;
+}
+
+FrequencyRange parse_frequencies(std::string_view text, std::string_view option) {
+  constexpr std::array<PowerOfTen, 8> units{
+      {{"", 0}, {"Hz", 0}, {"k", 3}, {"kHz", 3}, {"M", 6}, {"MHz", 6}, {"G", 9}, {"GHz", 9}}};
+  constexpr std::string_view allowed =
+      "the first frequency, the last one and the step, each with its unit Hz, kHz, MHz or GHz, for example "
+      "0:400MHz:1MHz";
+  std::array<double, 3> hz{};
+  std::string_view rest = text;
+  for (std::size_t k = 0; k < hz.size(); ++k) {
+    const std::size_t colon = rest.find(':');
+    const bool last = k + 1 == hz.size();
+    const auto value = decimal(rest.substr(0, colon), units);
+    if (!value || (colon == std::string_view::npos) != last) refuse(option, text, allowed);
+    hz[k] = *value;
+    if (!last) rest.remove_prefix(colon + 1);
+  }
+  // A step of 0 means in FrequencyRange that there are none.
+  if (!(hz[2] > 0.0)) refuse(option, text, "a step above 0, for example 0:400MHz:1MHz");
+  return {hz[0], hz[1], hz[2]};
+}
+
 glm::dvec3 parse_vector(std::string_view text, std::string_view option) {
   glm::dvec3 vector(0.0);
   std::string_view rest = text;

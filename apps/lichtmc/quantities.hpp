@@ -1,4 +1,4 @@
-// Numbers of the command line: 1e6, 10M, 2G; 1%; 60s, 5min, 2h; 0.3,0.5,0.2; 1000lm.
+// Numbers of the command line: 1e6, 10M, 2G; 1%; 60s, 5min, 2h; 0.2ns; 0:400MHz:1MHz; 0.3,0.5,0.2; 1000lm.
 //
 // Each function throws InputError that names the option, the value, what is allowed and an example.
 #pragma once
@@ -10,6 +10,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "lichtmc/channel.hpp"
 #include "lichtmc/units.hpp"
 
 namespace lichtmc::app {
@@ -31,6 +32,18 @@ double parse_fraction(std::string_view text, std::string_view option);
 
 // Seconds: "60", "60s", "5min", "2h".
 double parse_seconds(std::string_view text, std::string_view option);
+
+// A time in s, "0.2ns", with the unit ps, ns, us, ms or s: the double next to the decimal number.
+double parse_short_time(std::string_view text, std::string_view option);
+
+// The same, or the time in s that light takes for a length of path in m, cm or mm: "0.1m".
+double parse_delay(std::string_view text, std::string_view option);
+
+// A number of reflections.
+std::uint32_t parse_orders(std::string_view text, std::string_view option);
+
+// "A:B:STEP", each with the unit Hz, kHz, MHz or GHz or as k, M or G: "0:400MHz:1MHz".
+FrequencyRange parse_frequencies(std::string_view text, std::string_view option);
 
 // Three numbers separated by commas.
 glm::dvec3 parse_vector(std::string_view text, std::string_view option);

@@ -123,9 +123,10 @@ void parse_histories(const std::string& text, const StopOptions& stop, Settings&
   settings.part = true;
 }
 
-// With --histories the user determines what is simulated, and all parts require the same estimator.
+// With --histories the user determines what is simulated, and all parts require the same estimator. Impulse responses
+// get the most of late light from the weights of the photons.
 Estimator usual_estimator(const RunOptions& options) {
-  if (options.max_bounces) return Estimator::weight;
+  if (options.max_bounces || options.channel.impulse_response) return Estimator::weight;
   return options.histories ? Estimator::collision : Estimator::automatic;
 }
 
@@ -151,6 +152,7 @@ Settings parse_settings(const RunOptions& options) {
   settings.threads = parse_threads(options.threads);
   settings.engine = parse_engine(options.engine);
   if (options.only) settings.measured = parse_measured(*options.only);
+  apply_channel_options(options.channel, settings);
   settings.tile_walk = parse_tiles(options.tiles);
   settings.receiver_walk = parse_receiver_walk(options.receiver_walk);
   if (options.direct) settings.direct = parse_direct(*options.direct, settings.tile_walk);
@@ -221,6 +223,7 @@ Room read_run_room(const RunOptions& options, std::vector<std::string>& notes) {
   Room room = read_room(options.reading);
   check_error_floor(options.stop.error_floor, room);
   if (!options.measure.empty()) measure_only(room, options.measure);
+  apply_delays(options.channel, room);
   add_receivers(room, options, notes);
   check_room(room);
   return room;

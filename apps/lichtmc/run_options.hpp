@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "channel_options.hpp"
 #include "lichtmc/output.hpp"
 #include "lichtmc/settings.hpp"
 #include "room_options.hpp"
@@ -40,6 +41,7 @@ struct RunOptions {
   std::string tiles = "forward";
   std::string receiver_walk = "auto";
   std::optional<std::string> receivers, grid, grid_spacing, only;
+  ChannelOptions channel;
   ReportArguments report_arguments;
   std::string checkpoint = "60s";
   bool quiet = false;

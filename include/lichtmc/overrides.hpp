@@ -23,6 +23,10 @@ void limit_reflectance(Room& room, double highest);
 // set_reflectance(), of materials or surfaces. Throws InputError if a name chooses no surface.
 void measure_only(Room& room, const std::vector<std::string>& names);
 
+// Sets the delay in s (≥ 0, finite) of the emitters of this name, which may be a pattern as above. Throws InputError if
+// there is none of this name (the message lists similar ones), or if the delay is out of range.
+void set_delay(Room& room, const std::string& name, double delay_s);
+
 // Adds an emitter whose power is the given quantity. A room without emitters takes this quantity; otherwise both must
 // agree. Throws InputError if they do not.
 void add_emitter(Room& room, Emitter emitter, Quantity quantity);

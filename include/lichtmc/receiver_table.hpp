@@ -10,12 +10,13 @@
 
 namespace lichtmc {
 
-// A heading names the columns x, y, z (position in m, glTF's axes), nx, ny, nz (normal) and, if there are names, name,
-// in any order and case, also with a unit: "x (m)", "x [m]" or "x/m". Other columns are not read. Without a heading the
-// columns are x,y,z,nx,ny,nz or x,y,z,nx,ny,nz,name. The columns are separated by commas, semicolons, tabs or blanks,
-// the same in the whole table; a decimal comma is allowed where commas do not separate. Quotes as in RFC 4180; rows
-// without content and rows that begin with # are not read. UTF-8, with or without a byte order mark, or UTF-16 with
-// one.
+// A heading names the columns x, y, z (position in m, glTF's axes), nx, ny, nz (normal) and, as far as they are wanted,
+// name, area (m²), fov (half angle in degrees), concentrator_index and filter_gain, in any order and case, also with a
+// unit: "x (m)", "x [m]" or "x/m". An empty area, fov, concentrator_index or filter_gain is the default of Receiver.
+// Other columns are not read. Without a heading the columns are x,y,z,nx,ny,nz or x,y,z,nx,ny,nz,name. The columns are
+// separated by commas, semicolons, tabs or blanks, the same in the whole table; a decimal comma is allowed where commas
+// do not separate. Quotes as in RFC 4180; rows without content and rows that begin with # are not read. UTF-8, with or
+// without a byte order mark, or UTF-16 with one.
 struct ReceiverTable {
   std::vector<Receiver> receivers;  // field of view 90° (half angle), area 1 m²; "receiver_N" where a name is empty
   std::vector<std::string> notes;   // what was not read, one sentence each

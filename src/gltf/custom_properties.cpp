@@ -18,7 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 5> properties{"reflectance", "power", "unit", "lambert_exponent", "receiver"};
+constexpr std::array<std::string_view, 6> properties{"reflectance",      "power",    "unit",
+                                                     "lambert_exponent", "delay_ns", "receiver"};
 
 struct Synonym {
   std::string_view word;  // in lower case, without spaces, hyphens and underscores
@@ -54,6 +55,9 @@ constexpr std::array synonyms{
     Synonym{"cosexponent", "lambert_exponent"},
     Synonym{"exponent", "lambert_exponent"},
     Synonym{"lambert", "lambert_exponent"},
+    Synonym{"delay", "delay_ns"},
+    Synonym{"latency", "delay_ns"},
+    Synonym{"verzögerung", "delay_ns"},
     Synonym{"calculationpoint", "receiver"},
     Synonym{"detector", "receiver"},
     Synonym{"empfänger", "receiver"},
@@ -105,11 +109,20 @@ bool has_light(const Json& node) {
          node["extensions"].contains("KHR_lights_punctual");
 }
 
+// Whether an object belongs to an emitter, so that a delay there means that of its light. Other programs have delays of
+// animations and sounds.
+bool may_emit(Place place, const Json& object) {
+  if (place == Place::material) return emits(object);
+  return place == Place::light ||
+         (place == Place::node && (has_light(object) || has_extra(object, "lambert_exponent")));
+}
+
 // Where a property belongs that an object does not use; empty if the object uses it.
 std::string right_place(std::string_view property, Place place, const Json& object) {
   const bool at_node = place == Place::node;
   if (property == "reflectance") return place == Place::material ? "" : "the material";
   if (property == "receiver") return at_node ? "" : "a node (an empty)";
+  if (property == "delay_ns" && at_node) return "";  // the reader of the room knows whether its mesh emits
   if (property == "lambert_exponent" && at_node) return "";
   if (place == Place::light) return "";
   if (place == Place::material && (property == "power" || emits(object))) return "";
@@ -128,7 +141,7 @@ class Checker {
     Json& extras = object["extras"];
     for (auto& [name, value] : extras.items()) {
       const std::string_view meant = meant_property(name);
-      if (meant.empty()) continue;
+      if (meant.empty() || (meant == "delay_ns" && name != meant && !may_emit(place, object))) continue;
       const std::string to = right_place(meant, place, object);
       if (name == meant && to.empty()) {
         check_value(name, value, where);
@@ -152,9 +165,12 @@ class Checker {
       changed = true;
     }
     for (const auto& [part, number] : value.items()) {
-      if (!value.is_object() || part == "area" || part == "fov") continue;
+      if (!value.is_object() || part == "area" || part == "fov" || part == "concentrator_index" ||
+          part == "filter_gain")
+        continue;
       notes.push_back({"'" + part + "' in the custom property 'receiver' of " + where +
-                           " is not read (allowed: 'area' in m², 'fov', the half angle in degrees).",
+                           " is not read (allowed: 'area' in m², 'fov', the half angle in degrees, "
+                           "'concentrator_index', 'filter_gain').",
                        Effect::figures, "Correct its name, or remove it."});
     }
   }

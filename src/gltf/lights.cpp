@@ -151,6 +151,8 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
                          "(and 'unit', \"lm\" or \"W\"), or give it a light.");
   }
   result.emitter.name = node.name.empty() ? placed.label : node.name;
+  const auto delay = first(delay_in(document, node.extras, placed.label), delay_in(document, of_light, light_label));
+  result.emitter.delay_s = delay.value_or(0.0);
   // Read only here: nodes that emit nothing may have a 'unit' of another program.
   const auto unit = first(unit_in(document, node.extras, placed.label), unit_in(document, of_light, light_label));
   result.quantity = unit.value_or(Quantity::photometric);
@@ -160,13 +162,35 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
   return result;
 }
 
+namespace {
+
+// The concentrator and the filter.
+void read_optics(const Document& document, const tinygltf::Value& extras, const std::string& where,
+                 Receiver& receiver) {
+  if (extras.Has("concentrator_index")) {
+    const double index = number_in(document, extras, "concentrator_index", 1.0, where);
+    if (!(index >= 1.0) || !std::isfinite(index))
+      refuse(document, "'concentrator_index' of the receiver " + where + " is " + to_text(index) +
+                           " (allowed: a finite number, 1 or more, the refractive index). Set that custom property.");
+    receiver.concentrator_index = index;
+  }
+  receiver.filter_gain = number_in(document, extras, "filter_gain", 1.0, where);
+  if (!(receiver.filter_gain >= 0.0) || !std::isfinite(receiver.filter_gain))
+    refuse(document, "'filter_gain' of the receiver " + where + " is " + to_text(receiver.filter_gain) +
+                         " (allowed: a finite number, 0 or more, the share of the light that the filter lets "
+                         "through). Set that custom property.");
+}
+
+}  // namespace
+
 std::optional<Receiver> read_receiver(const Document& document, const PlacedNode& placed) {
   const tinygltf::Node& node = document.model.nodes[placed.index];
   const tinygltf::Value& extras = member(node.extras, "receiver");
   if (!extras.IsObject()) {
     if (node.extras.IsObject() && node.extras.Has("receiver")) {
       refuse(document, "'receiver' of " + placed.label +
-                           " is not an object (allowed: {\"area\": m², \"fov\": degrees}). Set that custom property.");
+                           " is not an object (allowed: {\"area\": m², \"fov\": degrees, \"concentrator_index\": n, "
+                           "\"filter_gain\": T}). Set that custom property.");
     }
     return std::nullopt;
   }
@@ -184,6 +208,7 @@ std::optional<Receiver> read_receiver(const Document& document, const PlacedNode
     refuse(document, "'area' of the receiver " + placed.label + " is " + to_text(receiver.area_m2) +
                          " m² (allowed: a finite number, 0 or more). Set that custom property.");
   }
+  read_optics(document, extras, placed.label, receiver);
   return receiver;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/decimal_shift.hpp"
 #include "base/message.hpp"
 
 namespace lichtmc {
@@ -93,6 +94,7 @@ std::optional<Emission> read_emission(const Document& document, const tinygltf::
   emission.power = power_in(document, material.extras, where);
   emission.quantity = unit_in(document, material.extras, where).value_or(Quantity::photometric);
   emission.exponent = exponent_in(document, material.extras, where).value_or(1.0);
+  emission.delay_s = delay_in(document, material.extras, where).value_or(0.0);
   const auto& info = material.emissiveTexture;
   if (info.index >= 0 && of_factor > 0.0) {
     const double least = std::min({emission.factor.r, emission.factor.g, emission.factor.b});
@@ -127,6 +129,14 @@ std::optional<Quantity> unit_in(const Document& document, const tinygltf::Value&
   if (text == "lm") return Quantity::photometric;
   refuse(document,
          "'unit' of " + where + " is '" + text + "' (allowed: \"W\" or \"lm\"). Correct this custom property.");
+}
+
+std::optional<double> delay_in(const Document& document, const tinygltf::Value& extras, const std::string& where) {
+  if (!extras.IsObject() || !extras.Has("delay_ns")) return std::nullopt;
+  const double delay_ns = number_in(document, extras, "delay_ns", 0.0, where);
+  if (delay_ns >= 0.0 && std::isfinite(delay_ns)) return shift_decimals(delay_ns, -9);
+  refuse(document, "'delay_ns' of " + where + " is " + to_text(delay_ns) +
+                       " (allowed: a finite number of nanoseconds, 0 or more). Correct this custom property.");
 }
 
 std::optional<double> exponent_in(const Document& document, const tinygltf::Value& extras, const std::string& where) {

@@ -27,6 +27,9 @@ std::optional<Quantity> unit_in(const Document& document, const tinygltf::Value&
 // extras.lambert_exponent, ≥ 0; none if not present.
 std::optional<double> exponent_in(const Document& document, const tinygltf::Value& extras, const std::string& where);
 
+// extras.delay_ns, ≥ 0 and finite, in s; none if not present. Throws InputError if it is out of range.
+std::optional<double> delay_in(const Document& document, const tinygltf::Value& extras, const std::string& where);
+
 // Emission of an emissive material.
 struct Emission {
   double luminance = 0.0;             // L in cd/m², or radiance in W/(m² sr); where the texture is white
@@ -36,6 +39,7 @@ struct Emission {
   std::optional<double> power;        // of each surface with the material; replaces the luminance
   Quantity quantity = Quantity::photometric;
   double exponent = 1.0;
+  double delay_s = 0.0;
 };
 
 struct Material {

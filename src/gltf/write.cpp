@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/atomic_file.hpp"
+#include "base/decimal_shift.hpp"
 #include "base/frame.hpp"
 #include "base/message.hpp"
 #include "gltf/builder.hpp"
@@ -90,6 +91,10 @@ int reflectance_set(const Surface& surface) {
   return surface.uvs.empty() ? 1 : 2;
 }
 
+void write_delay(const Emitter& emitter, Json& extras) {
+  if (emitter.delay_s != 0.0) extras["delay_ns"] = shift_decimals(emitter.delay_s, 9);
+}
+
 const SurfaceEmitter* Writer::emitter_of(std::size_t surface) const {
   for (const Emitter& emitter : room_->emitters) {
     if (emitting_surface(emitter) == surface) return &std::get<SurfaceEmitter>(emitter.shape);
@@ -133,6 +138,7 @@ std::size_t Writer::material_of(std::size_t k) {
     material["extras"]["power"] = emitter.power;
     material["extras"]["unit"] = unit_of(*room_);
     material["extras"]["lambert_exponent"] = shape.exponent;
+    write_delay(emitter, material["extras"]);
     document_.use_extension("KHR_materials_emissive_strength");
   }
   const auto [entry, fresh] = materials_.try_emplace(material.dump(-1, ' ', false, Json::error_handler_t::replace),
@@ -216,6 +222,7 @@ void Writer::add_point_emitter(const Emitter& emitter, const Shape& shape) {
   node["extras"] = std::move(written.node_extras);
   node["extras"]["power"] = emitter.power;
   node["extras"]["unit"] = unit_of(*room_);
+  write_delay(emitter, node["extras"]);
   Json& lights = document_.json["extensions"]["KHR_lights_punctual"]["lights"];
   node["extensions"]["KHR_lights_punctual"] = {{"light", lights.size()}};
   lights.push_back(std::move(written.light));
@@ -226,7 +233,10 @@ void Writer::add_point_emitter(const Emitter& emitter, const Shape& shape) {
 void Writer::add_receiver(const Receiver& receiver) {
   Json node = document_.placed_node(receiver.name, receiver.position);
   node["rotation"] = looking_along(receiver.normal);
-  node["extras"]["receiver"] = {{"area", receiver.area_m2}, {"fov", receiver.half_angle_deg}};
+  Json& extras = node["extras"]["receiver"];
+  extras = {{"area", receiver.area_m2}, {"fov", receiver.half_angle_deg}};
+  if (receiver.concentrator_index) extras["concentrator_index"] = *receiver.concentrator_index;
+  if (receiver.filter_gain != 1.0) extras["filter_gain"] = receiver.filter_gain;
   document_.add_node(std::move(node));
 }
 

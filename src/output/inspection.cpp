@@ -63,7 +63,9 @@ Json receivers_of(const Room& room) {
                          {"position", point(r.position)},
                          {"normal", point(r.normal)},
                          {"fov", number(r.half_angle_deg)},
-                         {"area", number(r.area_m2)}});
+                         {"area", number(r.area_m2)},
+                         {"concentrator_index", r.concentrator_index ? number(*r.concentrator_index) : Json(nullptr)},
+                         {"filter_gain", number(r.filter_gain)}});
   }
   return receivers;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/decimal_shift.hpp"
 #include "room/emitter_shape.hpp"
 
 namespace lichtmc {
@@ -19,8 +20,10 @@ std::string_view kind_of(const Emitter& emitter) {
 Json emitters_of(const Room& room) {
   Json emitters = Json::array();
   for (const Emitter& emitter : room.emitters) {
-    emitters.push_back(
-        {{"name", emitter.name}, {"kind", std::string(kind_of(emitter))}, {"power", number(emitter.power)}});
+    emitters.push_back({{"name", emitter.name},
+                        {"kind", std::string(kind_of(emitter))},
+                        {"power", number(emitter.power)},
+                        {"delay_ns", number(shift_decimals(emitter.delay_s, 9))}});
   }
   return emitters;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/decimal_shift.hpp"
 #include "base/message.hpp"
 #include "base/names.hpp"
 #include "lichtmc/error.hpp"
@@ -143,6 +144,28 @@ void measure_only(Room& room, const std::vector<std::string>& names) {
       room.surfaces.begin(), room.surfaces.end(), [](const Surface& surface) { return surface.measured; }));
   room.overrides.push_back("Only " + std::to_string(measured) + " of " + to_text(room.surfaces.size(), "surface") +
                            (measured == 1 ? " is" : " are") + " measured; the others only reflect.");
+}
+
+void set_delay(Room& room, const std::string& name, double delay_s) {
+  if (!(delay_s >= 0.0) || !std::isfinite(delay_s))
+    throw InputError("The delay of " + in_quotes(name) + " is " + to_text(delay_s) +
+                     " s (allowed: a finite number, 0 or more). Count the delays of all emitters from the earliest "
+                     "one.");
+  std::size_t changed = 0;
+  for (Emitter& emitter : room.emitters) {
+    if (!matches_pattern(name, emitter.name)) continue;
+    emitter.delay_s = delay_s;
+    ++changed;
+  }
+  if (changed == 0) {
+    std::vector<std::string> names;
+    for (const Emitter& emitter : room.emitters) names.push_back(emitter.name);
+    throw InputError("There is no emitter " + in_quotes(name) + " in " + room.source +
+                     " (allowed, among others: " + nearest_names(name, std::move(names)) +
+                     "). Give the name of an emitter of the room, or a pattern.");
+  }
+  room.overrides.push_back((changed == 1 ? "Emitter " : to_text(changed, "emitter") + " ") + in_quotes(name) +
+                           ": delay set to " + to_text(shift_decimals(delay_s, 9)) + " ns.");
 }
 
 void add_emitter(Room& room, Emitter emitter, Quantity quantity) {

@@ -44,14 +44,22 @@ std::optional<std::size_t> number_column(std::string_view heading) {
   return static_cast<std::size_t>(found - receiver_numbers.begin());
 }
 
-void check_unit(std::string_view heading, bool position, const std::string& where) {
+// The units that a column may have; the first one names them in messages.
+std::vector<std::string_view> units_of(std::size_t column) {
+  const std::string_view name = receiver_numbers[column];
+  if (name == "area") return {"square metres", "m²", "m^2", "m2", "sqm"};
+  if (name == "fov") return {"degrees, the half angle", "deg", "degree", "degrees", "°"};
+  const bool length = column < 3 || (column >= needed_numbers && column < numbers_of_cell);
+  if (length) return {"metres", "m", "metre", "metres", "meter", "meters"};
+  return {column < needed_numbers ? "numbers without a unit, the direction of the normal" : "numbers without a unit",
+          "1", "-"};
+}
+
+void check_unit(std::string_view heading, std::size_t column, const std::string& where) {
   const std::string unit = name_of(heading).unit;
-  if (unit.empty()) return;
-  constexpr std::array<std::string_view, 5> metres{"m", "metre", "metres", "meter", "meters"};
-  if (position && std::find(metres.begin(), metres.end(), unit) != metres.end()) return;
-  if (!position && (unit == "1" || unit == "-")) return;
-  throw InputError(where + " names the column " + in_quotes(heading) +
-                   " (allowed: " + (position ? "metres" : "numbers without a unit, the direction of the normal") +
+  const std::vector<std::string_view> units = units_of(column);
+  if (unit.empty() || std::find(units.begin() + 1, units.end(), unit) != units.end()) return;
+  throw InputError(where + " names the column " + in_quotes(heading) + " (allowed: " + std::string(units.front()) +
                    "). Convert the column, and correct its heading.");
 }
 
@@ -116,7 +124,7 @@ ReceiverColumns columns_of(const CsvRow& heading, const std::string& where) {
   ReceiverColumns columns;
   columns.heading = true;
   columns.least = columns.most = heading.fields.size();
-  std::array<bool, receiver_numbers.size()> found{};
+  std::array<bool, receiver_numbers.size()>& found = columns.found;
   const auto twice = [&where](std::string_view text) {
     throw InputError(where + " names the column " + in_quotes(trimmed(text)) +
                      " twice (allowed: once). Remove or rename one of them.");
@@ -126,7 +134,7 @@ ReceiverColumns columns_of(const CsvRow& heading, const std::string& where) {
     if (const auto number = number_column(text)) {
       if (found[*number]) twice(text);
       found[*number] = true;
-      check_unit(text, *number < 3 || *number >= needed_numbers, where);
+      check_unit(text, *number, where);
       columns.numbers[*number] = k;
     } else if (name_of(text).column == "name") {
       if (columns.name) twice(text);
@@ -136,8 +144,9 @@ ReceiverColumns columns_of(const CsvRow& heading, const std::string& where) {
     }
   }
   std::string missing;
-  columns.cells = std::any_of(found.begin() + needed_numbers, found.end(), [](bool is) { return is; });
-  for (std::size_t k = 0; k < (columns.cells ? found.size() : needed_numbers); ++k) {
+  columns.cells =
+      std::any_of(found.begin() + needed_numbers, found.begin() + numbers_of_cell, [](bool is) { return is; });
+  for (std::size_t k = 0; k < (columns.cells ? numbers_of_cell : needed_numbers); ++k) {
     if (!found[k]) missing += (missing.empty() ? "" : ", ") + std::string(receiver_numbers[k]);
   }
   if (missing.empty()) return columns;
@@ -147,8 +156,9 @@ ReceiverColumns columns_of(const CsvRow& heading, const std::string& where) {
     others += (k > 0 ? ", " : "") + columns.ignored[k];
   if (columns.ignored.size() > shown) others += ", …";
   throw InputError(where + " is a heading without " + missing + (others.empty() ? "" : "; it has " + others) +
-                   " (allowed: x, y, z, nx, ny, nz in any order, and for cells ux, uy, uz, vx, vy, vz; other columns are not read). Name the columns of the "
-                   "position in metres and of the normal so.");
+                   " (allowed: x, y, z, nx, ny, nz in any order, for cells ux, uy, uz, vx, vy, vz, and area, fov, "
+                   "concentrator_index, filter_gain; other columns are not read). Name the columns of the position in "
+                   "metres and of the normal so.");
 }
 
 char separator_of(std::string_view first_row) {

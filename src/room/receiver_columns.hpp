@@ -12,14 +12,18 @@
 
 namespace lichtmc {
 
-// Position, normal and, only with a heading, the edges of cells.
-inline constexpr std::array<std::string_view, 12> receiver_numbers{"x",  "y",  "z",  "nx", "ny", "nz",
-                                                                   "ux", "uy", "uz", "vx", "vy", "vz"};
-inline constexpr std::size_t needed_numbers = 6;  // the first of them
+// Position, normal and, only with a heading, the edges of cells, and what else a receiver has.
+inline constexpr std::array<std::string_view, 16> receiver_numbers{
+    "x",          "y", "z", "nx", "ny", "nz", "ux", "uy", "uz", "vx", "vy", "vz", "area", "fov", "concentrator_index",
+    "filter_gain"};
+inline constexpr std::size_t needed_numbers = 6;    // the first of them
+inline constexpr std::size_t numbers_of_cell = 12;  // the first of them: with the edges
+inline constexpr std::size_t area_number = 12, fov_number = 13, concentrator_number = 14, filter_number = 15;
 
 struct ReceiverColumns {
   std::array<std::size_t, receiver_numbers.size()> numbers{0, 1, 2, 3, 4, 5};  // of receiver_numbers
-  bool cells = false;                // it has the edges
+  bool cells = false;                                                          // it has the edges
+  std::array<bool, receiver_numbers.size()> found{};                           // named by the heading
   std::optional<std::size_t> name;
   std::size_t least = 6;             // number of fields of a row
   std::size_t most = 7;              // without a heading a row may have a name or not
@@ -37,7 +41,8 @@ bool looks_like_number(std::string_view text);
 bool names_all_columns(const CsvRow& row);
 
 // The columns that a heading names. `where` is its source and row, for messages. Throws InputError if a column is
-// missing, is named twice or has a unit that is not the metre, or if not all of the edges' columns are there.
+// missing, is named twice or has another unit than metres, square metres (area) and degrees (fov), or if not all of the
+// edges' columns are there.
 ReceiverColumns columns_of(const CsvRow& heading, const std::string& where);
 
 // The separator of a table, from its first row: the first of tab, semicolon, comma and blank by which it is a heading

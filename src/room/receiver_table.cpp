@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <sstream>
 
 #include "base/csv.hpp"
@@ -56,6 +58,7 @@ class TableReader {
   void check_count(const CsvRow& row) const;
   double number(const CsvRow& row, std::size_t column);
   void note_decimal_mark(std::string_view field, std::size_t row);
+  void read_optics(const CsvRow& row, Receiver& receiver);
   std::string name_in(const CsvRow& row) const;
   [[noreturn]] void refuse_number(const CsvRow& row, std::size_t column, const std::string& cause) const;
 
@@ -206,6 +209,27 @@ std::string TableReader::name_in(const CsvRow& row) const {
   return text;
 }
 
+// Area, field of view, concentrator and filter; an empty field means that of a receiver without the column.
+void TableReader::read_optics(const CsvRow& row, Receiver& receiver) {
+  const auto value_in = [&](std::size_t column, double low, double high, const char* allowed) {
+    const bool given = columns_.found[column] && !trimmed(row.fields[columns_.numbers[column]].text).empty();
+    if (!given) return std::optional<double>();
+    const double value = number(row, column);
+    if (!(value >= low && value <= high)) refuse_number(row, column, std::string(allowed) + " Correct it.");
+    return std::optional<double>(value);
+  };
+  constexpr double any = std::numeric_limits<double>::max();
+  const auto area = value_in(area_number, 0.0, any, "it is negative (allowed: the area in m², 0 or more).");
+  const auto fov =
+      value_in(fov_number, 0.0, 90.0, "it is outside the range (allowed: 0 to 90, the half angle in degrees).");
+  const auto gain = value_in(filter_number, 0.0, any, "it is negative (allowed: 0 or more).");
+  receiver.area_m2 = area.value_or(receiver.area_m2);
+  receiver.half_angle_deg = fov.value_or(receiver.half_angle_deg);
+  receiver.concentrator_index =
+      value_in(concentrator_number, 1.0, any, "it is below 1 (allowed: a refractive index, 1 or more).");
+  receiver.filter_gain = gain.value_or(receiver.filter_gain);
+}
+
 void TableReader::read_row(const CsvRow& row) {
   if (!started_ && is_heading(row)) {
     columns_ = columns_of(row, where(row.line));
@@ -222,6 +246,7 @@ void TableReader::read_row(const CsvRow& row) {
     receiver.cell_u[k] = number(row, static_cast<std::size_t>(k) + 6);
     receiver.cell_v[k] = number(row, static_cast<std::size_t>(k) + 9);
   }
+  read_optics(row, receiver);
   if (receiver.normal == glm::dvec3(0.0)) {
     throw InputError(where(row.line) +
                      ", has the normal 0,0,0 (allowed: any other). Give the direction that the receiver faces, for "

@@ -111,6 +111,73 @@ void check_tile_edge(const Settings& settings) {
   }
 }
 
+// Without a bin width no channel is measured: other settings of channels would do nothing.
+void check_no_channel(const ChannelSettings& channel) {
+  const char* given = channel.time_span_s                  ? "--time-span"
+                      : channel.orders > 0                 ? "--orders"
+                      : channel.per_emitter                ? "--per-emitter"
+                      : channel.frequencies.step_hz != 0.0 ? "--frequencies"
+                      : channel.squared_weights            ? "--squared-weights"
+                                                           : nullptr;
+  if (given == nullptr) return;
+  throw InputError(std::string(given) + " is given without --impulse-response (allowed: both). Give " +
+                   "--impulse-response the width of a bin, for example 1ns, or leave out " + given + ".");
+}
+
+void check_bins(const ChannelSettings& channel) {
+  const double width = *channel.bin_width_s;
+  if (!positive(width)) {
+    throw InputError("The width of a bin of impulse responses is " + to_text(width) +
+                     " s (allowed: a finite number above 0). Give --impulse-response a time or a length of path, for "
+                     "example 0.2ns or 0.1m.");
+  }
+  if (!channel.time_span_s) return;
+  const double span = *channel.time_span_s;
+  if (!positive(span) || span < width) {
+    throw InputError("The time span of impulse responses is " + to_text(span) +
+                     " s (allowed: a finite number, at least the width of a bin, " + to_text(width) +
+                     " s). Give --time-span a time or a length of path, for example 400ns.");
+  }
+  constexpr double most_bins = 1 << 24;
+  if (span > most_bins * width) {
+    throw InputError("The time span of impulse responses is " + to_text(span) + " s, with bins of " + to_text(width) +
+                     " s (allowed: up to 2^24 bins). Give --time-span a shorter time, or --impulse-response a greater "
+                     "width.");
+  }
+}
+
+void check_orders(const ChannelSettings& channel) {
+  constexpr std::uint32_t most_orders = 64;
+  if (channel.orders <= most_orders) return;
+  throw InputError("The number of reflections that are kept apart is " + std::to_string(channel.orders) +
+                   " (allowed: 0 to " + std::to_string(most_orders) +
+                   "). Give --orders a smaller number; all more reflections are counted together.");
+}
+
+void check_frequencies(const FrequencyRange& range) {
+  if (range.step_hz == 0.0) return;
+  const std::string given =
+      to_text(range.first_hz) + " to " + to_text(range.last_hz) + " Hz in steps of " + to_text(range.step_hz) + " Hz";
+  const bool finite = std::isfinite(range.first_hz) && std::isfinite(range.last_hz) && positive(range.step_hz);
+  if (!finite || range.first_hz < 0.0 || range.last_hz < range.first_hz) {
+    throw InputError("The frequencies are " + given +
+                     " (allowed: finite numbers, the first 0 or more, the last not below it, a step above 0). Give "
+                     "--frequencies such numbers, for example 0:400MHz:1MHz.");
+  }
+  constexpr double most_frequencies = 100'000;
+  if ((range.last_hz - range.first_hz) / range.step_hz > most_frequencies - 1.0) {
+    throw InputError("The frequencies are " + given + ", more than " + std::to_string(std::lround(most_frequencies)) +
+                     " (the limit). Give --frequencies a greater step.");
+  }
+}
+
+void check_channel(const ChannelSettings& channel) {
+  if (!channel.wanted()) return check_no_channel(channel);
+  check_bins(channel);
+  check_orders(channel);
+  check_frequencies(channel.frequencies);
+}
+
 void check_threads(const Settings& settings) {
   constexpr unsigned most_threads = 4096;
   if (settings.threads > most_threads) {
@@ -129,6 +196,7 @@ void check_settings(const Settings& settings) {
   check_direct_error(settings);
   check_max_bounces(settings);
   check_tile_edge(settings);
+  check_channel(settings.channel);
   check_threads(settings);
 }
 
@@ -165,7 +233,26 @@ void check_memory(const Room& room, const Tiling& tiling, const Settings& settin
                    " GB, the available memory). Give --tile a greater length, or fewer --threads.");
 }
 
+namespace {
+
+void check_receivers_for_channels(const Room& room, const Settings& settings) {
+  if (!settings.channel.wanted()) return;
+  if (settings.measured == Measured::tiles) {
+    throw InputError(
+        "Impulse responses are requested, but only tiles are measured (--impulse-response with --only tiles; allowed: "
+        "one of them). Leave out --only tiles, or --impulse-response.");
+  }
+  if (room.receivers.empty()) {
+    throw InputError("There is no receiver in " + room.source +
+                     " (allowed: at least one for impulse responses). Give nodes of the room the custom property "
+                     "'receiver', or give points with --receivers or --grid.");
+  }
+}
+
+}  // namespace
+
 void check_settings_for(const Room& room, const Settings& settings) {
+  check_receivers_for_channels(room, settings);
   if (settings.measured == Measured::receivers && room.receivers.empty()) {
     throw InputError("There is no receiver in " + room.source +
                      " (allowed: at least one if only receivers are measured). Give nodes of the room the custom "
