@@ -33,6 +33,9 @@ void check(const lichtmc::ReceiverTable& table) {
       if (!std::isfinite(receiver.position[k]) || !std::isfinite(receiver.normal[k])) std::abort();
     }
     if (receiver.normal == glm::dvec3(0.0) || receiver.name.empty()) std::abort();
+    const bool optics = receiver.area_m2 >= 0.0 && receiver.half_angle_deg >= 0.0 && receiver.half_angle_deg <= 90.0 &&
+                        receiver.concentrator_index.value_or(1.0) >= 1.0 && receiver.filter_gain >= 0.0;
+    if (!optics) std::abort();
   }
 }
 

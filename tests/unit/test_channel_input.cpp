@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "lichtmc/receiver_table.hpp"
 #include "run/settings_check.hpp"
 #include "support/catch.hpp"
+#include "support/channel_rooms.hpp"
 #include "support/gltf_text.hpp"
 #include "support/rooms.hpp"
 
@@ -24,6 +26,7 @@ using nlohmann::json;
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double pi = std::numbers::pi;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 std::string only_note(const json& document) {
@@ -269,4 +272,19 @@ TEST_CASE("impulse responses need receivers") {
   CHECK_NOTHROW(check_settings_for(room, settings));
   settings.measured = Measured::tiles;
   CHECK_THROWS_WITH(check_settings_for(room, settings), ContainsSubstring("--only tiles"));
+}
+
+TEST_CASE("the rooms of the reference tables can be simulated, and their receivers have the tables' gains in sight") {
+  for (const Room& room : {barry_room(), cube_with_receivers(), partitioned_room()}) CHECK_NOTHROW(check_room(room));
+  // (m + 1) A cos^m φ cos ψ/(2π d²) of the ceiling's lamp, d² = 3² + 2² + 1.5².
+  const double squared = 15.25;
+  const double sight = 1e-4 * 9.0 / (pi * squared * squared);
+  const auto table = read_columns(LICHTMC_TEST_DATA "/channel/barry_1ns.csv");
+  CHECK(table.at("total").size() == 120);
+  CHECK(table.at("k0")[13] == Approx(sight).epsilon(1e-8));
+  const auto all = derived_reference("barry", "all");
+  const auto diffuse = derived_reference("barry", "nlos");
+  CHECK(all.at("H0") - diffuse.at("H0") == Approx(sight).epsilon(1e-7));
+  CHECK(all.at("K") == Approx(sight / diffuse.at("H0")).epsilon(1e-5));
+  CHECK(std::isnan(derived_reference("cube_centre", "all").at("f3dB_el_MHz")));
 }

@@ -1,0 +1,30 @@
+// The rooms of tests/data/channel, and its tables.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lichtmc/room.hpp"
+
+namespace lichtmc::test {
+
+// Configuration A of Barry 1993: 5 m × 3 m × 5 m, emitter "lamp" of 1 W in the middle of the ceiling, receiver "eye" of
+// 1 cm² on the floor.
+Room barry_room(double half_angle_deg = 85.0);
+
+// The unit cube of the paper with ρ = 0.6 and the receivers "centre" and "corner" of 1 m² on the floor.
+Room cube_with_receivers();
+
+// 6 m × 2.7 m × 5 m, with a partition between the emitter and the receiver.
+Room partitioned_room();
+
+// The columns of a table of numbers, by the names in its first line that does not begin with #. Words and empty fields
+// are NaN.
+std::map<std::string, std::vector<double>> read_columns(const std::string& file);
+
+// A row of derived.csv, by the names of its columns: room "barry", "cube_centre", "cube_corner" or "partition", set
+// "all" or "nlos". NaN where a figure does not exist.
+std::map<std::string, double> derived_reference(const std::string& room, const std::string& set);
+
+}  // namespace lichtmc::test
