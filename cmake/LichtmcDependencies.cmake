@@ -29,6 +29,15 @@ if(NOT TARGET lichtmc_hdf5)
   set_target_properties(lichtmc_xxhash PROPERTIES IMPORTED_LOCATION ${LICHTMC_XXHASH_LIBRARY}
     INTERFACE_INCLUDE_DIRECTORIES ${LICHTMC_XXHASH_INCLUDE_DIR})
 endif()
+# matio has none.
+if(NOT TARGET lichtmc_matio)
+  find_library(LICHTMC_MATIO_LIBRARY matio REQUIRED)
+  find_path(LICHTMC_MATIO_INCLUDE_DIR matio.h REQUIRED)
+  mark_as_advanced(LICHTMC_MATIO_LIBRARY LICHTMC_MATIO_INCLUDE_DIR)
+  add_library(lichtmc_matio UNKNOWN IMPORTED)
+  set_target_properties(lichtmc_matio PROPERTIES IMPORTED_LOCATION ${LICHTMC_MATIO_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${LICHTMC_MATIO_INCLUDE_DIR})
+endif()
 # libwebp has a CMake package in neither release.
 if(NOT TARGET lichtmc_webp)
   find_library(LICHTMC_WEBP_LIBRARY webp REQUIRED)

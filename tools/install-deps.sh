@@ -14,6 +14,7 @@ packages=(
   libwebp-dev                                # textures in WebP
   libopenexr-dev                             # tile maps as images
   libhdf5-dev libxxhash-dev                  # states of runs, their checksums
+  libmatio-dev                               # impulse responses for MATLAB
   libopenmpi-dev openmpi-bin                 # runs on several machines
   libhwy-dev                                 # SIMD random numbers
   libcli11-dev                               # command line

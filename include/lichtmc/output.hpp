@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lichtmc/folder_lock.hpp"
 #include "lichtmc/inspect.hpp"
@@ -31,7 +32,8 @@ struct ResultFiles {
 };
 
 // Writes summary.json into a folder; with results of tiles also tiles.csv, surfaces.csv and tiles/NAME.exr; with
-// results of receivers also receivers.csv.
+// results of receivers also receivers.csv; with impulse responses also impulse_response.csv, channels.csv, channels.h5
+// and channels.mat, except those that files_left_out() names.
 //
 // All files are first written and flushed to disk under temporary names, then renamed; summary.json is renamed last: a
 // folder with a summary.json is complete. Tile maps and the report of an earlier run are removed. Throws RuntimeError
@@ -41,6 +43,10 @@ struct ResultFiles {
 // prepare_output() returns.
 void write_results(const Room& room, const Result& result, const std::filesystem::path& folder,
                    const ResultFiles& files = {});
+
+// Which files write_results() cannot write because their format cannot hold the result; sentences with the reason and
+// what to do. summary.json and the report have them too.
+std::vector<std::string> files_left_out(const Result& result);
 
 struct ReportOptions {
   ScaleOptions scale;         // colour scale of all pictures

@@ -1,11 +1,13 @@
 #include <cmath>
 #include <concepts>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "lichtmc/output.hpp"
 #include "lichtmc/version.hpp"
+#include "output/channel_json.hpp"
 #include "output/json.hpp"
 #include "output/summary.hpp"
 #include "output/tile_image.hpp"
@@ -52,6 +54,8 @@ Json receiver_of(const Receiver& r, const ReceiverResult& one) {
           {"normal", {number(r.normal.x), number(r.normal.y), number(r.normal.z)}},
           {"fov", number(r.half_angle_deg)},
           {"area", number(r.area_m2)},
+          {"concentrator_index", r.concentrator_index ? number(*r.concentrator_index) : Json(nullptr)},
+          {"filter_gain", number(r.filter_gain)},
           {"irradiance", number(one.irradiance)},
           {"direct", number(one.direct)},
           {"indirect", number(one.indirect)},
@@ -60,14 +64,13 @@ Json receiver_of(const Receiver& r, const ReceiverResult& one) {
           {"gain_db", one.gain > 0.0 ? number(10.0 * std::log10(one.gain)) : Json(nullptr)}};
 }
 
-// The receivers as the elements of an array, each on a line.
-void write_receivers(const Result& result, const Sink& sink) {
-  for (std::size_t k = 0; k < result.receiver_results.size(); ++k) {
+// The elements of an array, each on a line.
+void write_elements(std::size_t count, const std::function<Json(std::size_t)>& element, const Sink& sink) {
+  for (std::size_t k = 0; k < count; ++k) {
     sink(k > 0 ? ",\n    " : "\n    ");
-    sink(receiver_of(result.receivers[k], result.receiver_results[k])
-             .dump(-1, ' ', false, Json::error_handler_t::replace));
+    sink(element(k).dump(-1, ' ', false, Json::error_handler_t::replace));
   }
-  if (!result.receiver_results.empty()) sink("\n  ");
+  if (count > 0) sink("\n  ");
 }
 
 // Facts of the walk for the receivers; null without receivers.
@@ -121,6 +124,8 @@ Json units_of(const Result& result) {
           {"indirect", irradiance},
           {"gain", "1"},
           {"gain_db", "dB"},
+          {"concentrator_index", "1"},
+          {"filter_gain", "1"},
           {"fov", "degrees"},
           {"area", "m^2"},
           {"unreached_area", "m^2"},
@@ -168,7 +173,7 @@ void add_balance(const Result& result, Json& summary) {
   summary["incident_standard_error"] = number(result.incident_standard_error);
 }
 
-// `receivers` stays empty here: see write_receivers().
+// `receivers` stays empty here: see write_summary().
 void add_results(const Result& result, const ResultFiles& files, Json& summary) {
   summary["rms_relative_error"] = number(result.walk.rms_relative_error);
   summary["figure_of_merit"] = number(result.walk.figure_of_merit);
@@ -223,6 +228,7 @@ void add_details(const Room& room, const Result& result, const ResultFiles& file
   summary["receiver_walk"] = receiver_walk_of(result);
   summary["backward"] = receiver_walk_of(result);  // the name in earlier versions
   summary["warnings"] = result.warnings;
+  for (const std::string& note : files_left_out(result)) summary["warnings"].push_back(note);
   summary["mended"] = result.overrides;
   summary["emitters"] = emitters_of(room);
   summary["tile_edge_m"] = result.settings.tile_edge_m;
@@ -235,6 +241,10 @@ void add_details(const Room& room, const Result& result, const ResultFiles& file
   summary["units"] = units_of(result);
   summary["settings"] = settings_of(result.settings);
   if (!files.tile_images) summary["tile_images"] = false;
+  if (result.channels) {
+    summary["impulse_responses"] = impulse_responses_of(result);
+    summary["channels"] = Json::array();  // stays empty here, as `receivers`
+  }
 }
 
 }  // namespace
@@ -245,13 +255,22 @@ void write_summary(const Room& room, const Result& result, const ResultFiles& fi
   add_balance(result, summary);
   add_results(result, files, summary);
   add_details(room, result, files, summary);
-  // The receivers replace the empty array.
+  // There may be very many receivers and channels: they are written one by one in place of the empty arrays.
   const std::string text = json_text(summary);
-  const std::string_view place = "\n  \"receivers\": [";
-  const std::size_t cut = text.find(place) + place.size();
-  sink(std::string_view(text).substr(0, cut));
-  write_receivers(result, sink);
-  sink(std::string_view(text).substr(cut));
+  std::string_view rest = text;
+  const auto write_array = [&](const std::string& key, std::size_t count,
+                               const std::function<Json(std::size_t)>& element) {
+    const std::string place = "\n  \"" + key + "\": [";
+    const std::size_t cut = rest.find(place) + place.size();
+    sink(rest.substr(0, cut));
+    write_elements(count, element, sink);
+    rest.remove_prefix(cut);
+  };
+  write_array("receivers", result.receiver_results.size(),
+              [&](std::size_t k) { return receiver_of(result.receivers[k], result.receiver_results[k]); });
+  if (result.channels)
+    write_array("channels", result.channels->channels.size(), [&](std::size_t k) { return channel_of(result, k); });
+  sink(rest);
 }
 
 std::string summary_json(const Room& room, const Result& result, const ResultFiles& files) {

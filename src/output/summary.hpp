@@ -8,7 +8,8 @@
 
 namespace lichtmc {
 
-// Writes the content of summary.json; the receivers one by one, because there may be very many.
+// Writes the content of summary.json; receivers and channels one by one, because there may be very
+// many.
 void write_summary(const Room& room, const Result& result, const ResultFiles& files, const Sink& sink);
 
 }  // namespace lichtmc

@@ -8,24 +8,11 @@
 
 #include "base/csv.hpp"
 #include "base/message.hpp"
-#include "base/parallel.hpp"
+#include "output/table_rows.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-// Appends fields separated by commas, and a line end.
-template <class... Fields>
-void append_row(std::string& table, const Fields&... fields) {
-  bool first = true;
-  const auto append = [&](const std::string& field) {
-    if (!first) table += ',';
-    first = false;
-    table += field;
-  };
-  (append(fields), ...);
-  table += '\n';
-}
 
 // Writes the rows collected so far.
 void flush(std::string& table, const Sink& sink) {
@@ -58,18 +45,7 @@ void write_tiles_csv(const Result& result, const Sink& sink) {
                std::to_string(figures.hits), unit_and_parts(unit, figures.irradiance, figures.direct));
   };
   flush(table, sink);
-  // Blocks of rows are made on all threads of the run, some at a time, and written in order.
-  constexpr std::size_t rows_of_block = 8192;
-  const unsigned threads = std::max(1U, result.threads);
-  std::vector<std::string> blocks(std::size_t{2} * threads);
-  for (std::size_t first = 0; first < result.tiles.size(); first += blocks.size() * rows_of_block) {
-    for_each_on_threads(threads, blocks.size(), [&](std::size_t k) {
-      blocks[k].clear();
-      const std::size_t end = std::min(result.tiles.size(), first + (k + 1) * rows_of_block);
-      for (std::size_t i = first + k * rows_of_block; i < end; ++i) row(i, blocks[k]);
-    });
-    for (const std::string& block : blocks) sink(block);
-  }
+  write_rows(std::max(1U, result.threads), result.tiles.size(), row, sink);
 }
 
 void write_receivers_csv(const Result& result, const Sink& sink) {

@@ -12,6 +12,9 @@
 #include "base/parallel.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/output.hpp"
+#include "output/channel_tables.hpp"
+#include "output/channels_h5.hpp"
+#include "output/channels_mat.hpp"
 #include "output/folder.hpp"
 #include "output/summary.hpp"
 #include "output/tables.hpp"
@@ -49,7 +52,21 @@ void write_images(const Result& result, const std::vector<std::string>& names, S
   }
 }
 
+void write_channels(const Result& result, StagedFiles& staged) {
+  staged.write("impulse_response.csv", [&](const Sink& sink) { write_impulse_responses_csv(result, sink); });
+  staged.write("channels.csv", [&](const Sink& sink) { write_channels_csv(result, sink); });
+  staged.write("channels.h5", [&](const Sink& sink) { write_channels_h5(result, sink); });
+  if (obstacle_to_channels_mat(result).empty())
+    staged.write("channels.mat", [&](const Sink& sink) { write_channels_mat(result, sink); });
+}
+
 }  // namespace
+
+std::vector<std::string> files_left_out(const Result& result) {
+  if (!result.channels) return {};
+  const std::string obstacle = obstacle_to_channels_mat(result);
+  return obstacle.empty() ? std::vector<std::string>() : std::vector<std::string>{obstacle};
+}
 
 FolderLock prepare_output(const fs::path& folder) {
   std::error_code error;
@@ -82,6 +99,7 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
   }
   if (!result.receiver_results.empty())
     staged.write("receivers.csv", [&](const Sink& sink) { write_receivers_csv(result, sink); });
+  if (result.channels) write_channels(result, staged);
   staged.write("summary.json", [&](const Sink& sink) { write_summary(room, result, files, sink); });
   staged.flush();
 
@@ -103,6 +121,10 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
     remove_old(folder / "surfaces.csv");
   }
   if (result.receiver_results.empty()) remove_old(folder / "receivers.csv");
+  if (!result.channels) {
+    for (const char* name : {"impulse_response.csv", "channels.csv", "channels.h5"}) remove_old(folder / name);
+  }
+  if (!result.channels || !obstacle_to_channels_mat(result).empty()) remove_old(folder / "channels.mat");
   staged.publish("summary.json");
 }
 
