@@ -39,7 +39,8 @@ class Writer {
 
   // Attributes of the group or data set `of`.
   void attribute(const std::string& of, const std::string& name, const std::string& text) {
-    write_attribute(of, name, hdf5_text_type(text.size()), text.c_str());
+    const char* const pointer = text.c_str();
+    write_attribute(of, name, text_type(), &pointer);
   }
   void attribute(const std::string& of, const std::string& name, double value) {
     write_attribute(of, name, H5T_NATIVE_DOUBLE, &value);
@@ -66,8 +67,7 @@ class Writer {
 
   void names(const std::string& name, const std::string& dimension, const std::string& what,
              const std::vector<std::string>& texts) {
-    const Hdf5Handle type = hdf5_text_type(0);
-    check_hdf5(H5Tset_size(type, H5T_VARIABLE), "describe text");
+    const Hdf5Handle type = text_type();
     const hsize_t count = texts.size();
     const Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, "describe an array");
     const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "set up HDF5");
@@ -83,6 +83,13 @@ class Writer {
   std::string_view image() const { return hdf5_image(file_, 0); }
 
  private:
+  // Text of any length, which Python and MATLAB read as text and not as bytes.
+  static Hdf5Handle text_type() {
+    Hdf5Handle type = hdf5_text_type(0);
+    check_hdf5(H5Tset_size(type, H5T_VARIABLE), "describe text");
+    return type;
+  }
+
   void write_attribute(const std::string& of, const std::string& name, hid_t type, const void* value) {
     const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "describe an attribute");
     const Hdf5Handle attribute(

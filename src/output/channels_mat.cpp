@@ -1,5 +1,6 @@
 #include "output/channels_mat.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -80,19 +81,16 @@ Variable numbers(const std::string& name, std::vector<std::size_t> dimensions, s
                             dimensions.data(), const_cast<double*>(values.data()), MAT_F_DONT_COPY_DATA));
 }
 
-// Text as UTF-16, which all versions of MATLAB read.
+// Text as UTF-16, which all versions of MATLAB read. Characters that take two units are replaced: scipy.io.loadmat
+// refuses the whole file because of them.
 std::vector<std::uint16_t> utf16_of(std::string_view text) {
+  constexpr std::uint16_t replacement = 0xFFFD;
   std::vector<std::uint16_t> units;
   while (!text.empty()) {
-    Character character = first_character(text);
-    if (character.bytes == 0) character = {U'\uFFFD', 1};  // not UTF-8
-    text.remove_prefix(character.bytes);
-    if (character.code < 0x10000) {
-      units.push_back(static_cast<std::uint16_t>(character.code));
-    } else {
-      units.push_back(static_cast<std::uint16_t>(0xD800 + ((character.code - 0x10000) >> 10U)));
-      units.push_back(static_cast<std::uint16_t>(0xDC00 + ((character.code - 0x10000) & 0x3FFU)));
-    }
+    const Character character = first_character(text);
+    const bool one_unit = character.bytes > 0 && character.code < 0x10000;
+    units.push_back(one_unit ? static_cast<std::uint16_t>(character.code) : replacement);
+    text.remove_prefix(std::max<std::size_t>(character.bytes, 1));
   }
   return units;
 }
@@ -100,7 +98,7 @@ std::vector<std::uint16_t> utf16_of(std::string_view text) {
 Variable text_variable(const char* name, std::string_view text) {
   std::vector<std::uint16_t> units = utf16_of(text);
   std::array<std::size_t, 2> dimensions{units.empty() ? 0U : 1U, units.size()};
-  return made(Mat_VarCreate(name, MAT_C_CHAR, MAT_T_UINT16, 2, dimensions.data(), units.data(), 0));
+  return made(Mat_VarCreate(name, MAT_C_CHAR, MAT_T_UTF16, 2, dimensions.data(), units.data(), 0));
 }
 
 // A column of texts as a cell array.
@@ -124,8 +122,8 @@ Variable derived_struct(const std::vector<ChannelArray>& arrays) {
   }
   for (const std::string& name : names) pointers.push_back(name.c_str());
   std::array<std::size_t, 2> dimensions{1, 1};
-  Variable group = made(Mat_VarCreateStruct("derived", 2, dimensions.data(), pointers.data(),
-                                            static_cast<unsigned>(pointers.size())));
+  Variable group = made(
+      Mat_VarCreateStruct("derived", 2, dimensions.data(), pointers.data(), static_cast<unsigned>(pointers.size())));
   for (std::size_t k = 0; k < fields.size(); ++k)
     Mat_VarSetStructFieldByName(group.get(), pointers[k], 0,
                                 numbers(names[k], reversed(fields[k]->sizes), fields[k]->values()).release());
