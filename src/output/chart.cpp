@@ -38,6 +38,18 @@ class Axis {
       high_ = std::max(high, low_ + 1e-12);
     }
   }
+  // Keeps a value within the axis.
+  double inside(double value) const {
+    const double low = scale_ == Scale::logarithmic ? std::pow(10.0, low_) : low_;
+    const double high = scale_ == Scale::logarithmic ? std::pow(10.0, high_) : high_;
+    return std::clamp(value, low, high);
+  }
+  // Whether the axis, which may end before the data, reaches a value, up to rounding.
+  bool reaches(double value) const {
+    constexpr double rounding = 1e-9;  // of the length of the axis
+    const double part = contains(value) ? (at(value) - from_) / (to_ - from_) : -1.0;
+    return part >= -rounding && part <= 1.0 + rounding;
+  }
   bool contains(double value) const { return std::isfinite(value) && (scale_ == Scale::linear || value > 0.0); }
   double at(double value) const {
     const double v = scale_ == Scale::logarithmic ? std::log10(value) : value;
@@ -50,7 +62,8 @@ class Axis {
       for (int k = 0; low_ + k * step <= high_; ++k) ticks.push_back(std::pow(10.0, low_ + k * step));
       return ticks;
     }
-    const double rough = (high_ - low_) / 6.0;
+    constexpr double rounding = 1.0 - 1e-9;  // 120 in six steps are steps of 20
+    const double rough = rounding * (high_ - low_) / 6.0;
     const double decade = std::pow(10.0, std::floor(std::log10(rough)));
     const double step = decade * (rough > 5.0 * decade   ? 10.0
                                   : rough > 2.0 * decade ? 5.0
@@ -70,10 +83,11 @@ class Axis {
 
 constexpr const char* grid_style = "class=\"rule\"";
 
-std::string style_of(std::size_t series) {
+// `thin`: for lines of many points, which would hide what is behind them.
+std::string style_of(std::size_t series, bool thin = false) {
   const std::string dash = dashes.at(series / colours.size() % dashes.size());
-  return "stroke=\"" + std::string(colours.at(series % colours.size())) + "\" stroke-width=\"2\" fill=\"none\"" +
-         (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\"");
+  return "stroke=\"" + std::string(colours.at(series % colours.size())) + "\" stroke-width=\"" + (thin ? "1" : "2") +
+         "\" fill=\"none\"" + (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\"");
 }
 
 // Extends a range by a value, unless the axis cannot show it.
@@ -100,35 +114,163 @@ std::string grid(const Axis& x, const Axis& y, const LineChart& chart) {
   return svg;
 }
 
+std::string colour_of(std::size_t series) {
+  return colours.at(series % colours.size());
+}
+
+Axis x_axis(const LineChart& chart) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double low = infinity, high = -infinity;
+  for (const ChartSeries& series : chart.series) {
+    for (const ChartPoint& point : series.points) extend(point.x, chart.x_scale, low, high);
+  }
+  for (const ChartArea& area : chart.areas) {
+    for (const ChartRange& range : area.range) extend(range.x, chart.x_scale, low, high);
+  }
+  return {chart.x_scale, low, high, left, right};
+}
+
+Axis y_axis(const LineChart& chart) {
+  if (chart.y_limits) return {chart.y_scale, chart.y_limits->low, chart.y_limits->high, bottom, top};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double low = infinity, high = -infinity;
+  for (const ChartSeries& series : chart.series) {
+    for (const ChartPoint& point : series.points) extend(point.y, chart.y_scale, low, high);
+  }
+  for (const ChartArea& area : chart.areas) {
+    for (const ChartRange& range : area.range) {
+      extend(range.low, chart.y_scale, low, high);
+      extend(range.high, chart.y_scale, low, high);
+    }
+  }
+  return {chart.y_scale, low, high, bottom, top};
+}
+
+std::string coordinates(double x, double y) {
+  return fixed(x) + "," + fixed(y) + " ";
+}
+
+// The ranges as one or more polygons, cut off at the ends of the y axis: there are gaps where nothing is inside it.
+std::string filled(const std::vector<ChartRange>& ranges, const Axis& x, const Axis& y, const std::string& colour,
+                   double opacity) {
+  std::string svg;
+  std::string forth;
+  std::string back;
+  const auto close = [&] {
+    if (!forth.empty())
+      svg += "<polygon points=\"" + forth + back + "\" fill=\"" + colour + "\" fill-opacity=\"" + fixed(opacity) +
+             "\"/>\n";
+    forth.clear();
+    back.clear();
+  };
+  for (const ChartRange& range : ranges) {
+    const double low = y.at(y.inside(range.low));
+    const double high = y.at(y.inside(range.high));
+    if (!x.contains(range.x) || !std::isfinite(range.low) || !std::isfinite(range.high) || low == high) {
+      close();
+      continue;
+    }
+    forth += coordinates(x.at(range.x), high);
+    back.insert(0, coordinates(x.at(range.x), low));
+  }
+  close();
+  return svg;
+}
+
+constexpr std::size_t many_points = 500;  // about one for each unit of the width
+
+std::string lines(const ChartSeries& series, std::size_t number, const Axis& x, const Axis& y) {
+  std::string svg;
+  std::string points;
+  std::string dots;
+  const auto end_line = [&] {
+    if (!points.empty()) svg += "<polyline points=\"" + points + "\" " + style_of(number, series.points.size() > many_points) + "/>\n";
+    points.clear();
+  };
+  for (const ChartPoint& point : series.points) {
+    if (!x.contains(point.x) || !y.reaches(point.y)) {
+      if (series.gaps) end_line();
+      continue;
+    }
+    points += coordinates(x.at(point.x), y.at(point.y));
+    if (series.dots)
+      dots += "<circle cx=\"" + fixed(x.at(point.x)) + "\" cy=\"" + fixed(y.at(point.y)) + "\" r=\"3\" fill=\"" +
+              colour_of(number) + "\"/>\n";
+  }
+  end_line();
+  return svg + dots;
+}
+
+std::string marks(const LineChart& chart, const Axis& x, const Axis& y) {
+  constexpr const char* style = "class=\"frame\" stroke-dasharray=\"5 4\"";
+  constexpr const char* small = " font-size=\"12\"";
+  std::string svg;
+  for (const ChartMark& mark : chart.x_marks) {
+    if (!x.reaches(mark.at)) continue;
+    const double at = x.at(mark.at);
+    svg += svg_line(at, top, at, bottom, style);
+    const bool to_the_left = at + 4.0 + text_width(mark.label, 12.0) > right;
+    svg += svg_text(at + (to_the_left ? -4.0 : 4.0), top + 14.0, mark.label,
+                    to_the_left ? std::string(small) + " text-anchor=\"end\"" : small);
+  }
+  for (const ChartMark& mark : chart.y_marks) {
+    if (!y.reaches(mark.at)) continue;
+    svg += svg_line(left, y.at(mark.at), right, y.at(mark.at), style);
+    svg += svg_text(right - 4.0, y.at(mark.at) - 4.0, mark.label, std::string(small) + " text-anchor=\"end\"");
+  }
+  return svg;
+}
+
+// The names to the right of the chart, from above.
+class Legend {
+ public:
+  std::string line(const std::string& name, std::size_t series) {
+    return named(svg_line(right + 14.0, row_ - 4.0, right + 44.0, row_ - 4.0, style_of(series)), name);
+  }
+  std::string area(const std::string& name, const std::string& colour) {
+    return named("<rect x=\"" + fixed(right + 14.0) + "\" y=\"" + fixed(row_ - 11.0) +
+                     "\" width=\"30\" height=\"13\" fill=\"" + colour + "\" fill-opacity=\"0.8\"/>\n",
+                 name);
+  }
+  std::string notes(const std::vector<std::string>& sentences) {
+    std::string svg;
+    for (const std::string& sentence : sentences) {
+      row_ += 8.0;
+      for (const std::string& part : text_lines(sentence, 12.0, width - right - 24.0)) {
+        svg += svg_text(right + 14.0, row_, part, " font-size=\"12\"");
+        row_ += 16.0;
+      }
+    }
+    return svg;
+  }
+
+ private:
+  std::string named(const std::string& sign, const std::string& name) {
+    const std::string svg = sign + svg_text(right + 50.0, row_, name, " font-size=\"12\"");
+    row_ += 20.0;
+    return svg;
+  }
+
+  double row_ = top + 12.0;
+};
+
 }  // namespace
 
 std::string to_svg(const LineChart& chart) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  double x_low = infinity, x_high = -infinity, y_low = infinity, y_high = -infinity;
-  for (const ChartSeries& series : chart.series) {
-    for (const ChartPoint& point : series.points) {
-      extend(point.x, chart.x_scale, x_low, x_high);
-      extend(point.y, chart.y_scale, y_low, y_high);
-    }
-  }
-  const Axis x(chart.x_scale, x_low, x_high, left, right);
-  const Axis y(chart.y_scale, y_low, y_high, bottom, top);
+  const Axis x = x_axis(chart);
+  const Axis y = y_axis(chart);
   std::string svg = svg_head(width, height, chart.title, left) + grid(x, y, chart);
-  for (std::size_t k = 0; k < chart.series.size(); ++k) {
-    std::string points;
-    std::string dots;
-    for (const ChartPoint& point : chart.series[k].points) {
-      if (!x.contains(point.x) || !y.contains(point.y)) continue;
-      points += fixed(x.at(point.x)) + "," + fixed(y.at(point.y)) + " ";
-      dots += "<circle cx=\"" + fixed(x.at(point.x)) + "\" cy=\"" + fixed(y.at(point.y)) + "\" r=\"3\" fill=\"" +
-              colours.at(k % colours.size()) + "\"/>\n";
-    }
-    svg += "<polyline points=\"" + points + "\" " + style_of(k) + "/>\n" + dots;
-    const double row = top + 12.0 + 20.0 * static_cast<double>(k);
-    svg += svg_line(right + 14.0, row - 4.0, right + 44.0, row - 4.0, style_of(k));
-    svg += svg_text(right + 50.0, row, chart.series[k].name, " font-size=\"12\"");
+  Legend legend;
+  for (std::size_t k = 0; k < chart.areas.size(); ++k) {
+    svg += filled(chart.areas[k].range, x, y, colour_of(k), 0.8);
+    svg += legend.area(chart.areas[k].name, colour_of(k));
   }
-  return svg + "</svg>\n";
+  for (std::size_t k = 0; k < chart.series.size(); ++k) {
+    svg += filled(chart.series[k].band, x, y, colour_of(k), 0.3);
+    svg += lines(chart.series[k], k, x, y);
+    svg += legend.line(chart.series[k].name, k);
+  }
+  return svg + marks(chart, x, y) + legend.notes(chart.notes) + "</svg>\n";
 }
 
 std::string bars_to_svg(const std::string& title, const std::string& label, std::vector<Bar> bars) {

@@ -1,5 +1,8 @@
 #include "output/readable.hpp"
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "base/message.hpp"
@@ -13,6 +16,21 @@ std::string short_count(std::uint64_t count) {
 
 std::string percent(double share) {
   return std::isfinite(share) ? short_number(100.0 * share) + " %" : "unknown";
+}
+
+std::string with_error(double value, double standard_error) {
+  constexpr int most_decimals = 9;
+  if (!std::isfinite(value)) return "–";
+  if (!std::isfinite(standard_error)) return short_number(value);
+  const int decimals = standard_error > 0.0 ? 1 - static_cast<int>(std::floor(std::log10(standard_error))) : 0;
+  if (!(standard_error > 0.0) || decimals > most_decimals) return rounded(value, 6);
+  const auto text = [decimals](double number) {
+    std::array<char, 400> digits{};  // the largest double has 309 before the point
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed,
+                                   std::max(0, decimals));
+    return std::string(digits.data(), end.ptr);
+  };
+  return text(value) + " ± " + text(standard_error);
 }
 
 }  // namespace lichtmc

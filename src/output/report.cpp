@@ -6,10 +6,12 @@
 
 #include "base/base64.hpp"
 #include "base/message.hpp"
+#include "lichtmc/output.hpp"
 #include "lichtmc/units.hpp"
 #include "output/assets.hpp"
 #include "output/html.hpp"
 #include "output/readable.hpp"
+#include "output/report_channels.hpp"
 #include "output/report_figures.hpp"
 #include "output/report_origin.hpp"
 #include "output/svg.hpp"
@@ -80,6 +82,7 @@ std::string key_figures(const Room& room, const Result& result) {
 std::string warnings_section(const ReportContent& content) {
   const Result& result = *content.result;
   std::vector<std::string> sentences = result.warnings;
+  for (std::string& sentence : files_left_out(result)) sentences.push_back(std::move(sentence));
   for (std::string& line : warning_lines(*content.room, content.inspection)) {
     if (std::find(sentences.begin(), sentences.end(), line) == sentences.end()) sentences.push_back(std::move(line));
   }
@@ -150,8 +153,9 @@ std::string report_html(const ReportContent& content) {
       text_element("h1",
                    (result.quantity == Quantity::photometric ? "Illuminance in " : "Irradiance in ") + result.room) +
       key_figures(room, result) + warnings_section(content) + pictures_section(content) + view_section(content) +
-      surfaces_section(content) + receivers_section(result) + balance_section(room, result) +
-      convergence_section(result) + settings_section(room, result, content.tile_images) + left_out_section(result) +
+      surfaces_section(content) + receivers_section(result) + channels_section(content) +
+      balance_section(room, result) + convergence_section(result) +
+      settings_section(room, result, content.tile_images) + left_out_section(result) +
       reproduction_section(result, content.command);
   return "<!DOCTYPE html>\n<html lang=\"en\">\n" + element("head", head) +
          element("body", element("main", body) + scripts(content)) + "</html>\n";

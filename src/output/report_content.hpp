@@ -8,6 +8,7 @@
 #include "lichtmc/picture.hpp"
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
+#include "output/channel_pictures.hpp"
 
 namespace lichtmc {
 
@@ -26,6 +27,7 @@ struct ReportContent {
   std::vector<std::string> without_plan;  // sentences: which large surfaces have no plan, and why
   std::vector<std::string> plan_pictures;
   std::string lit_room;  // room_lit.glb
+  std::vector<ChannelPictures> channels;
 };
 
 }  // namespace lichtmc

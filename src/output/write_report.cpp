@@ -12,6 +12,7 @@
 #include "lichtmc/lit_room.hpp"
 #include "lichtmc/output.hpp"
 #include "lichtmc/paths.hpp"
+#include "output/channel_pictures.hpp"
 #include "output/folder.hpp"
 #include "output/picture_svg.hpp"
 #include "output/report.hpp"
@@ -39,6 +40,7 @@ class ReportWriter {
   }
 
   void write() {
+    if (result_->channels) draw_channels();
     if (!result_->tiles.empty()) {
       content_.scale = choose_scale(*result_, options_->scale);
       draw();
@@ -111,14 +113,36 @@ class ReportWriter {
     const std::vector<PhotonPath> paths = trace();
 
     announce("Writing pictures");
+    // Surfaces do not get the names of other pictures.
     std::vector<std::string> stems{"paths"};
+    stems.insert(stems.end(), channel_files_.begin(), channel_files_.end());
+    const std::size_t first = stems.size();
     for (const Drawn& drawn : all) stems.push_back(drawn.name);
     stems = file_stems(stems);
     if (!content_.paths_picture.empty())
       folder_.write(fs::path("pictures") / (stems[0] + ".svg"), content_.paths_picture);
-    for (std::size_t k = 0; k < all.size(); ++k) write_picture(stems[k + 1], all[k]);
+    for (std::size_t k = 0; k < all.size(); ++k) write_picture(stems[first + k], all[k]);
     content_.lit_room = lit_room_glb(*room_, *result_, painter.lit_sides(), content_.scale, paths);
     folder_.write("room_lit.glb", content_.lit_room);
+  }
+
+  // Pictures of the strongest and the weakest channel.
+  void draw_channels() {
+    announce("Drawing impulse responses");
+    const fs::path pictures = "pictures";
+    for (const std::size_t pair : shown_channels(*result_->channels)) {
+      const std::string suffix = content_.channels.empty() ? "" : "_lowest_gain";
+      content_.channels.push_back(channel_pictures(*result_, pair));
+      const ChannelPictures& drawn = content_.channels.back();
+      const auto write = [&](const std::string& name, const std::string& picture) {
+        if (picture.empty()) return;
+        channel_files_.push_back(name + suffix);
+        folder_.write(pictures / (name + suffix + ".svg"), picture);
+      };
+      write("impulse_response", drawn.response);
+      write("impulse_response_orders", drawn.by_order);
+      write("frequency_response", drawn.frequency);
+    }
   }
 
   // The paths of the first photons of the run, if requested.
@@ -136,6 +160,7 @@ class ReportWriter {
   StagedFiles folder_;
   const ReportOptions* options_;
   ReportContent content_;
+  std::vector<std::string> channel_files_;  // names of pictures of channels, without .svg
 };
 
 }  // namespace
