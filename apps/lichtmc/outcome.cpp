@@ -105,11 +105,43 @@ void print_receivers(const Result& result) {
                         walk.seconds, "");
 }
 
+// A figure with its relative standard error.
+std::string with_error(const Figure& figure, double scale, const std::string& unit) {
+  std::string text = four_digits(scale * figure.value) + unit;
+  if (figure.standard_error > 0.0) text += " ± " + percent(figure.standard_error / figure.value);
+  return text;
+}
+
+// The first channels, a line each.
+void print_channels(const ImpulseResponses& responses) {
+  constexpr std::size_t most = 4;
+  constexpr double per_ns = 1e9;
+  const std::size_t count = responses.channels.size();
+  for (std::size_t k = 0; k < std::min(most, count); ++k) {
+    const Channel& channel = responses.channels[k];
+    std::cerr << "Channel from '" << visible_text(responses.emitters[channel.emitter]) << "' to '"
+              << visible_text(responses.receivers[k % responses.receivers.size()]) << "': ";
+    if (!(channel.gain.value > 0.0)) {
+      std::cerr << "no light.\n";
+      continue;
+    }
+    std::cerr << "gain H(0) " << with_error(channel.gain, 1.0, "") << " ("
+              << four_digits(10.0 * std::log10(channel.gain.value)) << " dB), first arrival "
+              << (channel.first_arrival_is_exact ? "" : "at the latest ")
+              << four_digits(per_ns * channel.first_arrival_s) << " ns, rms delay spread "
+              << with_error(channel.rms_delay_spread_s, per_ns, " ns") << ", "
+              << percent(channel.beyond.value / channel.gain.value) << " later than the time span of "
+              << four_digits(per_ns * static_cast<double>(responses.bins) * responses.bin_width_s) << " ns.\n";
+  }
+  if (count > most) std::cerr << "channels.csv contains all " << count << " channels.\n";
+}
+
 }  // namespace
 
 void print_outcome(const Result& result, const std::filesystem::path& folder, bool with_report, bool with_images) {
   if (!result.tiles.empty()) print_tiles(result);
   if (!result.receiver_results.empty()) print_receivers(result);
+  if (result.channels) print_channels(*result.channels);
   for (const Measured what : {Measured::tiles, Measured::receivers}) {
     const std::string options = options_to_repeat(result, what);
     if (!options.empty()) std::cerr << "The same figures, to the last digit, without a clock: " << options << '\n';
@@ -120,7 +152,8 @@ void print_outcome(const Result& result, const std::filesystem::path& folder, bo
   std::cerr << "Results are in " << visible_text(folder.string())
             << (result.tiles.empty() ? ": " : ": surfaces.csv (one row per surface), tiles.csv, ")
             << (result.tiles.empty() || !with_images ? "" : "tiles/*.exr, ")
-            << (result.receiver_results.empty() ? "" : "receivers.csv, ") << "summary.json.\n";
+            << (result.receiver_results.empty() ? "" : "receivers.csv, ")
+            << (result.channels ? "channels.csv, impulse_response.csv, channels.h5, " : "") << "summary.json.\n";
   if (!with_report) return;
   std::cerr << "Open " << visible_text((folder / "report.html").string()) << " in a browser"
             << (result.tiles.empty() ? "" : ", room_lit.glb in any glTF viewer") << ".\n";

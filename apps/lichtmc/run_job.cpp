@@ -10,6 +10,7 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <thread>
 #include <vector>
 
@@ -125,6 +126,7 @@ void write_all(RunJob& job, Result& result, const std::vector<std::string>& prin
     write_report(job.room, result, job.folder, job.report);
   }
   result.warnings = of_the_run;
+  for (std::string& note : files_left_out(result)) result.warnings.push_back(std::move(note));
   if (!job.quiet) print_outcome(result, job.folder, job.with_report, job.files.tile_images);
 }
 
