@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lichtmc/output.hpp"
 #include "lichtmc/visible_text.hpp"
 #include "progress_line.hpp"
 #include "quantities.hpp"
@@ -125,8 +126,8 @@ void print_channels(const ImpulseResponses& responses) {
       std::cerr << "no light.\n";
       continue;
     }
-    std::cerr << "gain H(0) " << with_error(channel.gain, 1.0, "") << " ("
-              << four_digits(10.0 * std::log10(channel.gain.value)) << " dB), first arrival "
+    std::cerr << "gain H(0) " << four_digits(10.0 * std::log10(channel.gain.value)) << " dB ± "
+              << percent(channel.gain.standard_error / channel.gain.value) << ", first arrival "
               << (channel.first_arrival_is_exact ? "" : "at the latest ")
               << four_digits(per_ns * channel.first_arrival_s) << " ns, rms delay spread "
               << with_error(channel.rms_delay_spread_s, per_ns, " ns") << ", "
@@ -153,7 +154,8 @@ void print_outcome(const Result& result, const std::filesystem::path& folder, bo
             << (result.tiles.empty() ? ": " : ": surfaces.csv (one row per surface), tiles.csv, ")
             << (result.tiles.empty() || !with_images ? "" : "tiles/*.exr, ")
             << (result.receiver_results.empty() ? "" : "receivers.csv, ")
-            << (result.channels ? "channels.csv, impulse_response.csv, channels.h5, " : "") << "summary.json.\n";
+            << (result.channels ? "channels.csv, impulse_response.csv, channels.h5, " : "")
+            << (result.channels && files_left_out(result).empty() ? "channels.mat, " : "") << "summary.json.\n";
   if (!with_report) return;
   std::cerr << "Open " << visible_text((folder / "report.html").string()) << " in a browser"
             << (result.tiles.empty() ? "" : ", room_lit.glb in any glTF viewer") << ".\n";

@@ -97,10 +97,12 @@ std::string response_picture(const ImpulseResponses& responses, std::size_t pair
                      true,
                      {}};
   low = std::pow(10.0, std::floor(std::log10(low)));  // the lower end of the axis
+  // Beside bins without light, light that is not noise goes down to the axis: an instant line of sight is a peak.
+  const auto is_peak = [&](std::size_t k) { return h[k] > 3.0 * error[k]; };
   for (std::size_t k = 0; k < h.size(); ++k) {
-    const bool lit = h[k] > 0.0;
-    const bool before = k > 0 && h[k - 1] > 0.0;
-    if (lit != before) series.points.push_back({columns.start_ns(k), low});
+    const bool rises = h[k] > 0.0 && (k == 0 || !(h[k - 1] > 0.0)) && is_peak(k);
+    const bool falls = k > 0 && h[k - 1] > 0.0 && !(h[k] > 0.0) && is_peak(k - 1);
+    if (rises || falls) series.points.push_back({columns.start_ns(k), low});
     for (const double x : {columns.start_ns(k), columns.start_ns(k + 1)}) {
       series.points.push_back({x, h[k]});
       series.band.push_back({x, h[k] - error[k], h[k] + error[k]});

@@ -184,7 +184,8 @@ std::string lines(const ChartSeries& series, std::size_t number, const Axis& x, 
   std::string points;
   std::string dots;
   const auto end_line = [&] {
-    if (!points.empty()) svg += "<polyline points=\"" + points + "\" " + style_of(number, series.points.size() > many_points) + "/>\n";
+    if (!points.empty())
+      svg += "<polyline points=\"" + points + "\" " + style_of(number, series.points.size() > many_points) + "/>\n";
     points.clear();
   };
   for (const ChartPoint& point : series.points) {
@@ -216,6 +217,10 @@ std::string marks(const LineChart& chart, const Axis& x, const Axis& y) {
   for (const ChartMark& mark : chart.y_marks) {
     if (!y.reaches(mark.at)) continue;
     svg += svg_line(left, y.at(mark.at), right, y.at(mark.at), style);
+    // On paper, because a curve may pass there.
+    const double text = text_width(mark.label, 12.0);
+    svg += "<rect x=\"" + fixed(right - 4.0 - text) + "\" y=\"" + fixed(y.at(mark.at) - 15.0) + "\" width=\"" +
+           fixed(text) + "\" height=\"14\" class=\"paper\" fill-opacity=\"0.8\"/>\n";
     svg += svg_text(right - 4.0, y.at(mark.at) - 4.0, mark.label, std::string(small) + " text-anchor=\"end\"");
   }
   return svg;

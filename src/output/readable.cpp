@@ -20,10 +20,12 @@ std::string percent(double share) {
 
 std::string with_error(double value, double standard_error) {
   constexpr int most_decimals = 9;
+  constexpr int least_decimals = -4;  // a larger error hides all digits before the point that one reads
   if (!std::isfinite(value)) return "–";
   if (!std::isfinite(standard_error)) return short_number(value);
   const int decimals = standard_error > 0.0 ? 1 - static_cast<int>(std::floor(std::log10(standard_error))) : 0;
   if (!(standard_error > 0.0) || decimals > most_decimals) return rounded(value, 6);
+  if (decimals < least_decimals) return short_number(value) + " ± " + rounded(standard_error, 2);
   const auto text = [decimals](double number) {
     std::array<char, 400> digits{};  // the largest double has 309 before the point
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed,

@@ -69,6 +69,7 @@ TEST_CASE("a figure is written with its error to two digits") {
   CHECK(with_error(23.2018, 0.0412) == "23.202 ± 0.041");
   CHECK(with_error(-55.28, 0.1) == "-55.28 ± 0.10");
   CHECK(with_error(12345.6, 321.0) == "12346 ± 321");
+  CHECK(with_error(1.23e15, 4.56e14) == "1.23·10¹⁵ ± 4.6·10¹⁴");
   CHECK(with_error(0.5, 3.0) == "0.5 ± 3.0");
   CHECK(with_error(13.0260943, 0.0) == "13.0261");
   CHECK(with_error(13.0260943, unknown) == "13");
