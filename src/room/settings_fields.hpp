@@ -34,7 +34,7 @@ void visit_fields(const F& f, Things&... s) {
   f(Field{"first_frequency_hz", same, "first frequency", "Hz", "--frequencies"}, s.channel.frequencies.first_hz...);
   f(Field{"last_frequency_hz", same, "last frequency", "Hz", "--frequencies"}, s.channel.frequencies.last_hz...);
   f(Field{"frequency_step_hz", same, "step of frequencies", "Hz", "--frequencies"}, s.channel.frequencies.step_hz...);
-  f(Field{"squared_weights", request, "delay spread with weights h²", "", "--squared-weights"},
+  f(Field{"squared_weights", same, "delay spread with weights h²", "", "--squared-weights"},
     s.channel.squared_weights...);
   f(Field{"first_history", request, "first history", "", "--histories"}, s.first_history...);
   f(Field{"part", request, "part of a run", "", "--histories"}, s.part...);
