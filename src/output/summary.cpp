@@ -239,6 +239,10 @@ void add_details(const Room& room, const Result& result, const ResultFiles& file
   summary["retraced"] = result.walk.retraced;
   summary["lost_histories"] = result.lost_histories;
   summary["units"] = units_of(result);
+  if (result.channels) {
+    // The names of times and frequencies end in their units.
+    for (const char* name : {"line_of_sight", "diffuse", "rician_k", "beyond_time_span"}) summary["units"][name] = "1";
+  }
   summary["settings"] = settings_of(result.settings);
   if (!files.tile_images) summary["tile_images"] = false;
   if (result.channels) {
