@@ -39,6 +39,8 @@ BackwardWork::BackwardWork(const RunContext& context, const BackwardTask& task, 
                 histories_of(range_.last - range_.first)) {
   found_.direct = std::move(direct);
   found_.sums = std::make_shared<std::vector<BackwardSums>>(task.origins);
+  if (task.channels != nullptr && stage != Progress::Stage::pilot)
+    found_.channels = std::make_shared<ChannelSums>(*task.channels, task.origins);
   found_.plan = task.plan;
   found_.group = task.group;
   found_.unit = task.unit;
@@ -73,6 +75,15 @@ void BackwardWork::restore(StateData& data) {
                      " (allowed: the same number). The state does not belong to this room; start a new run.");
   }
   if (!context_.record.only_read()) check_whole(settings_, together_, before, task_.name);
+  if (task_.channels != nullptr) {
+    if (data.channels == nullptr || !data.channels->has_size_of(*found_.channels)) {
+      throw InputError(
+          "The state's impulse responses have other sizes than those of the room (allowed: the same numbers of "
+          "receivers, "
+          "emitters, orders, bins and frequencies). The state does not belong to this room; start a new run.");
+    }
+    found_.channels = own(std::move(data.channels));
+  }
   found_.sums = own(std::move(before.sums));
   count_ = before.count;
   found_.rounds = before.size();
@@ -88,10 +99,10 @@ Walked& BackwardWork::write_to(StateData& data) {
   std::optional<BackwardState>& slot = data.*task_.slot;
   BackwardState& state = slot ? *slot : slot.emplace();
   state.plan = task_.plan;
-  state.ranges = before_;
-  state.ranges.push_back({range_.first, range_.first + found_.rounds - rounds_before_});
+  state.ranges = ranges();
   state.count = count_;
   state.sums = found_.sums;
+  if (found_.channels) data.channels = found_.channels;
   return state;
 }
 
@@ -124,15 +135,24 @@ void BackwardWork::simulate_towards(std::uint64_t rounds) {
 // completed. Ranks agree after each step.
 bool BackwardWork::simulate_step(std::uint64_t rounds) {
   std::vector<BackwardSums> sums(task_.origins);
+  ChannelSums channels;
+  if (found_.channels) channels = ChannelSums(*task_.channels, task_.origins);
   BackwardCount count;
   next_ = 0;
-  context_.watch.run_on_threads(context_.threads, [&](unsigned) { take_rounds(found_.rounds, rounds, sums, count); });
+  context_.watch.run_on_threads(context_.threads, [&](unsigned) {
+    take_rounds(found_.rounds, rounds, {sums, channels, count});
+  });
   context_.watch.agree();
   if (context_.watch.reason()) return false;
   reduce(context_.control.communicator, sums);
   reduce(context_.control.communicator, count);
   found_.sums = own<std::vector<BackwardSums>>(std::move(found_.sums));
   add_fields(*found_.sums, sums);
+  if (found_.channels) {
+    reduce(context_.control.communicator, channels);
+    found_.channels = own<ChannelSums>(std::move(found_.channels));
+    add_fields(*found_.channels, channels);
+  }
   add_fields(count_, count);
   found_.rounds = rounds;
   return true;
@@ -156,13 +176,12 @@ BackwardWork::Pieces BackwardWork::pieces_of(std::uint64_t rounds) const {
   return pieces;
 }
 
-void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, std::vector<BackwardSums>& step_sums,
-                               BackwardCount& step_count) {
+void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, const Step& step) {
   const std::unique_ptr<BackwardWalk> walk = task_.make_walk(settings_, task_.plan);
   const std::uint64_t rounds = last - first;
   const auto [together, parts, pieces] = pieces_of(rounds);
   const Part mine = part_of(context_.control.communicator, pieces);  // of this rank
-  const std::uint64_t skipped = range_.first - rounds_before_;  // rounds are numbered from the first of the run
+  const std::uint64_t skipped = range_.first - rounds_before_;       // rounds are numbered from the first of the run
   std::vector<BackwardSums> sums;
   while (!context_.watch.would_stop()) {
     const std::uint64_t piece = mine.first + next_.fetch_add(1);
@@ -180,8 +199,9 @@ void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, std::vec
     });
     {
       const std::lock_guard lock(mutex_);
-      for (std::size_t k = 0; k < sums.size(); ++k) add_fields(step_sums[work.first + k], sums[k]);
-      add_fields(step_count, count);
+      for (std::size_t k = 0; k < sums.size(); ++k) add_fields(step.sums[work.first + k], sums[k]);
+      if (found_.channels) walk->hand_over(step.channels, count);
+      add_fields(step.count, count);
     }
     const std::uint64_t histories =
         (work.last_sample - work.first_sample) / task_.group * task_.plan.histories(work.last - work.first);
@@ -283,9 +303,10 @@ class BackwardMeasurement final : public Measurement {
 BackwardOutcome walk_backward(const RunContext& context, BackwardTask task) {
   BackwardMeasurement measurement(context, task);
   Driven driven = drive(context, measurement);
-  const OriginEstimates& found = static_cast<const BackwardWork&>(*driven.work).estimates();
+  const auto& work = static_cast<const BackwardWork&>(*driven.work);
+  const OriginEstimates& found = work.estimates();
   if (found.rounds == 0) refuse_too_short();
-  BackwardOutcome outcome{found, std::move(driven.report)};
+  BackwardOutcome outcome{found, work.ranges(), std::move(driven.report)};
   measurement.direct_cost().add_to(outcome.report);
   outcome.report.rounds = outcome.estimates.rounds;
   outcome.report.photons_per_round = task.plan.forward;

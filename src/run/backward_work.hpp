@@ -16,6 +16,7 @@
 #include "run/progress_reporter.hpp"
 #include "run/work.hpp"
 #include "walk/backward.hpp"
+#include "walk/channel_sums.hpp"
 #include "walk/direct_light.hpp"
 
 namespace lichtmc {
@@ -25,6 +26,7 @@ struct OriginEstimates {
   std::shared_ptr<const std::vector<DirectIrradiance>> direct;  // per origin
   std::shared_ptr<std::vector<BackwardSums>> sums;              // per origin, of all rounds
   std::uint64_t rounds = 0;                                     // per origin
+  std::shared_ptr<ChannelSums> channels;                        // of all rounds; null: no impulse responses
   RoundPlan plan;                                               // histories of a round
   std::uint32_t group = 1;                                      // scores of a round that are added up in a sum
   double unit = 1.0;                                            // of the sums, W/m² or lx
@@ -52,9 +54,10 @@ struct BackwardTask {
   // these in the mean of squares whose root is `error`.
   std::function<double(const std::vector<double>&)> floor;
   std::vector<double> weights;
-  std::string name;                   // of the origins
-  std::vector<Estimator> candidates;  // for an estimator
-  std::string reason;                 // for the plan and the estimator, if they were chosen
+  const ChannelAxes* channels = nullptr;  // of impulse responses, if they are measured; else null
+  std::string name;                       // of the origins
+  std::vector<Estimator> candidates;      // for an estimator
+  std::string reason;                     // for the plan and the estimator, if they were chosen
   // Chooses plan, candidates and reason when direct light is known; not called for walks that continue. Null: they are
   // given.
   std::function<void(BackwardTask&, const std::vector<DirectIrradiance>&)> choose;
@@ -78,12 +81,21 @@ class BackwardWork final : public Work {
   Pilot pilot() override;
   WorkCounts counts() override { return {found_.histories(), count_.impacts, count_.connections, count_.traced}; }
   Walked& write_to(StateData& data) override;
-  void release(StateData& data) override { (data.*task_.slot)->sums.reset(); }
+  void release(StateData& data) override {
+    (data.*task_.slot)->sums.reset();
+    if (found_.channels) data.channels.reset();
+  }
   void show(double rms_relative_error, double histories_to_target) override {
     reporter_.set_error(rms_relative_error, histories_to_target);
   }
 
   const OriginEstimates& estimates() const { return found_; }
+  // The rounds that the estimates contain.
+  std::vector<HistoryRange> ranges() const {
+    std::vector<HistoryRange> all = before_;
+    all.push_back({range_.first, range_.first + found_.rounds - rounds_before_});
+    return all;
+  }
 
   // Rounds of a pilot of this many histories.
   static std::uint64_t pilot_rounds(const RunContext& context, const BackwardTask& task, Estimator estimator);
@@ -97,8 +109,13 @@ class BackwardWork final : public Work {
   };
   Pieces pieces_of(std::uint64_t rounds) const;
   bool simulate_step(std::uint64_t rounds);
-  void take_rounds(std::uint64_t first, std::uint64_t last, std::vector<BackwardSums>& step_sums,
-                   BackwardCount& step_count);
+  // The sums of a step, of all threads.
+  struct Step {
+    std::vector<BackwardSums>& sums;
+    ChannelSums& channels;
+    BackwardCount& count;
+  };
+  void take_rounds(std::uint64_t first, std::uint64_t last, const Step& step);
 
   const RunContext& context_;
   const BackwardTask& task_;
@@ -126,7 +143,8 @@ std::vector<DirectIrradiance> direct_light_of(std::size_t origins,
 // the first round is complete.
 struct BackwardOutcome {
   OriginEstimates estimates;
-  WalkReport report;  // finished
+  std::vector<HistoryRange> ranges;  // of rounds
+  WalkReport report;                 // finished
 };
 BackwardOutcome walk_backward(const RunContext& context, BackwardTask task);
 

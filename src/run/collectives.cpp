@@ -35,6 +35,15 @@ void Reduction::finish() {
   for (std::size_t k = 0; k < wide_.size(); ++k) std::copy_n(&words[2 * k], 2, wide_[k]);
 }
 
+// Sums are the only operation of communicators: each rank writes its list into its own part of a longer one.
+void Reduction::add(std::vector<Earliest>& list) {
+  if (list.empty()) return;
+  std::vector<std::uint64_t> all(list.size() * communicator_.size(), 0);
+  for (std::size_t k = 0; k < list.size(); ++k) all[communicator_.rank() * list.size() + k] = list[k].bits;
+  communicator_.sum(all);
+  for (std::size_t k = 0; k < all.size(); ++k) list[k % list.size()] += Earliest{all[k]};
+}
+
 void combine(Communicator* communicator, std::vector<DirectIrradiance>& things) {
   static_assert(sizeof(DirectIrradiance) == 2 * sizeof(double) && std::is_trivially_copyable_v<DirectIrradiance>);
   if (communicator != nullptr) communicator->sum({reinterpret_cast<std::uint64_t*>(things.data()), 2 * things.size()});

@@ -10,6 +10,7 @@
 #include "base/fields.hpp"
 #include "lichtmc/communicator.hpp"
 #include "walk/backward.hpp"
+#include "walk/channel_sums.hpp"
 #include "walk/totals.hpp"
 
 namespace lichtmc {
@@ -47,6 +48,8 @@ class Reduction {
     if (list.empty()) return;
     communicator_.sum_wide({reinterpret_cast<std::uint64_t*>(list.data()), list.size() * sizeof(Element) / word});
   }
+  // The shortest of all ranks.
+  void add(std::vector<Earliest>& list);
   template <HasFields Thing>
   void add(Thing& thing) {
     visit_fields([this](const Field& /*field*/, auto& value) { this->add(value); }, thing);

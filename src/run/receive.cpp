@@ -8,12 +8,13 @@
 #include <utility>
 
 #include "base/message.hpp"
-#include "chance/significance.hpp"
 #include "lichtmc/error.hpp"
 #include "room/reflectance.hpp"
 #include "run/backward_work.hpp"
+#include "run/channel_results.hpp"
 #include "run/direct_error.hpp"
 #include "run/error_measure.hpp"
+#include "run/jackknife.hpp"
 #include "run/pilot.hpp"
 #include "run/receiver_plan.hpp"
 #include "run/rounds.hpp"
@@ -40,11 +41,9 @@ double error_at(const OriginEstimates& found, std::size_t k) {
   return std::hypot(found.indirect_error(k), (*found.direct)[k].standard_error);
 }
 
-// A standard error from few rounds is often too small: deviations in units of it follow Student's law. It is enlarged
-// so that three of it contain the mean as often as three of a normal distribution.
+// Enlarged, because it is from few rounds.
 double receiver_error(const OriginEstimates& found, std::size_t k) {
-  constexpr double at = 3.0;
-  const double factor = student_from_normal(at, static_cast<double>(found.rounds) - 1.0) / at;
+  const double factor = student_factor(static_cast<double>(found.rounds) - 1.0);
   return std::hypot(factor * found.indirect_error(k), (*found.direct)[k].standard_error);
 }
 
@@ -161,18 +160,24 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   DirectLight light(room, tracer);
   light.learn_selection(context.scene);
   const std::vector<ReferencePoint> points = receiver_points(room, tracer);
-  const ReceiverBlocks blocks(points, tracer);
-  // Walks from the receivers have no use for it.
-  const bool only_walks = context.settings.receiver_walk == ReceiverWalk::backward;
-  const std::optional<LearnedReach> learned = only_walks ? std::nullopt : learn_reach(context.scene, points, blocks);
-  const ReceiverWalkParts parts{room, context.scene, light, blocks, learned ? &learned->reach : nullptr};
+  std::optional<ChannelParts> channels;
+  if (context.settings.channel.wanted())
+    channels.emplace(ChannelParts{{room, context.settings}, ChannelScale(room), {room, tracer}, points});
+  const std::size_t block = channels ? channels->axes.receivers_in_block() : ReceiverBlocks::size;
+  const ReceiverBlocks blocks(points, tracer, block);
+  // Walks from the receivers have no use for it; it is learned for blocks of the usual size.
+  const bool has_reach = context.settings.receiver_walk != ReceiverWalk::backward && block == ReceiverBlocks::size;
+  const std::optional<LearnedReach> learned = has_reach ? learn_reach(context.scene, points, blocks) : std::nullopt;
+  const ReceiverWalkParts parts{
+      room, context.scene, light, blocks, learned ? &learned->reach : nullptr, channels ? &*channels : nullptr};
   const BackwardScale scale(room);
   const Stream stream(context.settings.seed, WalkDirection::backward);
   BackwardTask task;
   task.stage = Progress::Stage::receivers;
   task.origins = room.receivers.size();
   task.unit = scale.unit;
-  task.block = ReceiverBlocks::size;
+  task.block = block;
+  task.channels = channels ? &channels->axes : nullptr;
   const SamplingAccuracy accuracy{direct_error_of_receivers(context.settings)};
   task.choose = [&](BackwardTask& chosen, const std::vector<DirectIrradiance>& direct) {
     ReceiverPlan found =
@@ -197,7 +202,12 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   task.slot = &StateData::receivers;
   BackwardOutcome outcome = walk_backward(context, std::move(task));
   outcome.report.receiver_walk = walk_of(outcome.estimates.plan);
-  return {receiver_results(room, outcome.estimates), std::move(outcome.report)};
+  ReceiverMeasurement measured{receiver_results(room, outcome.estimates), std::nullopt, std::move(outcome.report)};
+  if (channels) {
+    measured.channels = channel_results({context, channels->axes, channels->scale, light, points,
+                                         *outcome.estimates.channels, outcome.ranges, measured.receivers});
+  }
+  return measured;
 }
 
 TileMeasurement measure_tiles_backward(const RunContext& context, const TileErrorMeasure& measure) {

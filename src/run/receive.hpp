@@ -1,6 +1,7 @@
 // Results by backward walks: irradiance at the receivers, and on request of the tiles.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lichtmc/result.hpp"
@@ -21,6 +22,7 @@ void check_receivers_whole(const Room& room, const Settings& settings, const Bac
 
 struct ReceiverMeasurement {
   std::vector<ReceiverResult> receivers;
+  std::optional<ImpulseResponses> channels;
   WalkReport report;
 };
 

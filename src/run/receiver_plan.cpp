@@ -310,6 +310,8 @@ ReceiverPlan choose_receiver_plan(const Room& room, const Scene& scene, const Di
                                   const Settings& settings, const Abandon& stop) {
   const ReceiverWalk walk = settings.receiver_walk;
   std::vector<Estimator> estimators = candidates_for(room, settings);
+  // Late bins of impulse responses need photons that fly long.
+  if (settings.channel.wanted() && estimators.size() > 1) estimators = {Estimator::weight};
   // Weight comes first: receivers are points, so that a score is never a matter of hitting them or not.
   if (estimators.size() > 1) std::swap(estimators[0], estimators[1]);
   const double one_way = walk == ReceiverWalk::backward ? 0.0 : std::numeric_limits<double>::infinity();

@@ -224,6 +224,7 @@ class Run {
     try {
       ReceiverMeasurement measured = measure_receivers(context(watch));
       result_.receiver_results = std::move(measured.receivers);
+      result_.channels = std::move(measured.channels);
       result_.receiver_walk = std::move(measured.report);
     } catch (const StoppedTooSoon&) {
       if (!planned_.tiles) throw;

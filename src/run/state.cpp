@@ -92,7 +92,7 @@ class StateChecksum {
   requires(HasFields<Thing> && !RowOfWords<Thing>) void add(const Thing& thing) { fields(thing); }
   template <class Thing>
   void add(const std::shared_ptr<const Thing>& thing) {
-    add(*thing);
+    if (thing != nullptr) add(*thing);
   }
   template <class Thing>
   void add(const std::optional<Thing>& thing) {
@@ -139,6 +139,7 @@ class Merger {
     merge_photons(sum);
     merge_walks(sum, &StateData::tile_walks);
     merge_walks(sum, &StateData::receivers);
+    merge_channels(sum);
     if (states_.size() > 1) set_rules(sum);
     return sum;
   }
@@ -269,6 +270,23 @@ class Merger {
     (sum.*slot)->ranges = join(std::move(owned), 1, "rounds of backward walks");
     (sum.*slot)->sums = std::move(sums);
     if (states_.size() > 1) (sum.*slot)->convergence.clear();
+  }
+
+  // Of the same rounds as the walks from the receivers.
+  void merge_channels(StateData& sum) const {
+    std::shared_ptr<ChannelSums> sums;
+    for (std::size_t k = 0; k < states_.size(); ++k) {
+      const StateData& data = states_[k].data();
+      if (!data.receivers) continue;
+      if (!data.channels) return;
+      if (sums == nullptr) {
+        sums = std::make_shared<ChannelSums>(*data.channels);
+        continue;
+      }
+      if (!sums->has_size_of(*data.channels)) refuse(k, "have different numbers of bins");
+      add_fields(*sums, *data.channels);
+    }
+    sum.channels = std::move(sums);
   }
 
   const std::vector<State>& states_;

@@ -13,6 +13,7 @@
 #include "lichtmc/settings.hpp"
 #include "lichtmc/state.hpp"
 #include "walk/backward.hpp"
+#include "walk/channel_sums.hpp"
 #include "walk/round_plan.hpp"
 #include "walk/totals.hpp"
 
@@ -64,6 +65,8 @@ struct StateData {
   std::optional<Counted> photons;
   std::optional<BackwardState> tile_walks;
   std::optional<BackwardState> receivers;
+  // Impulse responses, of the rounds of `receivers`; null: not asked for.
+  std::shared_ptr<const ChannelSums> channels;
   std::string note;
 };
 
@@ -101,6 +104,7 @@ void visit_fields(const F& f, Things&... state) {
   f(Field{"photons"}, state.photons...);
   f(Field{"tile_walks"}, state.tile_walks...);
   f(Field{"receivers"}, state.receivers...);
+  f(Field{"channels"}, state.channels...);
 }
 
 // States with the same fingerprint have the same sums and will continue in the same way: a hash (XXH3, 128 bits) of all

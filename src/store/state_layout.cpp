@@ -98,6 +98,12 @@ class Writer {
   void field(const char* name, const std::shared_ptr<const Thing>& thing) {
     field(name, *thing);
   }
+  // Has a group of its own; none without impulse responses.
+  void field(const char* name, const std::shared_ptr<const ChannelSums>& sums) {
+    if (sums == nullptr) return;
+    file_.enter(std::string("/") + name);
+    fields(*sums);
+  }
   template <std::derived_from<Walked> WalkState>
   void field(const char* name, const std::optional<WalkState>& walks) {
     if (!walks) return;
@@ -196,6 +202,14 @@ class Reader {
     field(name, *read);
     thing = read;
   }
+  void field(const char* name, std::shared_ptr<const ChannelSums>& sums) {
+    const std::string group = std::string("/") + name;
+    if (!file_.has_group(group)) return;
+    file_.enter(group);
+    const auto read = std::make_shared<ChannelSums>();
+    fields(*read);
+    sums = read;
+  }
   template <std::derived_from<Walked> WalkState>
   void field(const char* name, std::optional<WalkState>& walks) {
     const std::string group = std::string("/") + name;
@@ -216,7 +230,8 @@ class Reader {
 // Refuses groups and arrays that are not fields: one of them may be a missing field under a wrong name. /settings and
 // the array "room" always exist.
 void check_members(const Hdf5File& file, const StateData& data) {
-  const std::uint64_t known = 2U + (data.photons ? 1U : 0U) + (data.tile_walks ? 1U : 0U) + (data.receivers ? 1U : 0U);
+  const std::uint64_t known = 2U + (data.photons ? 1U : 0U) + (data.tile_walks ? 1U : 0U) + (data.receivers ? 1U : 0U) +
+                              (data.channels ? 1U : 0U);
   if (file.members() != known)
     throw Hdf5Error("it has " + std::to_string(file.members()) + " groups and arrays, of which " +
                     std::to_string(known) + " are known");

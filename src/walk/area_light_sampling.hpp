@@ -43,18 +43,24 @@ inline double in_stratum(std::uint32_t k, std::uint32_t n, double u) {
   return std::min((stratum + u) / strata, 1.0 - 0x1p-53);
 }
 
-// reference_at(n): the reference point of sample n. Random words depend on (seed, number) only.
-template <class ReferenceAt>
+struct NoRecord {
+  void operator()(double /*irradiance*/, double /*length_m*/) const {}
+};
+
+// reference_at(n): the reference point of sample n. Random words depend on (seed, number) only. record(irradiance,
+// length in m): called for each sample above 0, in units of which the mean over all samples is the irradiance.
+template <class ReferenceAt, class Record = NoRecord>
 class AreaLightSampler {
  public:
   AreaLightSampler(const AreaLight& light, const Tracer& tracer, const ReferenceAt& reference_at, const Stream& stream,
-                   std::uint64_t number, TraceCount& count)
+                   std::uint64_t number, TraceCount& count, const Record& record = {})
       : light_(light),
         tracer_(tracer),
         reference_at_(reference_at),
         stream_(stream),
         number_(number),
         count_(count),
+        record_(record),
         pdf_light_(1.0 / light.area_m2()) {}
 
   DirectIrradiance sample(const SamplingAccuracy& accuracy) {
@@ -89,7 +95,9 @@ class AreaLightSampler {
         light_.sample_light(reference, in_stratum(k, n, unit_open(words[0])), unit_open(words[1]), unit_open(words[2]));
     if (!(sample.irradiance > 0.0) || is_blocked(tracer_, reference, sample.target, count_)) return 0.0;
     const double pdf_light = pdf_light_ * sample.relative;
-    return sample.irradiance * pdf_light / (pdf_light + sample.pdf_bsdf / reference.squared_sine());
+    const double part = sample.irradiance * pdf_light / (pdf_light + sample.pdf_bsdf / reference.squared_sine());
+    record_(part, glm::length(sample.target - reference.point));
+    return part;
   }
 
   // Samples k … k + chunk − 1 of n new ones: flights from the reference points.
@@ -120,8 +128,10 @@ class AreaLightSampler {
     if (flight.degenerate()) return 0.0;
     const double pdf_flight = flight.pdf_bsdf(cosine) / view;
     const double relative = light_.relative_exitance(flights_.facet[i], flights_.s[i], flights_.t[i]);
-    return view * (light_.radiance(flight.cosine_there) * relative) * std::numbers::pi * pdf_flight /
-           (pdf_flight + pdf_light_ * relative);
+    const double part = view * (light_.radiance(flight.cosine_there) * relative) * std::numbers::pi * pdf_flight /
+                        (pdf_flight + pdf_light_ * relative);
+    if (part > 0.0) record_(part, flight.length_m);
+    return part;
   }
 
   const AreaLight& light_;
@@ -130,6 +140,7 @@ class AreaLightSampler {
   const Stream& stream_;
   std::uint64_t number_;
   TraceCount& count_;
+  Record record_;
   double pdf_light_;  // mean over the emitter
   double sum_ = 0.0;
   double squares_ = 0.0;  // of the differences within pairs

@@ -14,6 +14,7 @@
 #include "base/wide.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
+#include "walk/backward_sums.hpp"
 #include "walk/direct_light.hpp"
 #include "walk/kernel.hpp"
 #include "walk/origin_view.hpp"
@@ -23,25 +24,9 @@
 
 namespace lichtmc {
 
-// The sums over the walks of a receiver, or of a face of a tile: integers, so that the order does not matter. Scores
-// are irradiances in units of BackwardScale::unit, or the sums of a round of walks (see make_backward_walk).
-struct BackwardSums {
-  uint128 sum = 0;
-  uint128 squares = 0;
-
-  void add(std::uint64_t score) {
-    sum += score;
-    squares += static_cast<uint128>(score) * score;
-  }
-};
-
-template <class F, AllOf<BackwardSums>... Things>
-void visit_fields(const F& f, Things&... sums) {
-  f(Field{"sum"}, sums.sum...);
-  f(Field{"squares"}, sums.squares...);
-}
-template <>
-inline constexpr bool is_row<BackwardSums> = true;
+class ChannelScores;
+class FacetPlanes;
+struct ChannelSums;
 
 // The unit of scores: 2⁻²⁴ of the emitters' power over the area of all surfaces. A score is at
 // most 2⁵⁰ units, 6·10⁷ times that, and the sum of a round at most 2⁵²: the sum of the squares of 2²⁴ such rounds
@@ -84,15 +69,20 @@ class BackwardWalk {
  public:
   virtual ~BackwardWalk() = default;
 
-  // Simulates histories; sums[k] belongs to origin work.first + k.
+  // Simulates histories; sums[k], the sum over the rounds of origin work.first + k, is of scores in units of
+  // BackwardScale::unit, or of the sums of a round of walks (see make_backward_walk).
   virtual void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,
                         const Abandon& abandon) = 0;
 
   // The same; adds the mean over the walks of each round, in W/m² or lx and not rounded, to
   // irradiance[(r − first) · origins + k], for round r, of which `first` is the first of the work, and origin
   // work.first + k of its origins.
+  // scores: receives the light with its paths, of round r as r − first, if the walk keeps them; or null.
   virtual void collect(const WalkBlock& work, std::vector<double>& irradiance, BackwardCount& count,
-                       const Abandon& abandon) = 0;
+                       const Abandon& abandon, ChannelScores* scores) = 0;
+
+  // Adds the impulse responses that were scored since the last call, if there are any.
+  virtual void hand_over(ChannelSums& /*sums*/, BackwardCount& /*count*/) {}
 
  protected:
   BackwardWalk() = default;
@@ -118,11 +108,13 @@ class ReceiverOrigins {
     rays.set_start(i, places_[receiver].start);
     return places_[receiver].view;
   }
+  const glm::dvec3& point(std::uint64_t receiver) const { return places_[receiver].point; }
 
  private:
   struct Place {
     glm::vec3 start;  // tracer's coordinates
     OriginView view;
+    glm::dvec3 point;  // m, world
   };
   std::vector<Place> places_;
 };
@@ -156,6 +148,11 @@ std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const Direc
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
                                                  const CellOrigins& origins, const BackwardScale& scale,
                                                  const Settings& settings, const RoundPlan& plan);
+// The same with the paths of light, for collect(). planes: of the tracer's facets; must outlive it.
+std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
+                                                 const ReceiverOrigins& origins, const BackwardScale& scale,
+                                                 const Settings& settings, const RoundPlan& plan,
+                                                 const FacetPlanes& planes);
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light, const TileFaces& origins,
                                                  const BackwardScale& scale, const Settings& settings);
 

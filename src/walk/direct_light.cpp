@@ -42,7 +42,7 @@ DirectLight::DirectLight(const Room& room, const Tracer& tracer)
     visit_shape(
         room.emitters[n],
         [&](const auto& point) {
-          sources_.push_back({false, points_.size(), source, flux});
+          sources_.push_back({false, points_.size(), source, n, flux});
           points_.emplace_back(point, flux, n);
         },
         [&](const auto& area) {
@@ -50,7 +50,7 @@ DirectLight::DirectLight(const Room& room, const Tracer& tracer)
                           tracer.faces_in_one_plane());
           if (!(light.area_m2() > 0.0)) return;  // wholly covered
           area_sources_of_surface_[area.surface].push_back(source);
-          sources_.push_back({true, areas_.size(), source, flux});
+          sources_.push_back({true, areas_.size(), source, n, flux});
           areas_.push_back(std::move(light));
         });
     if (sources_.size() > source) source_of_emitter_[n] = source;
@@ -157,16 +157,8 @@ LightSample DirectLight::sample_of(const Choice& choice, const ReferencePoint& r
 double DirectLight::mis_weighted_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
                                           const FlightGeometry& flight, double forward_ratio) const {
   double sum = 0.0;
-  const double pdf_bsdf = flight.pdf_bsdf(cosine_here);
-  for (const std::size_t k : area_sources_of_surface_[tracer_->facets()[rays.facet[i]].surface]) {
-    const AreaLight& light = areas_[sources_[k].index];
-    const double relative = light.relative_exitance(rays.facet[i], rays.s[i], rays.t[i]);
-    const double pdf_light = probability(cell, k) / light.area_m2() * relative;
-    const double radiance = light.radiance(flight.cosine_there) * relative;
-    if (!(radiance > 0.0)) continue;
-    const double pdf_forward = forward_ratio * (pi * radiance * pdf_bsdf / power_);
-    sum += pi * radiance * pdf_bsdf / (pdf_light + pdf_bsdf + pdf_forward);
-  }
+  weigh_emission(rays, i, cell, cosine_here, flight, forward_ratio,
+                 [&](std::size_t /*source*/, double irradiance) { sum += irradiance; });
   return sum;
 }
 

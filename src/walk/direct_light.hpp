@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -29,9 +30,10 @@ struct Scene;
 // An emitter with a flux, as DirectLight has it.
 struct LightSource {
   bool is_area = false;
-  std::size_t index = 0;   // into DirectLight::points() or areas()
-  std::size_t number = 0;  // among all sources
-  double flux = 0.0;       // W or lm
+  std::size_t index = 0;    // into DirectLight::points() or areas()
+  std::size_t number = 0;   // among all sources
+  std::size_t emitter = 0;  // index into Room::emitters
+  double flux = 0.0;        // W or lm
 };
 
 class DirectLight {
@@ -61,6 +63,7 @@ class DirectLight {
 
   // The emitters that light samples choose from, numbered from 0; a point light, or null for an area light.
   std::size_t sources() const { return sources_.size(); }
+  const LightSource& source(std::size_t number) const { return sources_[number]; }
   const PointLight* point_light(std::size_t source) const {
     return sources_[source].is_area ? nullptr : &points_[sources_[source].index];
   }
@@ -112,6 +115,10 @@ class DirectLight {
   // sample_light().
   double mis_weighted_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
                                const FlightGeometry& flight, double forward_ratio = 0.0) const;
+  // The same for one of its emitters after the other: calls add(number of the source, contribution).
+  template <class Add>
+  void weigh_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
+                      const FlightGeometry& flight, double forward_ratio, const Add& add) const;
   bool has_area_lights() const { return !areas_.empty(); }
   bool is_area_light(std::size_t surface) const { return !area_sources_of_surface_[surface].empty(); }
 
@@ -143,5 +150,21 @@ class DirectLight {
   std::vector<std::vector<std::size_t>> area_sources_of_surface_;  // indices into sources_
   double power_ = 0.0;                                             // of all emitters of the room, W or lm
 };
+
+template <class Add>
+void DirectLight::weigh_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
+                                 const FlightGeometry& flight, double forward_ratio, const Add& add) const {
+  constexpr double pi = std::numbers::pi;
+  const double pdf_bsdf = flight.pdf_bsdf(cosine_here);
+  for (const std::size_t k : area_sources_of_surface_[tracer_->facets()[rays.facet[i]].surface]) {
+    const AreaLight& light = areas_[sources_[k].index];
+    const double relative = light.relative_exitance(rays.facet[i], rays.s[i], rays.t[i]);
+    const double pdf_light = probability(cell, k) / light.area_m2() * relative;
+    const double radiance = light.radiance(flight.cosine_there) * relative;
+    if (!(radiance > 0.0)) continue;
+    const double pdf_forward = forward_ratio * (pi * radiance * pdf_bsdf / power_);
+    add(k, pi * radiance * pdf_bsdf / (pdf_light + pdf_bsdf + pdf_forward));
+  }
+}
 
 }  // namespace lichtmc

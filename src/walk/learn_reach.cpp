@@ -83,7 +83,7 @@ class ReachTest {
         const std::size_t size = std::min(cluster, receivers.size() - first);
         const std::size_t k = first + test * size / tests_of_pair;
         const std::size_t block = k / ReceiverBlocks::size;
-        picked.push_back(receivers[block * ReceiverBlocks::size + blocks[block].number(k % ReceiverBlocks::size)]);
+        picked.push_back(receivers[block * ReceiverBlocks::size + blocks.at(k).number(k % ReceiverBlocks::size)]);
       }
       picks_.emplace_back(picked, tracer, 0, picked.size());
     }

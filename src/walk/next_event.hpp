@@ -28,9 +28,11 @@ class NextEvent {
   virtual ~NextEvent() = default;
 
   // Simulates the photons of rounds first … first + rounds − 1 and adds the mean irradiance of each round, in W/m² or
-  // lx, to irradiance[round · receivers.size() + number of the receiver].
+  // lx, to irradiance[round · receivers.size() + number of the receiver]. scores: if paths are kept, receives the light
+  // with its paths; it opens and closes its rounds 0 … rounds − 1. Else null.
   virtual void simulate(const ReceiverLanes& receivers, std::uint64_t first, std::uint64_t rounds,
-                        std::vector<double>& irradiance, BackwardCount& count, const Abandon& abandon) = 0;
+                        std::vector<double>& irradiance, BackwardCount& count, const Abandon& abandon,
+                        ChannelScores* scores) = 0;
 
   // Rounds that fill a wave; at least 1.
   virtual std::uint32_t rounds_at_a_time() const = 0;
@@ -41,9 +43,19 @@ class NextEvent {
   NextEvent& operator=(const NextEvent&) = default;
 };
 
+// What walks with paths need; both must outlive them.
+struct ForwardPathParts {
+  const FacetPlanes& planes;           // of the tracer's facets
+  const std::vector<double>& delay_m;  // of Room::emitters, as a length
+};
+
 // For one thread. plan.forward: a power of two, at most batch_histories. reach: which receivers an impact serves; null:
 // all. All references must outlive it.
 std::unique_ptr<NextEvent> make_next_event(const Room& room, const Scene& scene, const DirectLight& light,
                                            const Settings& settings, const RoundPlan& plan, const ReceiverReach* reach);
+// The same with the paths of light.
+std::unique_ptr<NextEvent> make_next_event(const Room& room, const Scene& scene, const DirectLight& light,
+                                           const Settings& settings, const RoundPlan& plan, const ReceiverReach* reach,
+                                           const ForwardPathParts& paths);
 
 }  // namespace lichtmc

@@ -25,6 +25,7 @@ struct LightSamples {
     irradiance.resize(whole);
     for (auto* numbers : {&dx, &dy, &dz}) numbers->resize(whole);
     within_reach.resize(whole);
+    target.resize(whole);
   }
 
   std::vector<std::uint32_t> source;  // the emitter: index into the sources of DirectLight
@@ -32,6 +33,7 @@ struct LightSamples {
   std::vector<double> irradiance;     // W/m² or lx; 0: none
   std::vector<float> dx, dy, dz;  // the segment that must be free: from the start of the flight, tracer's coordinates
   std::vector<std::uint32_t> within_reach;  // 1: the emitter is too close for a shadow ray
+  std::vector<glm::dvec3> target;           // m, world: the point of an area light; not set for point lights
 };
 
 class PointLights {

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "room/bounds.hpp"
+#include "walk/channel_scores.hpp"
 
 namespace lichtmc {
 
@@ -162,40 +163,46 @@ Lanes lanes_from(const Arrays& of, std::size_t first) {
 
 }  // namespace
 
-std::uint64_t ReceiverLanes::irradiate(const std::vector<Impact>& impacts, const Tracer& tracer,
+std::uint64_t ReceiverLanes::irradiate(std::span<const Impact> impacts, const Tracer& tracer,
                                        const ReceiverReach* reach, std::vector<float>& value, std::vector<double>& sums,
-                                       TraceCount& count) const {
+                                       TraceCount& count, const ImpactRecord* record) const {
   const std::size_t n = whole_lanes(size());
   if (has_cells()) return irradiate_cells(impacts, tracer, value, sums, count);
-  if (!tracer.casts_shadows()) {
+  if (!tracer.casts_shadows() && record == nullptr) {
     irradiate_all_lanes(n, impacts.data(), impacts.size(), lanes_from(arrays_, 0), sums.data());
     return impacts.size() * size();
   }
   value.resize(n);
   std::uint64_t pairs = 0;
-  for (const Impact& impact : impacts) {
+  for (std::size_t i = 0; i < impacts.size(); ++i) {
+    const Impact& impact = impacts[i];
     double* of_round = sums.data() + impact.round * n;
+    const auto serve = [&](const Impact& weighted, std::size_t begin, std::size_t end) {
+      const bool some = irradiate_some(weighted, begin, end, tracer, value.data(), of_round, count);
+      if (record != nullptr && some)
+        record->scores->add_impact(record->paths[i], begin, end, value.data() + begin, record->unit);
+      pairs += end - begin;
+    };
     if (reach == nullptr) {
-      irradiate_some(impact, 0, size(), tracer, value.data(), of_round, count);
-      pairs += size();
+      serve(impact, 0, size());
       continue;
     }
     Impact weighted = impact;
     reach->choose(impact.cell, impact.turn, first_, size(), [&](std::size_t begin, std::size_t end, float factor) {
       weighted.weight = factor * impact.weight;
-      irradiate_some(weighted, begin, end, tracer, value.data(), of_round, count);
-      pairs += end - begin;
+      serve(weighted, begin, end);
     });
   }
   return pairs;
 }
 
-void ReceiverLanes::irradiate_some(const Impact& impact, std::size_t begin, std::size_t end, const Tracer& tracer,
+bool ReceiverLanes::irradiate_some(const Impact& impact, std::size_t begin, std::size_t end, const Tracer& tracer,
                                    float* value, double* sums, TraceCount& count) const {
   const std::size_t n = whole_lanes(end - begin);
-  if (irradiate_lanes(n, impact, lanes_from(arrays_, begin), value + begin) == 0) return;
-  tracer.darken_blocked(impact.start, ends_, begin, end, value, count);
+  if (irradiate_lanes(n, impact, lanes_from(arrays_, begin), value + begin) == 0) return false;
+  if (tracer.casts_shadows()) tracer.darken_blocked(impact.start, ends_, begin, end, value, count);
   add_lanes(n, value + begin, sums + begin);
+  return true;
 }
 
 void ReceiverLanes::irradiate_unshadowed(const Impact& impact, std::vector<float>& value) const {
@@ -205,7 +212,7 @@ void ReceiverLanes::irradiate_unshadowed(const Impact& impact, std::vector<float
 }
 
 // As irradiate(), with receivers shifted within their cells.
-std::uint64_t ReceiverLanes::irradiate_cells(const std::vector<Impact>& impacts, const Tracer& tracer,
+std::uint64_t ReceiverLanes::irradiate_cells(std::span<const Impact> impacts, const Tracer& tracer,
                                              std::vector<float>& value, std::vector<double>& sums,
                                              TraceCount& count) const {
   const std::size_t n = whole_lanes(size());

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -18,6 +19,9 @@
 #include "walk/reference_point.hpp"
 
 namespace lichtmc {
+
+class ChannelScores;
+struct ImpactPath;
 
 // A point of a surface from which light is scattered to receivers.
 struct Impact {
@@ -35,6 +39,13 @@ struct Impact {
   // Where in the cells of receivers it contributes, −½ … ½ along their edges.
   float in_cell_u = 0.0F;
   float in_cell_v = 0.0F;
+};
+
+// Where the scores of impulse responses go: the paths of all impacts, and the unit of their irradiances, W/m² or lx.
+struct ImpactRecord {
+  ChannelScores* scores = nullptr;
+  std::span<const ImpactPath> paths;
+  double unit = 1.0;
 };
 
 class ReceiverLanes {
@@ -55,9 +66,11 @@ class ReceiverLanes {
 
   // Adds the irradiance that impacts cause at every receiver, in units of the photon's power per size_m², to
   // sums[round · whole_lanes(size()) + k], k the position in the arrays. reach: which receivers each impact serves;
-  // null: all. value: memory for it; shadow rays are counted. Returns the number of pairs of impact and receiver.
-  std::uint64_t irradiate(const std::vector<Impact>& impacts, const Tracer& tracer, const ReceiverReach* reach,
-                          std::vector<float>& value, std::vector<double>& sums, TraceCount& count) const;
+  // null: all. value: memory for it; shadow rays are counted. record: receives what each impact sends to each receiver;
+  // null: nothing does; not for cells. Returns the number of pairs of impact and receiver.
+  std::uint64_t irradiate(std::span<const Impact> impacts, const Tracer& tracer, const ReceiverReach* reach,
+                          std::vector<float>& value, std::vector<double>& sums, TraceCount& count,
+                          const ImpactRecord* record = nullptr) const;
 
   // The irradiance by one impact without shadows; value[k] at position k, for whole_lanes(size()) positions.
   void irradiate_unshadowed(const Impact& impact, std::vector<float>& value) const;
@@ -68,11 +81,12 @@ class ReceiverLanes {
 
  private:
   // The receivers at positions begin … end − 1.
-  void irradiate_some(const Impact& impact, std::size_t begin, std::size_t end, const Tracer& tracer, float* value,
+  // Returns whether one of them may see the impact.
+  bool irradiate_some(const Impact& impact, std::size_t begin, std::size_t end, const Tracer& tracer, float* value,
                       double* sums, TraceCount& count) const;
 
   // As irradiate(), with receivers shifted within their cells. All are served.
-  std::uint64_t irradiate_cells(const std::vector<Impact>& impacts, const Tracer& tracer, std::vector<float>& value,
+  std::uint64_t irradiate_cells(std::span<const Impact> impacts, const Tracer& tracer, std::vector<float>& value,
                                 std::vector<double>& sums, TraceCount& count) const;
   void set_edges(std::size_t k, const ReferencePoint& receiver, const Tracer& tracer);
 

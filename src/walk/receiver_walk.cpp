@@ -10,29 +10,48 @@ namespace {
 class RoundWalk final : public BackwardWalk {
  public:
   RoundWalk(const ReceiverWalkParts& parts, const BackwardScale& scale, const Settings& settings, const RoundPlan& plan)
-      : scale_(scale), rounds_(parts, scale, settings, plan) {}
+      : parts_(parts), plan_(plan), scale_(scale), rounds_(parts, scale, settings, plan) {}
 
   void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,
                 const Abandon& abandon) override {
+    if (parts_.channels != nullptr) use_scores_of(work);
     const std::uint64_t together = rounds_together(work.last - work.first);
     for (std::uint64_t first = work.first_sample; first < work.last_sample; first += together) {
       const WalkBlock rounds{work.first, work.last, first, std::min(first + together, work.last_sample)};
       irradiance_.assign((rounds.last_sample - rounds.first_sample) * (work.last - work.first), 0.0);
-      collect(rounds, irradiance_, count, abandon);
+      if (scores_) scores_->begin(first, rounds.last_sample - first);
+      collect(rounds, irradiance_, count, abandon, scores_ ? &*scores_ : nullptr);
       add_scores(sums, count);
     }
   }
 
-  void collect(const WalkBlock& work, std::vector<double>& irradiance, BackwardCount& count,
-               const Abandon& abandon) override {
-    rounds_.collect(work, irradiance, count, count, abandon);
+  void collect(const WalkBlock& work, std::vector<double>& irradiance, BackwardCount& count, const Abandon& abandon,
+               ChannelScores* scores) override {
+    rounds_.collect(work, irradiance, count, count, abandon, scores);
+  }
+
+  void hand_over(ChannelSums& sums, BackwardCount& count) override {
+    if (scores_) scores_->hand_over(first_of_scores_, sums, count.capped);
   }
 
  private:
-  // As many as fill a wave, but no more than keep the scores in a processor's cache.
+  void use_scores_of(const WalkBlock& work) {
+    const ReceiverLanes& lanes = parts_.blocks.at(work.first);
+    if (scores_ && scores_->lanes() == &lanes) return;
+    first_of_scores_ = work.first;
+    const ChannelParts& channels = *parts_.channels;
+    scores_.emplace(channels.axes, channels.scale, lanes, channels.receivers.data() + work.first);
+  }
+
+  // As many as fill a wave, but no more than keep the scores in a processor's cache. The light of walks from receivers
+  // is kept with its paths until photons have flown.
   std::uint64_t rounds_together(std::uint64_t receivers) const {
     constexpr std::uint64_t most_scores = 32 * 1024;
-    return std::clamp<std::uint64_t>(most_scores / receivers, 1, rounds_.in_wave());
+    constexpr std::uint64_t most_walks_with_paths = 16 * 1024;
+    std::uint64_t most = most_scores / receivers;
+    if (parts_.channels != nullptr && plan_.backward > 0)
+      most = std::min(most, most_walks_with_paths / (receivers * plan_.backward));
+    return std::clamp<std::uint64_t>(most, 1, rounds_.in_wave());
   }
 
   void add_scores(std::vector<BackwardSums>& sums, BackwardCount& count) const {
@@ -43,9 +62,13 @@ class RoundWalk final : public BackwardWalk {
     }
   }
 
+  ReceiverWalkParts parts_;
+  RoundPlan plan_;
   BackwardScale scale_;
   ReceiverRounds rounds_;
   std::vector<double> irradiance_;  // by round and receiver
+  std::optional<ChannelScores> scores_;
+  std::size_t first_of_scores_ = 0;
 };
 
 }  // namespace
@@ -53,32 +76,50 @@ class RoundWalk final : public BackwardWalk {
 ReceiverRounds::ReceiverRounds(const ReceiverWalkParts& parts, const BackwardScale& scale, const Settings& settings,
                                const RoundPlan& plan)
     : blocks_(&parts.blocks), plan_(plan) {
-  if (plan.forward > 0) forward_ = make_next_event(parts.room, parts.scene, parts.light, settings, plan, parts.reach);
+  const ChannelParts* channels = parts.channels;
+  if (plan.forward > 0) {
+    forward_ = channels != nullptr ? make_next_event(parts.room, parts.scene, parts.light, settings, plan, parts.reach,
+                                                     {channels->planes, channels->axes.delay_m})
+                                   : make_next_event(parts.room, parts.scene, parts.light, settings, plan, parts.reach);
+  }
   if (plan.backward == 0) return;
-  backward_ = blocks_->cells()
-                  ? make_backward_walk(parts.scene, parts.light, *blocks_->cells(), scale, settings, plan)
-                  : make_backward_walk(parts.scene, parts.light, blocks_->points(), scale, settings, plan);
+  if (channels != nullptr) {
+    backward_ =
+        make_backward_walk(parts.scene, parts.light, blocks_->points(), scale, settings, plan, channels->planes);
+    return;
+  }
+  backward_ = blocks_->cells() ? make_backward_walk(parts.scene, parts.light, *blocks_->cells(), scale, settings, plan)
+                               : make_backward_walk(parts.scene, parts.light, blocks_->points(), scale, settings, plan);
 }
 
 void ReceiverRounds::collect(const WalkBlock& work, std::vector<double>& irradiance, BackwardCount& photons,
-                             BackwardCount& walks, const Abandon& abandon) {
-  if (forward_) {
-    assert(work.first % ReceiverBlocks::size == 0);
-    const ReceiverLanes& receivers = (*blocks_)[work.first / ReceiverBlocks::size];
-    assert(receivers.size() == work.last - work.first);
-    forward_->simulate(receivers, work.first_sample, work.last_sample - work.first_sample, irradiance, photons, abandon);
+                             BackwardCount& walks, const Abandon& abandon, ChannelScores* scores) {
+  const std::uint64_t rounds = work.last_sample - work.first_sample;
+  const auto fly_forward = [&] {
+    const ReceiverLanes& receivers = blocks_->at(work.first);
+    assert(work.first % blocks_->block() == 0 && receivers.size() == work.last - work.first);
+    forward_->simulate(receivers, work.first_sample, rounds, irradiance, photons, abandon, scores);
+  };
+  const auto fly_backward = [&] {
+    const WalkBlock own{work.first, work.last, work.first_sample * plan_.backward, work.last_sample * plan_.backward};
+    backward_->collect(own, irradiance, walks, abandon, scores);
+  };
+  // Scores are opened with the light of walks from receivers, then photons add theirs.
+  if (scores != nullptr && backward_) fly_backward();
+  if (forward_) fly_forward();
+  if (scores == nullptr && backward_) fly_backward();
+  for (std::uint64_t r = 0; scores != nullptr && !forward_ && r < rounds; ++r) {
+    scores->open(r);
+    scores->close();
   }
-  if (!backward_) return;
-  const WalkBlock own{work.first, work.last, work.first_sample * plan_.backward, work.last_sample * plan_.backward};
-  backward_->collect(own, irradiance, walks, abandon);
 }
 
-ReceiverBlocks::ReceiverBlocks(const std::vector<ReferencePoint>& receivers, const Tracer& tracer)
-    : points_(receivers, tracer) {
+ReceiverBlocks::ReceiverBlocks(const std::vector<ReferencePoint>& receivers, const Tracer& tracer, std::size_t block)
+    : block_(block), points_(receivers, tracer) {
   const auto is_cell = [](const ReferencePoint& one) { return one.is_cell(); };
   if (std::any_of(receivers.begin(), receivers.end(), is_cell)) cells_.emplace(receivers, tracer);
-  for (std::size_t first = 0; first < receivers.size(); first += size)
-    lanes_.emplace_back(receivers, tracer, first, std::min(first + size, receivers.size()));
+  for (std::size_t first = 0; first < receivers.size(); first += block)
+    lanes_.emplace_back(receivers, tracer, first, std::min(first + block, receivers.size()));
 }
 
 std::unique_ptr<BackwardWalk> make_receiver_walk(const ReceiverWalkParts& parts, const BackwardScale& scale,

@@ -10,6 +10,8 @@
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
 #include "walk/backward.hpp"
+#include "walk/channel_scores.hpp"
+#include "walk/facet_planes.hpp"
 #include "walk/next_event.hpp"
 #include "walk/round_plan.hpp"
 
@@ -21,17 +23,29 @@ class ReceiverBlocks {
  public:
   static constexpr std::size_t size = 2048;
 
-  ReceiverBlocks(const std::vector<ReferencePoint>& receivers, const Tracer& tracer);
+  // block: receivers of a block, a multiple of most_lanes.
+  ReceiverBlocks(const std::vector<ReferencePoint>& receivers, const Tracer& tracer, std::size_t block = size);
 
-  const ReceiverLanes& operator[](std::size_t block) const { return lanes_[block]; }
+  // The block that begins with this receiver.
+  const ReceiverLanes& at(std::size_t receiver) const { return lanes_[receiver / block_]; }
+  std::size_t block() const { return block_; }
   const ReceiverOrigins& points() const { return points_; }
   // Only if a receiver is a cell: then walks start from these.
   const std::optional<CellOrigins>& cells() const { return cells_; }
 
  private:
+  std::size_t block_;
   std::vector<ReceiverLanes> lanes_;
   ReceiverOrigins points_;
   std::optional<CellOrigins> cells_;
+};
+
+// What impulse responses need, the same for all threads.
+struct ChannelParts {
+  ChannelAxes axes;
+  ChannelScale scale;
+  FacetPlanes planes;
+  const std::vector<ReferencePoint>& receivers;
 };
 
 // What the walks of all threads share; all must outlive them.
@@ -40,7 +54,8 @@ struct ReceiverWalkParts {
   const Scene& scene;
   const DirectLight& light;
   const ReceiverBlocks& blocks;
-  const ReceiverReach* reach;  // null: impacts serve all receivers
+  const ReceiverReach* reach;              // null: impacts serve all receivers
+  const ChannelParts* channels = nullptr;  // null: no impulse responses
 };
 
 // The photons and the walks of rounds, for one thread.
@@ -50,9 +65,9 @@ class ReceiverRounds {
                  const RoundPlan& plan);
 
   // As BackwardWalk::collect(); the block as for make_receiver_walk(). Photons and walks are counted apart; both counts
-  // may be the same.
+  // may be the same. scores: of these rounds, if there are impulse responses; else null.
   void collect(const WalkBlock& work, std::vector<double>& irradiance, BackwardCount& photons, BackwardCount& walks,
-               const Abandon& abandon);
+               const Abandon& abandon, ChannelScores* scores = nullptr);
 
   // Rounds that fill a wave; at least 1.
   std::uint64_t in_wave() const { return forward_ ? forward_->rounds_at_a_time() : batch_histories; }
@@ -64,7 +79,7 @@ class ReceiverRounds {
   std::unique_ptr<BackwardWalk> backward_;
 };
 
-// For one thread. In WalkBlock, origins are receivers, whose first is a multiple of ReceiverBlocks::size, within one
+// For one thread. In WalkBlock, origins are receivers, whose first is a multiple of ReceiverBlocks::block(), within one
 // block; samples are rounds. The score of a round is its mean irradiance, in units of `scale`.
 std::unique_ptr<BackwardWalk> make_receiver_walk(const ReceiverWalkParts& parts, const BackwardScale& scale,
                                                  const Settings& settings, const RoundPlan& plan);

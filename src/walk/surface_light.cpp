@@ -44,21 +44,20 @@ SurfaceLight::SurfaceLight(const DirectLight& light, const Tracer& tracer, const
       words_1_(whole_lanes(batch_histories)),
       words_2_3_(whole_lanes(batch_histories)) {}
 
-void SurfaceLight::sample(const Wave& wave, std::uint32_t flight, const double* forward_ratio, TraceCount& count) {
-  const std::size_t n = wave.rays.size;
-  const std::size_t per_point = light_->light_samples_per_point();
-  std::fill_n(irradiance_.begin(), n, 0.0);
+void SurfaceLight::begin(const Wave& wave) {
+  std::fill_n(irradiance_.begin(), wave.rays.size, 0.0);
   if (!light_->takes_all()) find_cells(wave.rays);
-  for (std::size_t k = 0; k < per_point; ++k) {
-    // Separate random words for each emitter at each surface.
-    const auto number = static_cast<std::uint32_t>(flight * per_point + k);
-    choose(wave, number, k);
-    points_.sample(wave.rays, samples_);
-    weigh(wave, forward_ratio);
-    if (light_->has_area_lights()) sample_areas(wave, number, forward_ratio);
-    if (tracer_->casts_shadows()) remove_blocked(wave.rays, count);
-    add_lanes(n, samples_.irradiance.data(), irradiance_.data());
-  }
+}
+
+// One sample for every photon: of source k, or of a chosen one.
+void SurfaceLight::sample_one(const Wave& wave, std::uint32_t number, std::size_t k, const double* forward_ratio,
+                              TraceCount& count) {
+  choose(wave, number, k);
+  points_.sample(wave.rays, samples_);
+  weigh(wave, forward_ratio);
+  if (light_->has_area_lights()) sample_areas(wave, number, forward_ratio);
+  if (tracer_->casts_shadows()) remove_blocked(wave.rays, count);
+  add_lanes(wave.rays.size, samples_.irradiance.data(), irradiance_.data());
 }
 
 ReferencePoint SurfaceLight::reference_at(const Rays& rays, std::size_t i) const {
@@ -113,6 +112,7 @@ void SurfaceLight::sample_areas(const Wave& wave, std::uint32_t number, const do
     const LightSample sample = light_->sample_of({samples_.source[i], samples_.probability[i]}, reference_at(rays, i),
                                                  where, forward_ratio == nullptr ? 0.0 : forward_ratio[wave.photon[i]]);
     samples_.irradiance[i] = sample.irradiance;
+    samples_.target[i] = sample.target;
     if (!(sample.irradiance > 0.0) || !tracer_->casts_shadows()) continue;
     const auto segment = shadow_segment(*tracer_, glm::dvec3(rays.start(i)), sample.target);
     samples_.within_reach[i] = segment ? 0 : 1;

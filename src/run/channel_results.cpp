@@ -1,0 +1,473 @@
+#include "run/channel_results.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "chance/moments.hpp"
+#include "run/channel_figures.hpp"
+#include "run/jackknife.hpp"
+#include "walk/line_of_sight.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using Response = std::vector<std::complex<double>>;
+
+std::vector<std::uint64_t> rounds_of_groups(const std::vector<HistoryRange>& ranges) {
+  std::vector<std::uint64_t> rounds(jackknife_groups, 0);
+  for (const HistoryRange& range : ranges) {
+    for (std::uint32_t j = 0; j < jackknife_groups; ++j) {
+      // Numbers below n that leave the remainder j.
+      const auto below = [j](std::uint64_t n) { return (n + jackknife_groups - 1 - j) / jackknife_groups; };
+      rounds[j] += below(range.last) - below(range.first);
+    }
+  }
+  return rounds;
+}
+
+// The frequencies at which the response is computed from bins: up to a fourth of the rate of the coarse bins, whose
+// differences give its error.
+std::vector<double> usual_frequencies(const ChannelAxes& axes) {
+  constexpr std::size_t steps = 200;
+  const double highest = 0.25 / (axes.bin_width_s * static_cast<double>(std::uint64_t{1} << axes.coarse_shift));
+  std::vector<double> frequencies;
+  for (std::size_t k = 0; k <= steps; ++k) frequencies.push_back(highest * static_cast<double>(k) / steps);
+  return frequencies;
+}
+
+// The light without reflection of one channel, as gains.
+struct SightOfPair {
+  bool sampled = false;
+  DelayMoments moments;
+  std::array<DelayMoments, jackknife_groups> of_set{};  // of sampled paths only
+  DelayMoments exact;
+  std::vector<std::pair<std::uint32_t, std::array<double, jackknife_groups>>> bins;  // of sampled paths, by set
+  std::vector<std::pair<std::uint32_t, double>> exact_bins;
+  Response response;  // of all paths
+  std::vector<Response> response_of_set;
+
+  DelayMoments without_set(std::size_t j) const {
+    if (!sampled) return moments;
+    DelayMoments sum;
+    for (const DelayMoments& one : of_set) sum += one;
+    return (sum - of_set[j]) * (1.0 / (jackknife_groups - 1)) += exact;
+  }
+};
+
+// All channels of one receiver.
+class ReceiverChannels {
+ public:
+  ReceiverChannels(const ChannelInput& input, const Jackknife& jackknife, std::size_t receiver, ImpulseResponses& out)
+      : in_(input), axes_(input.axes), jackknife_(jackknife), receiver_(receiver), out_(out) {}
+
+  void compute() {
+    const Room& room = in_.context.room;
+    const Receiver& receiver = room.receivers[receiver_];
+    const Stream stream(in_.context.settings.seed, WalkDirection::backward);
+    LineOfSight sight;
+    sight.first.resize(axes_.groups);
+    if (receiver.half_angle_deg > 0.0) {
+      sight =
+          line_of_sight(room, axes_, in_.light, *in_.context.scene.tracer, in_.receivers[receiver_], stream, receiver_);
+    }
+    match_direct(sight);
+    for (std::uint32_t group = 0; group < axes_.groups; ++group) {
+      const double power = out_.powers[group];
+      gain_ = power > 0.0 ? receiver.area_m2 * receiver.optical_gain() / power : 0.0;
+      group_ = group;
+      pair_ = axes_.pair(receiver_, group);
+      compute_pair(sight_of(sight, group), sight.first[group]);
+    }
+  }
+
+ private:
+  // The parts of area lights add up to the direct irradiance of the receiver.
+  void match_direct(LineOfSight& sight) const {
+    double exact = 0.0;
+    double sampled = 0.0;
+    for (const SightPath& path : sight.paths) {
+      (path.set == SightPath::exact ? exact : sampled) +=
+          path.irradiance / (path.set == SightPath::exact ? 1.0 : jackknife_groups);
+    }
+    const double direct = in_.irradiance[receiver_].direct;
+    if (!(sampled > 0.0) || !(direct > exact)) return;
+    for (SightPath& path : sight.paths) {
+      if (path.set != SightPath::exact) path.irradiance *= (direct - exact) / sampled;
+    }
+  }
+
+  SightOfPair sight_of(const LineOfSight& all, std::uint32_t group) const {
+    SightOfPair sight;
+    sight.response.resize(out_.frequencies_hz.size());
+    for (const SightPath& path : all.paths) {
+      if (path.group != group) continue;
+      const double t = path.length_m / speed_of_light;
+      const double w = path.irradiance * gain_;
+      const double position = path.length_m * axes_.bins_per_m;
+      const std::uint32_t bin = position < axes_.bins ? static_cast<std::uint32_t>(position) : axes_.bins;
+      const DelayMoments own{w, w * t, w * t * t};
+      if (path.set == SightPath::exact) {
+        sight.exact += own;
+        sight.exact_bins.emplace_back(bin, w);
+        add_path(sight.response, w, t, out_.frequencies_hz);
+        continue;
+      }
+      if (!sight.sampled) {
+        sight.sampled = true;
+        sight.response_of_set.assign(jackknife_groups, Response(out_.frequencies_hz.size()));
+      }
+      sight.of_set[path.set] += own;
+      const auto place = std::lower_bound(sight.bins.begin(), sight.bins.end(), bin,
+                                          [](const auto& one, std::uint32_t b) { return one.first < b; });
+      const auto found = place != sight.bins.end() && place->first == bin
+                             ? place
+                             : sight.bins.insert(place, {bin, std::array<double, jackknife_groups>{}});
+      found->second[path.set] += w;
+      add_path(sight.response_of_set[path.set], w, t, out_.frequencies_hz);
+    }
+    sight.moments = sight.exact;
+    for (const DelayMoments& one : sight.of_set) sight.moments += one * (1.0 / jackknife_groups);
+    for (const Response& one : sight.response_of_set) {
+      for (std::size_t f = 0; f < one.size(); ++f) sight.response[f] += one[f] / static_cast<double>(jackknife_groups);
+    }
+    return sight;
+  }
+
+  // A gain and its standard error from sums over rounds.
+  Figure gain_of(const BackwardSums& sums) const {
+    const auto n = static_cast<long double>(jackknife_.all());
+    const double unit = in_.scale.unit * gain_;
+    const auto sum = static_cast<long double>(sums.sum);
+    Figure figure{static_cast<double>(sum / n) * unit, nan};
+    if (jackknife_.all() < 2) return figure;
+    const long double between = std::max(static_cast<long double>(sums.squares) - sum / n * sum, 0.0L);
+    figure.standard_error = static_cast<double>(std::sqrt(between / (n - 1) / n)) * unit;
+    if (jackknife_.all() > 2) figure.standard_error *= student_factor(static_cast<double>(n) - 1.0);
+    return figure;
+  }
+
+  static Figure sum_of(const Figure& a, const Figure& b) {
+    return {a.value + b.value, std::hypot(a.standard_error, b.standard_error)};
+  }
+
+  DelayMoments moments_of(std::size_t j) const {
+    const MomentSums& sums = in_.sums.moments[pair_ * jackknife_groups + j];
+    const double unit = in_.scale.unit * gain_;
+    const double second = in_.scale.length_m / speed_of_light;
+    return {static_cast<double>(sums.weight) * unit, static_cast<double>(sums.first) * unit * second,
+            static_cast<double>(sums.second) * unit * second * second};
+  }
+
+  // h of every order and of all.
+  void fill_bins(const SightOfPair& sight) {
+    const std::size_t columns = out_.columns();
+    std::vector<Figure> of_sight(axes_.bins_of_row(), Figure{0.0, 0.0});
+    for (const auto& [bin, gain] : sight.exact_bins) of_sight[bin].value += gain;
+    for (const auto& [bin, sets] : sight.bins) {
+      double mean = 0.0;
+      double squares = 0.0;
+      for (const double one : sets) mean += one / jackknife_groups;
+      for (const double one : sets) squares += (one - mean) * (one - mean);
+      of_sight[bin].value += mean;
+      of_sight[bin].standard_error = std::sqrt(squares / (jackknife_groups - 1) / jackknife_groups);
+    }
+    const std::size_t own = out_.pair(group_, receiver_);
+    all_beyond_ = Figure{0.0, 0.0};
+    for (std::size_t order = 0; order < columns; ++order) {
+      const bool is_sight = order == 0;
+      const std::size_t row = axes_.row(pair_, is_sight ? 0 : axes_.column_of(static_cast<std::uint32_t>(order)));
+      const auto in_bin = [&](std::size_t b) {
+        return is_sight ? of_sight[b] : gain_of(in_.sums.bins[row * axes_.bins_of_row() + b]);
+      };
+      for (std::size_t b = 0; b < axes_.bins; ++b)
+        set(out_.h, out_.standard_error, out_.row(group_, receiver_, order) + b, in_bin(b));
+      out_.order_beyond[own * columns + order] = in_bin(axes_.bins);
+      out_.order_gain[own * columns + order] = is_sight ? sight_gain(sight) : gain_of(in_.sums.columns[row]);
+      const double first = in_.sums.earliest[row].length_m() / speed_of_light;
+      out_.order_first_s[own * columns + order] = is_sight ? nan : std::isfinite(first) ? first : nan;
+    }
+    const std::size_t all = axes_.row(pair_, axes_.all_column()) * axes_.bins_of_row();
+    for (std::size_t b = 0; b < axes_.bins; ++b)
+      set(out_.h_all, out_.standard_error_all, out_.row(group_, receiver_) + b,
+          sum_of(of_sight[b], gain_of(in_.sums.bins[all + b])));
+    all_beyond_ = sum_of(of_sight[axes_.bins], gain_of(in_.sums.bins[all + axes_.bins]));
+  }
+
+  void set(std::vector<double>& values, std::vector<double>& errors, std::size_t k, const Figure& gain) const {
+    values[k] = gain.value / axes_.bin_width_s;
+    errors[k] = gain.standard_error / axes_.bin_width_s;
+  }
+
+  Figure sight_gain(const SightOfPair& sight) const {
+    if (!sight.sampled) return {sight.moments.weight, 0.0};
+    double squares = 0.0;
+    double mean = 0.0;
+    for (const DelayMoments& one : sight.of_set) mean += one.weight / jackknife_groups;
+    for (const DelayMoments& one : sight.of_set) squares += (one.weight - mean) * (one.weight - mean);
+    return {sight.moments.weight, std::sqrt(squares / (jackknife_groups - 1) / jackknife_groups)};
+  }
+
+  // Bins of the diffuse part as gains, coarse ones: of all rounds or without a group.
+  std::vector<double> coarse_bins(std::size_t without) const {
+    std::vector<double> sums(axes_.coarse_bins, 0.0);
+    std::uint64_t rounds = 0;
+    for (const std::size_t j : jackknife_.groups()) {
+      if (j == without) continue;
+      rounds += jackknife_.rounds_of(j);
+      const uint128* own = in_.sums.coarse.data() + (pair_ * jackknife_groups + j) * axes_.coarse_bins;
+      for (std::size_t b = 0; b < sums.size(); ++b) sums[b] += static_cast<double>(own[b]);
+    }
+    for (double& one : sums) one *= in_.scale.unit * gain_ / static_cast<double>(rounds);
+    return sums;
+  }
+  double coarse_width_s() const {
+    return axes_.bin_width_s * static_cast<double>(std::uint64_t{1} << axes_.coarse_shift);
+  }
+
+  std::vector<double> fine_bins() const {
+    std::vector<double> bins(axes_.bins);
+    const std::size_t all = axes_.row(pair_, axes_.all_column()) * axes_.bins_of_row();
+    for (std::size_t b = 0; b < bins.size(); ++b) bins[b] = gain_of(in_.sums.bins[all + b]).value;
+    return bins;
+  }
+
+  // The diffuse response accumulated path by path: of all rounds or without a group.
+  Response accumulated(std::size_t without) const {
+    Response sum(axes_.frequency_count);
+    std::uint64_t rounds = 0;
+    for (const std::size_t j : jackknife_.groups()) {
+      if (j == without) continue;
+      rounds += jackknife_.rounds_of(j);
+      const int128* own = in_.sums.response.data() + (pair_ * jackknife_groups + j) * axes_.frequency_count * 2;
+      for (std::size_t f = 0; f < sum.size(); ++f)
+        sum[f] += std::complex<double>(static_cast<double>(own[2 * f]), static_cast<double>(own[2 * f + 1]));
+    }
+    for (std::complex<double>& one : sum) one *= in_.scale.unit * gain_ / static_cast<double>(rounds);
+    return sum;
+  }
+
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+  void add_sight(Response& response, const SightOfPair& sight, std::size_t without) const {
+    for (std::size_t f = 0; f < response.size(); ++f) response[f] += sight.response[f];
+    if (!sight.sampled || without == none) return;
+    // The mean over the other sets instead of that over all.
+    Response mean(response.size());
+    for (const Response& one : sight.response_of_set) {
+      for (std::size_t f = 0; f < one.size(); ++f) mean[f] += one[f] / static_cast<double>(jackknife_groups);
+    }
+    for (std::size_t f = 0; f < response.size(); ++f)
+      response[f] += (mean[f] - sight.response_of_set[without][f]) / static_cast<double>(jackknife_groups - 1);
+  }
+
+  // H(f), its error, and the bandwidths.
+  void fill_response(const SightOfPair& sight, Channel& channel) {
+    const std::vector<double>& frequencies = out_.frequencies_hz;
+    if (frequencies.empty()) return;
+    Response whole;
+    std::vector<Response> without;
+    if (out_.from_bins) {
+      whole = transform(fine_bins(), axes_.bin_width_s, frequencies);
+      const Response coarse = transform(coarse_bins(none), coarse_width_s(), frequencies);
+      for (const std::size_t j : jackknife_.groups()) {
+        without.push_back(transform(coarse_bins(j), coarse_width_s(), frequencies));
+        for (std::size_t f = 0; f < coarse.size(); ++f) without.back()[f] += whole[f] - coarse[f];
+      }
+    } else {
+      whole = accumulated(none);
+      for (const std::size_t j : jackknife_.groups()) without.push_back(accumulated(j));
+    }
+    add_sight(whole, sight, none);
+    for (std::size_t k = 0; k < without.size(); ++k) add_sight(without[k], sight, jackknife_.groups()[k]);
+
+    const std::size_t first = out_.pair(group_, receiver_) * frequencies.size();
+    std::vector<double> of_groups(without.size());
+    for (std::size_t f = 0; f < frequencies.size(); ++f) {
+      for (std::size_t k = 0; k < without.size(); ++k) of_groups[k] = std::abs(without[k][f]);
+      out_.response[first + f] = whole[f];
+      out_.magnitude_error[first + f] = jackknife_.figure(std::abs(whole[f]), of_groups).standard_error;
+    }
+    // H(0) of the same parts; with frequencies of the user's choice 0 may not be among them.
+    const auto at_level = [&](double level, Figure& figure) {
+      const auto of = [&](const Response& response, double dc) {
+        return frequency_of_level(response, frequencies, level * dc);
+      };
+      const double dc = out_.from_bins ? std::abs(whole[0]) : channel.gain.value;
+      for (std::size_t k = 0; k < without.size(); ++k) {
+        const double own = out_.from_bins ? std::abs(without[k][0]) : gains_without_[k];
+        of_groups[k] = of(without[k], own);
+      }
+      figure = jackknife_.figure(of(whole, dc), of_groups);
+    };
+    at_level(std::sqrt(0.5), channel.bandwidth_electrical_hz);
+    at_level(0.5, channel.bandwidth_optical_hz);
+  }
+
+  void fill_squared(const SightOfPair& sight, Channel& channel) const {
+    const double width = axes_.bin_width_s;
+    std::vector<double> diffuse(axes_.bins);
+    std::vector<double> variance(axes_.bins);
+    const std::size_t all = axes_.row(pair_, axes_.all_column()) * axes_.bins_of_row();
+    for (std::size_t b = 0; b < diffuse.size(); ++b) {
+      const Figure gain = gain_of(in_.sums.bins[all + b]);
+      diffuse[b] = gain.value;
+      variance[b] = gain.standard_error * gain.standard_error;
+    }
+    const auto with_sight = [&](std::vector<double> bins) {
+      for (const auto& [bin, gain] : sight.exact_bins) {
+        if (bin < bins.size()) bins[bin] += gain;
+      }
+      for (const auto& [bin, sets] : sight.bins) {
+        if (bin < bins.size()) bins[bin] += std::accumulate(sets.begin(), sets.end(), 0.0) / jackknife_groups;
+      }
+      return bins;
+    };
+    std::vector<double> of_all;
+    std::vector<double> of_diffuse;
+    const double share = static_cast<double>(jackknife_.groups().size());
+    std::vector<double> more = variance;  // of the means without a group
+    for (double& one : more) one *= share / (share - 1.0);
+    for (const std::size_t j : jackknife_.groups()) {
+      const std::vector<double> bins = coarse_bins(j);  // as fine as the others: see ChannelAxes
+      of_diffuse.push_back(squared_rms_spread_s(bins, &more, width));
+      of_all.push_back(squared_rms_spread_s(with_sight(bins), &more, width));
+    }
+    channel.squared_diffuse_rms_delay_spread_s =
+        jackknife_.figure(squared_rms_spread_s(diffuse, &variance, width), of_diffuse);
+    channel.squared_rms_delay_spread_s =
+        jackknife_.figure(squared_rms_spread_s(with_sight(diffuse), &variance, width), of_all);
+  }
+
+  void fill_arrivals(const FirstSight& first, Channel& channel) const {
+    double reflected = std::numeric_limits<double>::infinity();
+    for (std::uint32_t column = 0; column < axes_.columns; ++column)
+      reflected = std::min(reflected, in_.sums.earliest[axes_.row(pair_, column)].length_m());
+    if (std::isfinite(reflected)) channel.first_reflection_s = reflected / speed_of_light;
+    const double length = std::min(first.length_m, reflected);
+    channel.first_arrival_is_exact = first.exact && first.length_m <= reflected;
+    if (std::isfinite(length)) channel.first_arrival_s = length / speed_of_light;
+    if (std::isfinite(first.length_m))
+      out_.order_first_s[out_.pair(group_, receiver_) * out_.columns()] = first.length_m / speed_of_light;
+  }
+
+  // Figures of the moments, and their errors.
+  void fill_delays(const SightOfPair& sight, Channel& channel) {
+    const auto n = static_cast<double>(jackknife_.all());
+    DelayMoments sum;
+    for (const std::size_t j : jackknife_.groups()) sum += moments_of(j);
+    const DelayMoments diffuse = sum * (1.0 / n);
+    DelayMoments whole = diffuse;
+    whole += sight.moments;
+    enum { mean, rms, diffuse_mean, diffuse_rms, k_factor, figures };
+    std::array<std::vector<double>, figures> without;
+    gains_without_.clear();
+    for (const std::size_t j : jackknife_.groups()) {
+      const DelayMoments rest = (sum - moments_of(j)) * (1.0 / (n - static_cast<double>(jackknife_.rounds_of(j))));
+      const DelayMoments own_sight = sight.without_set(j);
+      DelayMoments all = rest;
+      all += own_sight;
+      without[mean].push_back(all.mean_s());
+      without[rms].push_back(all.rms_spread_s());
+      without[diffuse_mean].push_back(rest.mean_s());
+      without[diffuse_rms].push_back(rest.rms_spread_s());
+      without[k_factor].push_back(own_sight.weight / rest.weight);
+      gains_without_.push_back(all.weight);
+    }
+    channel.mean_delay_s = jackknife_.figure(whole.mean_s(), without[mean]);
+    channel.mean_excess_delay_s = {channel.mean_delay_s.value - channel.first_arrival_s,
+                                   channel.mean_delay_s.standard_error};
+    channel.rms_delay_spread_s = jackknife_.figure(whole.rms_spread_s(), without[rms]);
+    channel.diffuse_mean_delay_s = jackknife_.figure(diffuse.mean_s(), without[diffuse_mean]);
+    channel.diffuse_rms_delay_spread_s = jackknife_.figure(diffuse.rms_spread_s(), without[diffuse_rms]);
+    if (diffuse.weight > 0.0)
+      channel.rician_k = jackknife_.figure(sight.moments.weight / diffuse.weight, without[k_factor]);
+  }
+
+  void compute_pair(const SightOfPair& sight, const FirstSight& first) {
+    Channel& channel = out_.channels[out_.pair(group_, receiver_)];
+    channel.emitter = group_;
+    channel.receiver = receiver_;
+    fill_bins(sight);
+    channel.line_of_sight = sight_gain(sight);
+    channel.diffuse = gain_of(in_.sums.columns[axes_.row(pair_, axes_.all_column())]);
+    channel.gain = sum_of(channel.line_of_sight, channel.diffuse);
+    if (axes_.groups == 1) match_gain(channel);
+    channel.beyond = all_beyond_;
+    fill_arrivals(first, channel);
+    fill_delays(sight, channel);
+    fill_response(sight, channel);
+    if (in_.context.settings.channel.squared_weights) fill_squared(sight, channel);
+  }
+
+  // All emitters together are the receiver's gain: the same digits.
+  void match_gain(Channel& channel) const {
+    const ReceiverResult& receiver = in_.irradiance[receiver_];
+    channel.line_of_sight.value = receiver.direct * gain_;
+    channel.diffuse.value = receiver.indirect * gain_;
+    channel.gain = {receiver.irradiance * gain_, receiver.standard_error * gain_};
+  }
+
+  const ChannelInput& in_;
+  const ChannelAxes& axes_;
+  const Jackknife& jackknife_;
+  std::size_t receiver_;
+  ImpulseResponses& out_;
+  // Of the channel that is computed:
+  std::uint32_t group_ = 0;
+  std::size_t pair_ = 0;
+  double gain_ = 0.0;  // received power over emitted power, for an irradiance of 1
+  Figure all_beyond_;
+  std::vector<double> gains_without_;  // H(0) without each group of rounds
+};
+
+}  // namespace
+
+ImpulseResponses channel_results(const ChannelInput& input) {
+  const Room& room = input.context.room;
+  const ChannelAxes& axes = input.axes;
+  const ChannelSettings& settings = input.context.settings.channel;
+  ImpulseResponses out;
+  out.bin_width_s = axes.bin_width_s;
+  out.bins = axes.bins;
+  out.time_span_was_chosen = !settings.time_span_s;
+  out.orders = axes.orders;
+  std::vector<std::uint32_t> group_of_emitter;
+  out.emitters = emitter_groups(room, settings, group_of_emitter);
+  out.powers.resize(axes.groups, 0.0);
+  out.delays_s.resize(axes.groups, -1.0);
+  for (std::size_t n = 0; n < room.emitters.size(); ++n) {
+    out.powers[group_of_emitter[n]] += room.emitters[n].power;
+    double& delay = out.delays_s[group_of_emitter[n]];
+    const double own = room.emitters[n].delay_s;
+    delay = delay == -1.0 || delay == own ? own : nan;
+  }
+  for (const Receiver& receiver : room.receivers) out.receivers.push_back(receiver.name);
+  const std::size_t pairs = axes.groups * room.receivers.size();
+  out.h.resize(pairs * out.columns() * out.bins);
+  out.standard_error.resize(out.h.size());
+  out.h_all.resize(pairs * out.bins);
+  out.standard_error_all.resize(out.h_all.size());
+  out.order_gain.resize(pairs * out.columns());
+  out.order_beyond.resize(pairs * out.columns());
+  out.order_first_s.resize(pairs * out.columns(), nan);
+  out.channels.resize(pairs);
+  out.from_bins = axes.frequency_count == 0;
+  if (out.from_bins) out.frequencies_hz = usual_frequencies(axes);
+  for (std::size_t f = 0; f < axes.frequency_count; ++f) out.frequencies_hz.push_back(axes.frequencies[f]);
+  out.response.resize(pairs * out.frequencies_hz.size());
+  out.magnitude_error.resize(out.response.size(), nan);
+  const Jackknife jackknife(rounds_of_groups(input.rounds));
+  out.groups = jackknife.groups().size();
+  for_each_on_threads(input.context.threads, room.receivers.size(),
+                      [&](std::size_t k) { ReceiverChannels(input, jackknife, k, out).compute(); });
+  return out;
+}
+
+}  // namespace lichtmc
