@@ -20,6 +20,9 @@ constexpr std::uint64_t histories_at_a_time = 8192;
 // The same where photons contribute to many origins, counted for each. A wave of them should not be too small.
 constexpr std::uint64_t histories_of_block = 65536;
 
+// A piece of work with impulse responses is larger by this factor: at its end their bins are added to those of all.
+constexpr std::uint64_t pieces_with_channels = 4;
+
 [[noreturn]] void refuse_too_short() {
   throw StoppedTooSoon(
       "The run was stopped before its direct light and the first backward walks were completed: there is no result, "
@@ -135,12 +138,11 @@ void BackwardWork::simulate_towards(std::uint64_t rounds) {
 // completed. Ranks agree after each step.
 bool BackwardWork::simulate_step(std::uint64_t rounds) {
   std::vector<BackwardSums> sums(task_.origins);
-  ChannelSums channels;
-  if (found_.channels) channels = ChannelSums(*task_.channels, task_.origins);
+  if (found_.channels && step_channels_.bins.empty()) step_channels_ = ChannelSums(*task_.channels, task_.origins);
   BackwardCount count;
   next_ = 0;
   context_.watch.run_on_threads(context_.threads, [&](unsigned) {
-    take_rounds(found_.rounds, rounds, {sums, channels, count});
+    take_rounds(found_.rounds, rounds, {sums, step_channels_, count});
   });
   context_.watch.agree();
   if (context_.watch.reason()) return false;
@@ -149,9 +151,9 @@ bool BackwardWork::simulate_step(std::uint64_t rounds) {
   found_.sums = own<std::vector<BackwardSums>>(std::move(found_.sums));
   add_fields(*found_.sums, sums);
   if (found_.channels) {
-    reduce(context_.control.communicator, channels);
+    reduce(context_.control.communicator, step_channels_);
     found_.channels = own<ChannelSums>(std::move(found_.channels));
-    add_fields(*found_.channels, channels);
+    move_sums(*found_.channels, step_channels_);
   }
   add_fields(count_, count);
   found_.rounds = rounds;
@@ -164,7 +166,8 @@ BackwardWork::Pieces BackwardWork::pieces_of(std::uint64_t rounds) const {
   if (task_.block > 0) {
     // Blocks of origins that share the photons from the emitters, each with a part of the rounds.
     pieces.origins = std::min<std::uint64_t>(task_.block, task_.origins);
-    const std::uint64_t at_a_time = std::max<std::uint64_t>(1, histories_of_block / (of_origin * pieces.origins));
+    const std::uint64_t histories = histories_of_block * (task_.channels != nullptr ? pieces_with_channels : 1);
+    const std::uint64_t at_a_time = std::max<std::uint64_t>(1, histories / (of_origin * pieces.origins));
     pieces.parts = (rounds + at_a_time - 1) / at_a_time;
   } else {
     // Either many origins with few rounds, or one origin with a part of its rounds.

@@ -121,6 +121,7 @@ class BackwardWork final : public Work {
   const BackwardTask& task_;
   Settings settings_;                 // with the estimator of this work
   std::uint64_t together_;            // histories in a round of all origins
+  ChannelSums step_channels_;         // of the step that is simulated; else 0
   HistoryRange range_;                // of rounds, to simulate
   std::vector<HistoryRange> before_;  // ranges before the one that grows
   std::uint64_t rounds_before_ = 0;   // number of rounds in them

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "base/lanes.hpp"
+
 namespace lichtmc {
 
 namespace {
@@ -49,28 +51,70 @@ double squared_rms_spread_s(const std::vector<double>& gain, const std::vector<d
   return sum.rms_spread_s();
 }
 
+namespace {
+
+// Adds gain · phasor to the sums of all frequencies, and turns the phasors by one bin.
+LICHTMC_LANES void add_bin(std::size_t n, double gain, const double* LICHTMC_APART step_real,
+                           const double* LICHTMC_APART step_imaginary, double* LICHTMC_APART phasor_real,
+                           double* LICHTMC_APART phasor_imaginary, double* LICHTMC_APART real,
+                           double* LICHTMC_APART imaginary) {
+  for (std::size_t f = 0; f < n; ++f) {
+    const double r = phasor_real[f];
+    const double i = phasor_imaginary[f];
+    real[f] += gain * r;
+    imaginary[f] += gain * i;
+    phasor_real[f] = r * step_real[f] - i * step_imaginary[f];
+    phasor_imaginary[f] = r * step_imaginary[f] + i * step_real[f];
+  }
+}
+
+}  // namespace
+
 std::vector<std::complex<double>> transform(const std::vector<double>& gain, double width_s,
                                             const std::vector<double>& frequencies_hz) {
+  const std::size_t n = frequencies_hz.size();
+  enum { step_real, step_imaginary, phasor_real, phasor_imaginary, real, imaginary, arrays };
+  std::array<std::vector<double>, arrays> of;
+  for (std::vector<double>& one : of) one.resize(whole_lanes(n), 0.0);
+  // From the first bin with light to the last.
+  std::size_t first = 0;
+  std::size_t last = gain.size();
+  while (first < last && gain[first] == 0.0) ++first;
+  while (last > first && gain[last - 1] == 0.0) --last;
+  for (std::size_t f = 0; f < n; ++f) {
+    const double angle = -turn * frequencies_hz[f] * width_s;
+    const double begin = angle * (static_cast<double>(first) + 0.5);
+    of[step_real][f] = std::cos(angle);
+    of[step_imaginary][f] = std::sin(angle);
+    of[phasor_real][f] = std::cos(begin);
+    of[phasor_imaginary][f] = std::sin(begin);
+  }
+  for (std::size_t b = first; b < last; ++b) {
+    add_bin(n, gain[b], of[step_real].data(), of[step_imaginary].data(), of[phasor_real].data(),
+            of[phasor_imaginary].data(), of[real].data(), of[imaginary].data());
+  }
   std::vector<std::complex<double>> response;
-  response.reserve(frequencies_hz.size());
-  for (const double f : frequencies_hz) {
-    const std::complex<double> step = std::polar(1.0, -turn * f * width_s);
-    std::complex<double> phasor = std::polar(1.0, -0.5 * turn * f * width_s);
-    std::complex<double> sum = 0.0;
-    for (const double one : gain) {
-      sum += one * phasor;
-      phasor *= step;
-    }
-    const double half = 0.5 * turn * f * width_s;
-    response.push_back(half > 0.0 ? sum * (std::sin(half) / half) : sum);
+  response.reserve(n);
+  for (std::size_t f = 0; f < n; ++f) {
+    const double half = 0.5 * turn * frequencies_hz[f] * width_s;
+    const double spread = half > 0.0 ? std::sin(half) / half : 1.0;
+    response.emplace_back(spread * of[real][f], spread * of[imaginary][f]);
   }
   return response;
 }
 
 void add_path(std::vector<std::complex<double>>& response, double gain, double time_s,
               const std::vector<double>& frequencies_hz) {
-  for (std::size_t f = 0; f < frequencies_hz.size(); ++f)
-    response[f] += std::polar(gain, -turn * frequencies_hz[f] * time_s);
+  if (response.empty()) return;
+  // Frequencies are evenly spaced: one multiplication each.
+  const double step_hz = response.size() > 1 ? frequencies_hz[1] - frequencies_hz[0] : 0.0;
+  const std::complex<double> step = std::polar(1.0, -turn * step_hz * time_s);
+  std::complex<double> phasor = std::polar(gain, -turn * frequencies_hz[0] * time_s);
+  for (std::complex<double>& one : response) {
+    one += phasor;
+    phasor = {phasor.real() * step.real() - phasor.imag() * step.imag(),
+              phasor.real() * step.imag() + phasor.imag() * step.real()};
+  }
 }
 
 double frequency_of_level(const std::vector<std::complex<double>>& response, const std::vector<double>& frequencies_hz,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "base/parallel.hpp"
@@ -65,7 +66,9 @@ struct SightOfPair {
 class ReceiverChannels {
  public:
   ReceiverChannels(const ChannelInput& input, const Jackknife& jackknife, std::size_t receiver, ImpulseResponses& out)
-      : in_(input), axes_(input.axes), jackknife_(jackknife), receiver_(receiver), out_(out) {}
+      : in_(input), axes_(input.axes), jackknife_(jackknife), receiver_(receiver), out_(out) {
+    if (jackknife.all() > 2) student_ = student_factor(static_cast<double>(jackknife.all()) - 1.0);
+  }
 
   void compute() {
     const Room& room = in_.context.room;
@@ -88,24 +91,46 @@ class ReceiverChannels {
   }
 
  private:
-  // The parts of area lights add up to the direct irradiance of the receiver.
+  // The parts of area lights add up to the direct irradiance of the receiver: of each set, if there is one channel,
+  // whose gain then has the error of that irradiance; else on average.
   void match_direct(LineOfSight& sight) const {
     double exact = 0.0;
-    double sampled = 0.0;
-    for (const SightPath& path : sight.paths) {
-      (path.set == SightPath::exact ? exact : sampled) +=
-          path.irradiance / (path.set == SightPath::exact ? 1.0 : jackknife_groups);
-    }
-    const double direct = in_.irradiance[receiver_].direct;
-    if (!(sampled > 0.0) || !(direct > exact)) return;
+    std::array<double, jackknife_groups> of_set{};
+    for (const SightPath& path : sight.paths)
+      (path.set == SightPath::exact ? exact : of_set[path.set]) += path.irradiance;
+    const double sampled = in_.direct[receiver_].value - exact;
+    const double mean = std::accumulate(of_set.begin(), of_set.end(), 0.0) / jackknife_groups;
+    if (!(sampled > 0.0) || !(mean > 0.0)) return;
+    const bool each = axes_.groups == 1 && *std::min_element(of_set.begin(), of_set.end()) > 0.0;
     for (SightPath& path : sight.paths) {
-      if (path.set != SightPath::exact) path.irradiance *= (direct - exact) / sampled;
+      if (path.set != SightPath::exact) path.irradiance *= sampled / (each ? of_set[path.set] : mean);
+    }
+  }
+
+  struct TimedGain {
+    double time_s;
+    double gain;
+  };
+
+  // The response of many paths: those that arrive within 1/64 of the shortest period count at their mean time, which
+  // changes their part by less than (π/64)²/6 = 4e-4.
+  void add_paths(Response& response, std::vector<TimedGain>& paths) const {
+    const double together = out_.frequencies_hz.back() > 0.0 ? 1.0 / (64.0 * out_.frequencies_hz.back()) : 0.0;
+    std::sort(paths.begin(), paths.end(), [](const TimedGain& a, const TimedGain& b) { return a.time_s < b.time_s; });
+    for (std::size_t first = 0; first < paths.size();) {
+      DelayMoments sum;
+      std::size_t next = first;
+      for (; next < paths.size() && paths[next].time_s <= paths[first].time_s + together; ++next)
+        sum += DelayMoments{paths[next].gain, paths[next].gain * paths[next].time_s, 0.0};
+      add_path(response, sum.weight, sum.mean_s(), out_.frequencies_hz);
+      first = next;
     }
   }
 
   SightOfPair sight_of(const LineOfSight& all, std::uint32_t group) const {
     SightOfPair sight;
     sight.response.resize(out_.frequencies_hz.size());
+    std::vector<std::vector<TimedGain>> sampled;
     for (const SightPath& path : all.paths) {
       if (path.group != group) continue;
       const double t = path.length_m / speed_of_light;
@@ -122,6 +147,7 @@ class ReceiverChannels {
       if (!sight.sampled) {
         sight.sampled = true;
         sight.response_of_set.assign(jackknife_groups, Response(out_.frequencies_hz.size()));
+        sampled.resize(jackknife_groups);
       }
       sight.of_set[path.set] += own;
       const auto place = std::lower_bound(sight.bins.begin(), sight.bins.end(), bin,
@@ -130,8 +156,9 @@ class ReceiverChannels {
                              ? place
                              : sight.bins.insert(place, {bin, std::array<double, jackknife_groups>{}});
       found->second[path.set] += w;
-      add_path(sight.response_of_set[path.set], w, t, out_.frequencies_hz);
+      sampled[path.set].push_back({t, w});
     }
+    for (std::size_t set = 0; set < sampled.size(); ++set) add_paths(sight.response_of_set[set], sampled[set]);
     sight.moments = sight.exact;
     for (const DelayMoments& one : sight.of_set) sight.moments += one * (1.0 / jackknife_groups);
     for (const Response& one : sight.response_of_set) {
@@ -149,7 +176,7 @@ class ReceiverChannels {
     if (jackknife_.all() < 2) return figure;
     const long double between = std::max(static_cast<long double>(sums.squares) - sum / n * sum, 0.0L);
     figure.standard_error = static_cast<double>(std::sqrt(between / (n - 1) / n)) * unit;
-    if (jackknife_.all() > 2) figure.standard_error *= student_factor(static_cast<double>(n) - 1.0);
+    figure.standard_error *= student_;
     return figure;
   }
 
@@ -207,6 +234,7 @@ class ReceiverChannels {
 
   Figure sight_gain(const SightOfPair& sight) const {
     if (!sight.sampled) return {sight.moments.weight, 0.0};
+    if (axes_.groups == 1) return {sight.moments.weight, in_.direct[receiver_].standard_error * gain_};
     double squares = 0.0;
     double mean = 0.0;
     for (const DelayMoments& one : sight.of_set) mean += one.weight / jackknife_groups;
@@ -386,8 +414,11 @@ class ReceiverChannels {
     channel.rms_delay_spread_s = jackknife_.figure(whole.rms_spread_s(), without[rms]);
     channel.diffuse_mean_delay_s = jackknife_.figure(diffuse.mean_s(), without[diffuse_mean]);
     channel.diffuse_rms_delay_spread_s = jackknife_.figure(diffuse.rms_spread_s(), without[diffuse_rms]);
-    if (diffuse.weight > 0.0)
-      channel.rician_k = jackknife_.figure(sight.moments.weight / diffuse.weight, without[k_factor]);
+    if (!(diffuse.weight > 0.0)) return;
+    channel.rician_k = jackknife_.figure(sight.moments.weight / diffuse.weight, without[k_factor]);
+    if (axes_.groups == 1 && sight.sampled)
+      channel.rician_k.standard_error =
+          std::hypot(channel.rician_k.standard_error, channel.line_of_sight.standard_error / diffuse.weight);
   }
 
   void compute_pair(const SightOfPair& sight, const FirstSight& first) {
@@ -419,6 +450,7 @@ class ReceiverChannels {
   const Jackknife& jackknife_;
   std::size_t receiver_;
   ImpulseResponses& out_;
+  double student_ = 1.0;  // of errors from all rounds
   // Of the channel that is computed:
   std::uint32_t group_ = 0;
   std::size_t pair_ = 0;

@@ -23,6 +23,7 @@ struct ChannelInput {
   const ChannelSums& sums;
   const std::vector<HistoryRange>& rounds;        // that the sums contain
   const std::vector<ReceiverResult>& irradiance;  // of each receiver: the sum of its channels
+  const std::vector<DirectIrradiance>& direct;    // of each receiver
 };
 
 ImpulseResponses channel_results(const ChannelInput& input);

@@ -205,7 +205,7 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   ReceiverMeasurement measured{receiver_results(room, outcome.estimates), std::nullopt, std::move(outcome.report)};
   if (channels) {
     measured.channels = channel_results({context, channels->axes, channels->scale, light, points,
-                                         *outcome.estimates.channels, outcome.ranges, measured.receivers});
+                                         *outcome.estimates.channels, outcome.ranges, measured.receivers, *outcome.estimates.direct});
   }
   return measured;
 }

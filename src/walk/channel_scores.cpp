@@ -30,9 +30,10 @@ struct Departure {
 };
 
 // Path lengths from an impact to receivers, their bins, and the sums of w and w L^n.
-LICHTMC_LANES void arrive_lanes(std::size_t n, const Departure& start, const Places& at, const float* LICHTMC_APART value,
-                                double* LICHTMC_APART length, std::uint32_t* LICHTMC_APART bin,
-                                double* LICHTMC_APART sum_0, double* LICHTMC_APART sum_1, double* LICHTMC_APART sum_2,
+LICHTMC_LANES void arrive_lanes(std::size_t n, const Departure& start, const Places& at,
+                                const float* LICHTMC_APART value, double* LICHTMC_APART length,
+                                std::uint32_t* LICHTMC_APART bin, double* LICHTMC_APART sum_0,
+                                double* LICHTMC_APART sum_1, double* LICHTMC_APART sum_2,
                                 double* LICHTMC_APART earliest) {
   const Departure from = start;
   const Places to = at;
@@ -144,7 +145,7 @@ void ChannelScores::add_impact(const ImpactPath& path, std::size_t begin, std::s
   const std::uint32_t group = axes.group_of_emitter[path.emitter];
   const std::uint32_t column = axes.column_of(path.order);
   const Departure start{path.point.x, path.point.y,    path.point.z,         path.length_m,
-                    unit,         axes.bins_per_m, double{1} * axes.bins};
+                        unit,         axes.bins_per_m, double{1} * axes.bins};
   const std::size_t n = whole_lanes(end - begin);
   arrive_lanes(n, start, {x_.data() + begin, y_.data() + begin, z_.data() + begin}, value, length_.data(), bin_.data(),
                dense(moments_, group, 0, moments) + begin, dense(moments_, group, 1, moments) + begin,

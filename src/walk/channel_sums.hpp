@@ -70,6 +70,9 @@ struct ChannelSums {
   }
 };
 
+// Adds the sums of some rounds to those of all and clears them: most are 0, and are only read.
+void move_sums(ChannelSums& all, ChannelSums& some);
+
 template <class F, AllOf<ChannelSums>... Things>
 void visit_fields(const F& f, Things&... sums) {
   f(Field{"bins"}, sums.bins...);
