@@ -21,7 +21,7 @@ constexpr std::uint64_t histories_at_a_time = 8192;
 constexpr std::uint64_t histories_of_block = 65536;
 
 // A piece of work with impulse responses is larger by this factor: at its end their bins are added to those of all.
-constexpr std::uint64_t pieces_with_channels = 4;
+constexpr std::uint64_t pieces_with_channels = 16;
 
 [[noreturn]] void refuse_too_short() {
   throw StoppedTooSoon(
@@ -120,9 +120,10 @@ Pilot BackwardWork::pilot() {
   return pilot;
 }
 
-// One step of some tenths of a second, after which the sums are complete.
+// One step of some tenths of a second, after which the sums are complete; longer with impulse responses, whose sums are
+// many.
 void BackwardWork::simulate_towards(std::uint64_t rounds) {
-  constexpr double step_seconds = 0.5;
+  const double step_seconds = found_.channels ? 2.0 : 0.5;
   const double began = context_.watch.seconds();
   const std::uint64_t step = std::min(step_, rounds - found_.rounds);
   if (!simulate_step(found_.rounds + step)) return;

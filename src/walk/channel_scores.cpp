@@ -16,6 +16,9 @@ namespace lichtmc {
 
 namespace {
 
+// Cells are in many places: the memory of this many next ones is fetched before they are needed.
+constexpr std::size_t prefetch_ahead = 12;
+
 constexpr std::size_t moments = 3;  // of a group: Σ w, Σ w L, Σ w L²
 
 // Receivers in lanes.
@@ -104,7 +107,13 @@ void ChannelScores::begin(std::uint64_t first_round, std::size_t rounds) {
 
 void ChannelScores::open(std::size_t r) {
   round_ = first_round_ + r;
-  for (const Arrival& one : arrivals_[r]) {
+  const std::vector<Arrival>& all = arrivals_[r];
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Arrival& ahead = all[std::min(k + prefetch_ahead, all.size() - 1)];
+    const std::size_t row =
+        axes_->row(axes_->pair(position_[ahead.receiver], axes_->group_of_emitter[ahead.emitter]), axes_->all_column());
+    __builtin_prefetch(&cells_[row * axes_->bins_of_row() + bin_of(ahead.length_m + axes_->delay_m[ahead.emitter])], 1);
+    const Arrival& one = all[k];
     add(position_[one.receiver], axes_->group_of_emitter[one.emitter], axes_->column_of(one.order),
         one.length_m + axes_->delay_m[one.emitter], one.irradiance);
   }
@@ -154,6 +163,8 @@ void ChannelScores::add_impact(const ImpactPath& path, std::size_t begin, std::s
   Cell* cells = cells_.data() + axes.row(axes.pair(begin, group), axes.all_column()) * axes.bins_of_row();
   auto row = static_cast<std::uint32_t>(axes.row(axes.pair(begin, group), axes.all_column()));
   for (std::size_t k = 0; k < end - begin; ++k) {
+    const std::size_t ahead = std::min(k + prefetch_ahead, end - begin - 1);
+    if (value[ahead] > 0.0F) __builtin_prefetch(&cells[ahead * stride + bin_[ahead]], 1);
     if (value[k] > 0.0F) {
       Cell& cell = cells[k * stride + bin_[k]];
       if (cell.open == 0.0) touched_.push_back({row, bin_[k]});
@@ -232,7 +243,10 @@ uint128 ChannelScores::wide_units(double moment) {
 void ChannelScores::close() {
   const auto jackknife = static_cast<std::uint32_t>(round_ % jackknife_groups);
   const std::uint32_t all = axes_->all_column();
-  for (const Touched& one : touched_) {
+  for (std::size_t k = 0; k < touched_.size(); ++k) {
+    const Touched& ahead = touched_[std::min(k + prefetch_ahead, touched_.size() - 1)];
+    __builtin_prefetch(&cells_[ahead.row * axes_->bins_of_row() + ahead.bin], 1);
+    const Touched& one = touched_[k];
     Cell& cell = cells_[one.row * axes_->bins_of_row() + one.bin];
     const std::uint64_t score = units(cell.open);
     cell.open = 0.0;
