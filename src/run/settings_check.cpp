@@ -247,6 +247,13 @@ void check_receivers_for_channels(const Room& room, const Settings& settings) {
                      " (allowed: at least one for impulse responses). Give nodes of the room the custom property "
                      "'receiver', or give points with --receivers or --grid.");
   }
+  const auto cell = std::find_if(room.receivers.begin(), room.receivers.end(),
+                                 [](const Receiver& receiver) { return receiver.is_cell(); });
+  if (cell != room.receivers.end()) {
+    throw InputError("Receiver " + in_quotes(cell->name) + " of " + room.source +
+                     " is a cell of a calculation grid (allowed: points for impulse responses). Leave the columns ux, "
+                     "uy, uz, vx, vy, vz out of the table of receivers, or --impulse-response.");
+  }
 }
 
 }  // namespace

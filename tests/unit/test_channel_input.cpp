@@ -270,6 +270,10 @@ TEST_CASE("impulse responses need receivers") {
                     ContainsSubstring("no receiver") && ContainsSubstring("--grid"));
   room.receivers.push_back({"eye", {0.5, 0.5, 0.5}, {0, 1, 0}});
   CHECK_NOTHROW(check_settings_for(room, settings));
+  room.receivers[0].cell_u = {0.1, 0.0, 0.0};
+  room.receivers[0].cell_v = {0.0, 0.0, 0.1};
+  CHECK_THROWS_WITH(check_settings_for(room, settings), ContainsSubstring("'eye'") && ContainsSubstring("a cell"));
+  room.receivers[0].cell_u = room.receivers[0].cell_v = glm::dvec3(0.0);
   settings.measured = Measured::tiles;
   CHECK_THROWS_WITH(check_settings_for(room, settings), ContainsSubstring("--only tiles"));
 }
