@@ -175,7 +175,8 @@ class BackwardGoal : public GoalBase {
 
   float* cosines() { return cosine_.data(); }
   void move(Wave& wave, std::size_t from, std::size_t to) {
-    // land() needs the geometry of each flight.
+    // land() needs the geometry of each flight; paths also where it starts.
+    if constexpr (keeps_paths) wave.rays.set_start(to, wave.rays.start(from));
     wave.rays.set_direction(to, wave.rays.direction(from));
     wave.rays.length[to] = wave.rays.length[from];
     if constexpr (!Policy::scores_every_impact) direct_[to] = direct_[from];

@@ -81,9 +81,9 @@ class NextEventGoal : public GoalBase {
   Misses misses() const { return scene_->misses; }
   TraceCount& traced() { return count_->traced; }
 
-  // set_ratios() needs the geometry of the first flight.
+  // Paths need the geometry of every flight, set_ratios() that of the first.
   void move(Wave& wave, std::size_t from, std::size_t to) const {
-    if (flight_ > 0) return;
+    if (!keeps_paths && flight_ > 0) return;
     wave.rays.set_start(to, wave.rays.start(from));
     wave.rays.set_direction(to, wave.rays.direction(from));
     wave.rays.length[to] = wave.rays.length[from];
