@@ -1,8 +1,12 @@
 """lichtmc run --impulse-response: options, refusals, properties of the room, and the files of the results."""
+import csv
 import json
+import math
+import os
+import subprocess
 import unittest
 
-from support import ProgramTest, lichtmc, triangle_room
+from support import PROGRAM, ProgramTest, lichtmc, triangle_room
 
 FEW = ("--photons", "2000", "--no-report", "--quiet")
 BINS = ("--impulse-response", "1ns")
@@ -107,6 +111,158 @@ class Rooms(ProgramTest):
             document = triangle_room()
             document["nodes"][1]["extras"] = {"delay_ns": value}
             self.refused("run", self.write_gltf(document), "-o", self.folder / "out", says=["'delay_ns' of node 'lamp'"])
+
+
+LAMPS = ("point:1,2.5,1:1W", "lambert:4,3,4:0,-1,0:1:3W")
+FILES = ("channels.csv", "channels.h5", "channels.mat", "impulse_response.csv")
+NANOSECOND = 1e-9
+
+
+def table(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Results(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.room = self.folder / "room.glb"
+        lights = [word for lamp in LAMPS for word in ("--light", lamp)]
+        done = lichtmc("cuboid", "--size", 5, 3, 5, "--reflectance", 0.6, *lights, "-o", self.room)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.points = self.folder / "points.csv"
+        self.points.write_text("name,x,y,z,nx,ny,nz,area,fov,concentrator_index\neye,2,0.8,3,0,1,0,1e-4,60,1.5\nwall,0,1,2,1,0,0,2e-4,85,\n")
+        self.common = ("--receivers", self.points, "--only", "receivers", "--impulse-response", "1ns", "--time-span", "50ns", "--no-report")
+
+    def run_room(self, *options, out="out", photons=("--photons", "20480")):
+        folder = self.folder / out
+        done = lichtmc("run", self.room, "-o", folder, *self.common, *photons, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return folder
+
+    def responses(self, folder):
+        """h by emitter, receiver and order: a list of bins."""
+        found = {}
+        for row in table(folder / "impulse_response.csv"):
+            found.setdefault((row["emitter"], row["receiver"], row["order"]), []).append(float(row["h"]))
+        return found
+
+    def same(self, one, other):
+        for name in ("impulse_response.csv", "channels.csv", "receivers.csv"):
+            self.assertEqual((one / name).read_bytes(), (other / name).read_bytes(), name)
+
+    def test_files_and_gains(self):
+        out = self.run_room("--orders", "2", "--squared-weights")
+        self.assertEqual(sorted(p.name for p in out.iterdir()), sorted((*FILES, "receivers.csv", "state.h5", "summary.json")))
+        rows = table(out / "impulse_response.csv")
+        self.assertEqual(list(rows[0]), ["emitter", "receiver", "order", "time_s", "h", "standard_error"])
+        found = self.responses(out)
+        self.assertEqual(sorted(found), sorted(("all", eye, order) for eye in ("eye", "wall") for order in ("0", "1", "2", "3+", "all")))
+        times = [float(row["time_s"]) for row in rows[:50]]
+        for k, time in enumerate(times):
+            self.assertAlmostEqual(time / NANOSECOND, k + 0.5, places=9)
+        channels = table(out / "channels.csv")
+        receivers = table(out / "receivers.csv")
+        summary = json.loads((out / "summary.json").read_text())
+        self.assertEqual(len(summary["channels"]), 2)
+        for channel, receiver in zip(channels, receivers):
+            self.assertEqual((channel["emitter"], channel["receiver"]), ("all", receiver["name"]))
+            gain = float(channel["gain"])
+            self.assertTrue(math.isclose(gain, float(receiver["gain"]), rel_tol=1e-15))
+            in_bins = sum(found["all", receiver["name"], "all"]) * NANOSECOND
+            self.assertTrue(math.isclose(in_bins + float(channel["beyond_time_span"]), gain, rel_tol=1e-9))
+            for bin, h in enumerate(found["all", receiver["name"], "all"]):
+                parts = sum(found["all", receiver["name"], order][bin] for order in ("0", "1", "2", "3+"))
+                self.assertTrue(math.isclose(parts, h, rel_tol=1e-9, abs_tol=1e-9 * gain / NANOSECOND))
+            self.assertEqual(channel["first_arrival"], "exact")
+            self.assertGreater(float(channel["squared_rms_delay_spread_s"]), 0)
+            self.assertGreater(float(channel["rms_delay_spread_s_standard_error"]), 0)
+        # E · A · n²/sin² 60°
+        self.assertTrue(math.isclose(float(receivers[0]["gain"]), float(receivers[0]["irradiance"]) * 1e-4 * 2.25 / 0.75 / 4, rel_tol=1e-12))
+        self.assertTrue(math.isclose(float(receivers[1]["gain"]), float(receivers[1]["irradiance"]) * 2e-4 / 4, rel_tol=1e-12))
+
+    def test_a_run_without_the_option_has_no_such_files(self):
+        out = self.run_room()
+        self.assertTrue(all((out / name).exists() for name in FILES))
+        done = lichtmc("run", self.room, "-o", out, "--receivers", self.points, "--only", "receivers", *FEW)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(p.name for p in out.iterdir()), ["receivers.csv", "state.h5", "summary.json"])
+        self.assertFalse(json.loads((out / "summary.json").read_text()).get("channels"))
+
+    def test_estimator(self):
+        summary = json.loads((self.run_room() / "summary.json").read_text())
+        self.assertEqual(summary["receiver_walk"]["estimator"], "weight")
+
+    def test_a_length_is_a_time(self):
+        self.common = tuple("0.299792458m" if word == "1ns" else word for word in self.common)
+        metre = self.responses(self.run_room(out="metre"))
+        self.common = tuple("1000ps" if word == "0.299792458m" else word for word in self.common)
+        for key, bins in self.responses(self.run_room(out="picoseconds")).items():
+            for one, other in zip(bins, metre[key]):
+                self.assertTrue(math.isclose(one, other, rel_tol=1e-9))
+
+    def test_emitters_add_up_and_delays_shift(self):
+        together = self.responses(self.run_room())
+        apart = self.responses(self.run_room("--per-emitter", out="apart"))
+        late = self.responses(self.run_room("--per-emitter", "--delay", "lambert*=7ns", out="late"))
+        self.assertEqual(sorted({emitter for emitter, _, _ in apart}), sorted(LAMPS))
+        for eye in ("eye", "wall"):
+            for order in ("0", "1+", "all"):
+                one, three = (apart[lamp, eye, order] for lamp in LAMPS)
+                highest = max(together["all", eye, order])
+                for h, a, b in zip(together["all", eye, order], one, three):
+                    self.assertTrue(math.isclose(h, (a + 3 * b) / 4, rel_tol=1e-9, abs_tol=1e-9 * highest))
+                self.assertEqual(late[LAMPS[0], eye, order], one)
+                for before, after in zip([0.0] * 7 + three, late[LAMPS[1], eye, order]):
+                    self.assertTrue(math.isclose(before, after, rel_tol=1e-9))
+        summary = json.loads((self.folder / "late" / "summary.json").read_text())
+        self.assertTrue(any("delay set to 7 ns" in text for text in summary["mended"]))
+        self.assertEqual([emitter["delay_ns"] for emitter in summary["emitters"]], [0, 7])
+
+    def test_parts_make_the_whole(self):
+        for walk in ("backward", "two-way"):
+            with self.subTest(walk=walk):
+                options = ("--orders", "1", "--per-emitter", "--frequencies", "0:20MHz:10MHz", "--squared-weights", "--receiver-walk", walk)
+                whole = self.run_room(*options, out="whole" + walk, photons=("--histories", "0:40960"))
+                parts = [self.run_room(*options, out=f"part{k}{walk}", photons=("--histories", f"{k * 20480}:{(k + 1) * 20480}")) for k in (0, 1)]
+                done = lichtmc("merge", *reversed(parts), "-o", self.folder / ("merged" + walk))
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.same(whole, self.folder / ("merged" + walk))
+
+    def test_parts_with_other_channels_do_not_belong_together(self):
+        one = self.run_room("--orders", "1", out="one", photons=("--histories", "0:20480"))
+        for options, says in ((("--orders", "2"), "--orders"), (("--orders", "1", "--per-emitter"), "--per-emitter"),
+                              (("--orders", "1", "--frequencies", "0:1MHz:1MHz"), "--frequencies"),
+                              (("--orders", "1", "--squared-weights"), "--squared-weights")):
+            with self.subTest(options=options):
+                other = self.run_room(*options, out="other", photons=("--histories", "20480:40960"))
+                self.refused("merge", one, other, "-o", self.folder / "merged", says=[says])
+        other = self.run_room("--orders", "1", "--delay", "point*=1ns", out="other", photons=("--histories", "20480:40960"))
+        self.refused("merge", one, other, "-o", self.folder / "merged", says=["different rooms"])
+
+    def test_resumed_and_on_several_threads_and_processes(self):
+        options = ("--orders", "1", "--receiver-walk", "two-way")
+        whole = self.run_room(*options, "--threads", "1", out="whole", photons=("--photons", "40960"))
+        short = self.run_room(*options, "--threads", "2", out="short")
+        done = lichtmc("resume", short, "--photons", "40960")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.same(whole, short)
+        mpirun = os.environ.get("LICHTMC_MPIRUN")
+        if mpirun:
+            shared = self.folder / "shared"
+            done = subprocess.run([mpirun, "--allow-run-as-root", "--oversubscribe", "-n", "2", PROGRAM, "run", self.room, "-o", shared, *self.common,
+                                   "--photons", "40960", *options, "--threads", "1", "--quiet"], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.same(whole, shared)
+
+    def test_an_emitter_without_power_has_a_channel_without_figures(self):
+        lights = ("--light", "point:2,2,2:0W")
+        out = self.run_room("--per-emitter", *lights)
+        rows = [row for row in table(out / "channels.csv") if row["emitter"] == lights[1]]
+        self.assertEqual(len(rows), 2)
+        for row in rows:
+            self.assertIn(row["gain"], ("0", "nan"))
+            self.assertEqual(row["rms_delay_spread_s"], "nan")
 
 
 if __name__ == "__main__":
