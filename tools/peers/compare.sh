@@ -5,45 +5,5 @@
 # from PyPI into build/peers/venv. The program lichtmc must be built (tools/demo.sh).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-[ -x build/release/bin/lichtmc ] || {
-  echo "compare.sh: build/release/bin/lichtmc is missing. Build it with tools/demo.sh." >&2
-  exit 1
-}
-
-# LLVM 14 to 16 cannot compile all operations that Mitsuba uses. Debian 12 and 13 have 19.
-find_llvm() {
-  DRJIT_LIBLLVM_PATH=${DRJIT_LIBLLVM_PATH:-$(/sbin/ldconfig -p | awk '/libLLVM.*19/ { path = $NF } END { print path }')}
-}
-
-install_packages() {
-  local missing=()
-  find_llvm
-  [ -n "$DRJIT_LIBLLVM_PATH" ] || missing+=(libllvm19)
-  python3 -c 'import ensurepip' 2>/dev/null || missing+=(python3-venv)
-  [ ${#missing[@]} -eq 0 ] && return
-  local as_root=()
-  if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || {
-      echo "compare.sh: these packages are missing: ${missing[*]}. Run it as root, or install sudo." >&2
-      return 1
-    }
-    as_root=(sudo)
-  fi
-  echo "Installing ${missing[*]}" >&2
-  "${as_root[@]}" apt-get update -qq
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
-  find_llvm
-}
-
-# A copy of the list is written after the packages; if it is equal, they are installed and nothing is downloaded.
-install_python_packages() {
-  cmp -s tools/peers/requirements.txt build/peers/installed.txt && return
-  python3 -m venv --clear build/peers/venv
-  build/peers/venv/bin/pip install --quiet --disable-pip-version-check -r tools/peers/requirements.txt
-  cp tools/peers/requirements.txt build/peers/installed.txt
-}
-
-install_packages
-install_python_packages
-export DRJIT_LIBLLVM_PATH
-exec build/peers/venv/bin/python -B tools/peers/compare.py "$@"
+. tools/peers/packages.sh
+run_python tools/peers/compare.py "$@"
