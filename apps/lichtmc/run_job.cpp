@@ -10,8 +10,8 @@
 #include <span>
 #include <stop_token>
 #include <string>
-#include <utility>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "interrupt.hpp"
@@ -132,7 +132,8 @@ void write_all(RunJob& job, Result& result, const std::vector<std::string>& prin
 
 std::string gigabytes(double bytes) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g GB", bytes / 1e9);
+  constexpr double many = 99.5e9;  // two digits would need an exponent
+  std::snprintf(text, sizeof text, bytes < many ? "%.2g GB" : "%.0f GB", bytes / 1e9);
   return text;
 }
 
@@ -142,6 +143,11 @@ void tell_memory(const RunJob& job) {
       job.report.threads > 0 ? job.report.threads : std::max(1U, std::thread::hardware_concurrency());
   const MemoryForecast memory = forecast_memory(job.room, job.settings.tile_edge_m, threads);
   const std::string needs = " run needs about " + gigabytes(memory.needed) + " of memory";
+  const double of_channels = forecast_channel_memory(job.room, job.settings, threads).needed;
+  if (of_channels > 0.0 && !job.quiet) {
+    std::cerr << "Note: the impulse responses need about " << gigabytes(of_channels) << " of memory"
+              << (std::isfinite(memory.available) ? "; " + gigabytes(memory.available) + " are free" : "") << ".\n";
+  }
   constexpr double large = 1e9;
   if (memory.needed > memory.available) {
     std::cerr

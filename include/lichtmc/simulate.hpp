@@ -21,6 +21,11 @@ namespace lichtmc {
 // a room that is not a cuboid. Throws RuntimeError if memory or the tracing device fails.
 Result simulate(const Room& room, const Settings& settings = {}, const Control& control = {});
 
+// The memory that impulse responses need (Settings::channel), in bytes: their sums, the results and the state as it is
+// written. It grows with receivers, emitters that are kept apart, orders and bins; simulate() refuses more than the
+// machine has. threads: of the run. needed is 0 without impulse responses.
+MemoryForecast forecast_channel_memory(const Room& room, const Settings& settings, unsigned threads = 2);
+
 // Continues a run of the same room until the first stop rule of `rules` is met: photons, counted from the first of the
 // run; target_error; max_seconds, of this session without repeated integration of direct light. rules.threads is used
 // too; all other settings are those of the state. The result is, bit for bit, that of one run with these rules; if the

@@ -38,6 +38,10 @@ std::string to_text(double value) {
   return {text.data(), end};
 }
 
+std::string percent(double share) {
+  return std::isfinite(share) ? short_number(100.0 * share) + " %" : "unknown";
+}
+
 std::string short_number(double value) {
   return rounded(value, 3);
 }

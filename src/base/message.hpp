@@ -12,6 +12,8 @@ std::string to_text(double value);
 
 // A number rounded to this many digits (2 to 9), as people write it: "0.123", "12300", "0.00004", "1.6·10¹³".
 std::string rounded(double value, int digits);
+// A share (0 … 1) in percent; "unknown" if it is not finite.
+std::string percent(double share);
 std::string short_number(double value);  // to three digits
 
 // A number with at most this many decimals: 2.50004 with three: "2.5".

@@ -14,10 +14,6 @@ std::string short_count(std::uint64_t count) {
   return count < 999'500 ? short_number(number) : short_number(1e-6 * number) + " million";
 }
 
-std::string percent(double share) {
-  return std::isfinite(share) ? short_number(100.0 * share) + " %" : "unknown";
-}
-
 std::string with_error(double value, double standard_error) {
   constexpr int most_decimals = 9;
   constexpr int least_decimals = -4;  // a larger error hides all digits before the point that one reads

@@ -4,13 +4,12 @@
 #include <cstdint>
 #include <string>
 
+#include "base/message.hpp"
+
 namespace lichtmc {
 
 // "150k", "1.5 million".
 std::string short_count(std::uint64_t count);
-
-// A share (0 … 1) in percent; "unknown" if it is not finite.
-std::string percent(double share);
 
 // A value with its standard error, the error to two digits, both to the same decimals: "23.202 ± 0.041". An error of 0
 // is left out, the value then has six digits; an unknown one too, the value then has three. "–" without a value.

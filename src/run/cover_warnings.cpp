@@ -13,10 +13,6 @@ namespace lichtmc {
 
 namespace {
 
-std::string percent(double share) {
-  return short_number(100.0 * share) + " %";
-}
-
 double area_of(const Cover& cover, bool undecided) {
   return undecided ? cover.undecided_m2 : cover.area_m2;
 }

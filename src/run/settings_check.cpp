@@ -9,7 +9,9 @@
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/result.hpp"
+#include "lichtmc/simulate.hpp"
 #include "room/reflectance.hpp"
+#include "walk/channel_axes.hpp"
 #include "walk/choose_policy.hpp"
 
 namespace lichtmc {
@@ -233,7 +235,37 @@ void check_memory(const Room& room, const Tiling& tiling, const Settings& settin
                    " GB, the available memory). Give --tile a greater length, or fewer --threads.");
 }
 
+MemoryForecast forecast_channel_memory(const Room& room, const Settings& settings, unsigned threads) {
+  if (!settings.channel.wanted() || room.receivers.empty()) return {0.0, memory_available()};
+  const ChannelAxes axes(room, settings);
+  const auto receivers = static_cast<double>(room.receivers.size());
+  // The sums of the run and those of a step; then the results (h and its error of each order and of all) with their
+  // files, or the state with its file in memory.
+  const double sums = receivers * axes.bytes_of_sums();
+  const double rows = receivers * axes.groups * (axes.orders + 3.0);
+  const double results = 2.0 * sizeof(double) * rows * axes.bins;
+  const double of_threads =
+      threads * std::min(receivers, static_cast<double>(axes.receivers_in_block())) * axes.bytes_of_scores();
+  return {2.0 * sums + std::max(of_threads, std::max(2.0 * results, sums + results)), memory_available()};
+}
+
 namespace {
+
+void check_channel_memory(const Room& room, const Settings& settings) {
+  if (!settings.channel.wanted()) return;
+  const double needed = forecast_channel_memory(room, settings, settings.threads == 0 ? 1 : settings.threads).needed;
+  const double limit = memory_limit();
+  if (needed <= limit) return;
+  const ChannelAxes axes(room, settings);
+  const auto gigabytes = [](double bytes) { return short_number(bytes / 1e9) + " GB"; };
+  throw InputError(
+      "The impulse responses of " + to_text(room.receivers.size(), "receiver") + " from " +
+      to_text(axes.groups, "emitter") + (settings.channel.per_emitter ? "" : " (all together)") + ", by " +
+      to_text(axes.orders + 2, "order") + " and " + to_text(axes.bins, "bin") + ", need " + gigabytes(needed) +
+      " of memory (allowed: up to " + gigabytes(limit) +
+      ", that of this machine). Give --impulse-response a greater width or --time-span a shorter time, fewer --orders, "
+      "--frequencies or receivers, or leave out --per-emitter or --squared-weights.");
+}
 
 void check_receivers_for_channels(const Room& room, const Settings& settings) {
   if (!settings.channel.wanted()) return;
@@ -254,6 +286,7 @@ void check_receivers_for_channels(const Room& room, const Settings& settings) {
                      " is a cell of a calculation grid (allowed: points for impulse responses). Leave the columns ux, "
                      "uy, uz, vx, vy, vz out of the table of receivers, or --impulse-response.");
   }
+  check_channel_memory(room, settings);
 }
 
 }  // namespace

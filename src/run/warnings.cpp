@@ -14,16 +14,13 @@
 #include "room/emitter_place.hpp"
 #include "room/emitter_shape.hpp"
 #include "room/reflectance.hpp"
+#include "run/channel_warnings.hpp"
 #include "run/cover_warnings.hpp"
 #include "run/outside.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-std::string percent(double share) {
-  return short_number(100.0 * share) + " %";
-}
 
 // Whether the emitter also emits in directions opposite to its axis.
 bool emits_backwards(const Emitter& emitter) {
@@ -178,6 +175,7 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result, con
     warnings.push_back(to_text(result.lost_histories, "photon") + " of " + std::to_string(result.walk.histories) +
                        " left a closed room by a numerical error: their power is reported as lost.");
   }
+  for (std::string& one : channel_warnings(result)) warnings.push_back(std::move(one));
   if (const auto uncertain = uncertain_errors(result)) warnings.push_back(uncertain->what + " " + uncertain->advice);
   for (const CoverWarning& covered : covered_emitters(room, result.covers))
     warnings.push_back(covered.what + " " + covered.advice);
