@@ -137,6 +137,10 @@ std::string gigabytes(double bytes) {
   return text;
 }
 
+std::string megabytes(double bytes) {
+  return bytes < 1e9 ? std::to_string(std::lround(std::max(1.0, bytes / 1e6))) + " MB" : gigabytes(bytes);
+}
+
 // Before anything is prepared: a run that gets no more memory is ended by the system, without a message.
 void tell_memory(const RunJob& job) {
   const unsigned threads =
@@ -145,7 +149,7 @@ void tell_memory(const RunJob& job) {
   const std::string needs = " run needs about " + gigabytes(memory.needed) + " of memory";
   const double of_channels = forecast_channel_memory(job.room, job.settings, threads).needed;
   if (of_channels > 0.0 && !job.quiet) {
-    std::cerr << "Note: the impulse responses need about " << gigabytes(of_channels) << " of memory"
+    std::cerr << "Note: the impulse responses need about " << megabytes(of_channels) << " of memory"
               << (std::isfinite(memory.available) ? "; " + gigabytes(memory.available) + " are free" : "") << ".\n";
   }
   constexpr double large = 1e9;

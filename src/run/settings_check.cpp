@@ -236,7 +236,13 @@ void check_memory(const Room& room, const Tiling& tiling, const Settings& settin
 }
 
 MemoryForecast forecast_channel_memory(const Room& room, const Settings& settings, unsigned threads) {
-  if (!settings.channel.wanted() || room.receivers.empty()) return {0.0, memory_available()};
+  const MemoryForecast nothing{0.0, memory_available()};
+  if (!settings.channel.wanted() || room.receivers.empty()) return nothing;
+  try {
+    check_settings(settings);
+  } catch (const InputError&) {  // simulate() refuses them, with the reason
+    return nothing;
+  }
   const ChannelAxes axes(room, settings);
   const auto receivers = static_cast<double>(room.receivers.size());
   // The sums of the run and those of a step; then the results (h and its error of each order and of all) with their

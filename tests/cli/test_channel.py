@@ -64,6 +64,14 @@ class Options(ProgramTest):
         self.refuse(*BINS, "--delay", "point*=-1ns", says=["0 or more", "from the earliest"])
 
 
+    def test_memory(self):
+        self.refuse(*BINS[:1], "1ps", "--time-span", "10us", "--orders", "9", receivers=("--grid", "1", "--grid-spacing", "0.1"),
+                    says=["2500 receivers", "11 orders", "10000000 bins", "GB of memory", "--impulse-response a greater width", "--orders"])
+        done = lichtmc("run", self.room, "-o", self.folder / "out", "--grid", "1", "--only", "receivers", *BINS, "--no-report", "--photons", "1000")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"Note: the impulse responses need about \d+ MB of memory")
+
+
 class Rooms(ProgramTest):
     def check(self, document):
         room = self.write_gltf(document)
