@@ -22,6 +22,7 @@
 #include "run/tile_light.hpp"
 #include "walk/backward.hpp"
 #include "walk/cell_light.hpp"
+#include "walk/channel_memory.hpp"
 #include "walk/learn_reach.hpp"
 #include "walk/receiver_points.hpp"
 #include "walk/receiver_walk.hpp"
@@ -163,7 +164,7 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   std::optional<ChannelParts> channels;
   if (context.settings.channel.wanted())
     channels.emplace(ChannelParts{{room, context.settings}, ChannelScale(room), {room, tracer}, points});
-  const std::size_t block = channels ? channels->axes.receivers_in_block() : ReceiverBlocks::size;
+  const std::size_t block = channels ? receivers_in_block(channels->axes) : ReceiverBlocks::size;
   const ReceiverBlocks blocks(points, tracer, block);
   // Walks from the receivers have no use for it; it is learned for blocks of the usual size.
   const bool has_reach = context.settings.receiver_walk != ReceiverWalk::backward && block == ReceiverBlocks::size;
@@ -204,8 +205,9 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   outcome.report.receiver_walk = walk_of(outcome.estimates.plan);
   ReceiverMeasurement measured{receiver_results(room, outcome.estimates), std::nullopt, std::move(outcome.report)};
   if (channels) {
-    measured.channels = channel_results({context, channels->axes, channels->scale, light, points,
-                                         *outcome.estimates.channels, outcome.ranges, measured.receivers, *outcome.estimates.direct});
+    measured.channels =
+        channel_results({context, channels->axes, channels->scale, light, points, *outcome.estimates.channels,
+                         outcome.ranges, measured.receivers, *outcome.estimates.direct});
   }
   return measured;
 }

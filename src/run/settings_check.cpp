@@ -12,6 +12,7 @@
 #include "lichtmc/simulate.hpp"
 #include "room/reflectance.hpp"
 #include "walk/channel_axes.hpp"
+#include "walk/channel_memory.hpp"
 #include "walk/choose_policy.hpp"
 
 namespace lichtmc {
@@ -247,11 +248,11 @@ MemoryForecast forecast_channel_memory(const Room& room, const Settings& setting
   const auto receivers = static_cast<double>(room.receivers.size());
   // The sums of the run and those of a step; then the results (h and its error of each order and of all) with their
   // files, or the state with its file in memory.
-  const double sums = receivers * axes.bytes_of_sums();
+  const double sums = receivers * bytes_of_sums(axes);
   const double rows = receivers * axes.groups * (axes.orders + 3.0);
   const double results = 2.0 * sizeof(double) * rows * axes.bins;
   const double of_threads =
-      threads * std::min(receivers, static_cast<double>(axes.receivers_in_block())) * axes.bytes_of_scores();
+      threads * std::min(receivers, static_cast<double>(receivers_in_block(axes))) * bytes_of_scores(axes);
   return {2.0 * sums + std::max(of_threads, std::max(2.0 * results, sums + results)), memory_available()};
 }
 

@@ -2,8 +2,6 @@
 
 #include <cassert>
 
-#include "walk/backward_goal.hpp"
-
 namespace lichtmc {
 
 BackwardScale::BackwardScale(const Room& room) {
@@ -37,25 +35,6 @@ OriginView CellOrigins::start(std::uint64_t receiver, double u, double v, Rays& 
   const Edges& edges = edges_[receiver];
   rays.set_start(i, rays.start(i) + static_cast<float>(u - 0.5) * edges.u + static_cast<float>(v - 0.5) * edges.v);
   return view;
-}
-
-std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
-                                                 const CellOrigins& origins, const BackwardScale& scale,
-                                                 const Settings& settings, const RoundPlan& plan) {
-  assert(plan.backward > 0);
-  return walk_from<false>(scene, light, origins, scale, settings, plan);
-}
-
-std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
-                                                 const ReceiverOrigins& origins, const BackwardScale& scale,
-                                                 const Settings& settings, const RoundPlan& plan) {
-  assert(plan.backward > 0);
-  return walk_from<false>(scene, light, origins, scale, settings, plan);
-}
-
-std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light, const TileFaces& origins,
-                                                 const BackwardScale& scale, const Settings& settings) {
-  return walk_from<false>(scene, light, origins, scale, settings, {.forward = 0, .backward = TileFaces::group});
 }
 
 }  // namespace lichtmc

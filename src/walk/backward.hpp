@@ -80,6 +80,9 @@ class BackwardWalk {
   // scores: receives the light with its paths, of round r as r − first, if the walk keeps them; or null.
   virtual void collect(const WalkBlock& work, std::vector<double>& irradiance, BackwardCount& count,
                        const Abandon& abandon, ChannelScores* scores) = 0;
+  void collect(const WalkBlock& work, std::vector<double>& irradiance, BackwardCount& count, const Abandon& abandon) {
+    collect(work, irradiance, count, abandon, nullptr);
+  }
 
   // Adds the impulse responses that were scored since the last call, if there are any.
   virtual void hand_over(ChannelSums& /*sums*/, BackwardCount& /*count*/) {}

@@ -1,5 +1,5 @@
-// The goal of backward walks and the walks for each estimator: templates, which backward.cpp and backward_paths.cpp
-// compile without and with the paths of light.
+// The goal of backward walks and the walks for each estimator: templates, which make_backward.cpp and
+// make_backward_paths.cpp compile without and with the paths of light.
 #pragma once
 
 #include <algorithm>

@@ -6,11 +6,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "base/lanes.hpp"
 #include "room/bounds.hpp"
 #include "room/reflectance.hpp"
-#include "walk/channel_scores.hpp"
-#include "walk/channel_sums.hpp"
 
 namespace lichtmc {
 
@@ -77,27 +74,6 @@ ChannelAxes::ChannelAxes(const Room& room, const Settings& settings) {
   frequency_count = static_cast<std::uint32_t>(frequencies.size());
   groups = static_cast<std::uint32_t>(emitter_groups(room, wanted, group_of_emitter).size());
   for (const Emitter& emitter : room.emitters) delay_m.push_back(emitter.delay_s * speed_of_light);
-}
-
-double ChannelAxes::bytes_of_sums() const {
-  const double row = static_cast<double>(bins_of_row() + 1) * sizeof(BackwardSums) + double{sizeof(Earliest)};
-  const double group = static_cast<double>(sizeof(MomentSums)) + double{1} * sizeof(uint128) * coarse_bins +
-                       2.0 * sizeof(int128) * frequency_count;
-  return groups * (columns * row + jackknife_groups * group);
-}
-
-double ChannelAxes::bytes_of_scores() const {
-  const double row = static_cast<double>(bins_of_row() + 1) * sizeof(ChannelScores::Cell);
-  const double group = static_cast<double>(sizeof(MomentSums)) + double{1} * sizeof(std::uint64_t) * coarse_bins +
-                       2.0 * sizeof(int128) * frequency_count;
-  return groups * (columns * row + jackknife_groups * group);
-}
-
-std::size_t ChannelAxes::receivers_in_block() const {
-  constexpr double most_bytes = 32e6;
-  constexpr double most = 2048.0;
-  const double fit = std::clamp(most_bytes / bytes_of_scores(), 1.0, most);
-  return whole_lanes(static_cast<std::size_t>(fit));
 }
 
 }  // namespace lichtmc

@@ -44,12 +44,6 @@ struct ChannelAxes {
   std::size_t pair(std::size_t receiver, std::size_t group) const { return receiver * groups + group; }
   std::size_t row(std::size_t pair, std::size_t column) const { return pair * columns + column; }
   std::size_t bins_of_row() const { return std::size_t{bins} + 1; }
-
-  // Bytes of ChannelSums for each receiver, and of the scores of a thread.
-  double bytes_of_sums() const;
-  double bytes_of_scores() const;
-  // Receivers whose scores a thread keeps at a time: few enough for a processor's cache. A multiple of most_lanes.
-  std::size_t receivers_in_block() const;
 };
 
 // The names of the groups of emitters: of each emitter's name in the order of the room, or "all".

@@ -10,7 +10,6 @@
 #include "base/lanes.hpp"
 #include "room/bounds.hpp"
 #include "walk/channel_sums.hpp"
-#include "walk/receiver_lanes.hpp"
 
 namespace lichtmc {
 
@@ -71,14 +70,14 @@ ChannelScale::ChannelScale(const Room& room) {
   length_m = std::exp2(std::ceil(std::log2(glm::length(bounds.high - bounds.low))));
 }
 
-ChannelScores::ChannelScores(const ChannelAxes& axes, const ChannelScale& scale, const ReceiverLanes& lanes,
-                             const ReferencePoint* receivers)
-    : axes_(&axes), scale_(scale), lanes_(&lanes), size_(lanes.size()), whole_(whole_lanes(size_)) {
+ChannelScores::ChannelScores(const ChannelAxes& axes, const ChannelScale& scale, const ReferencePoint* receivers,
+                             const std::vector<std::uint32_t>& order)
+    : axes_(&axes), scale_(scale), number_(order), size_(order.size()), whole_(whole_lanes(size_)) {
   position_.resize(size_);
   for (auto* coordinates : {&x_, &y_, &z_}) coordinates->resize(whole_, 0.0);
   for (std::uint32_t k = 0; k < size_; ++k) {
-    position_[lanes.number(k)] = k;
-    const glm::dvec3& point = receivers[lanes.number(k)].point;
+    position_[number_[k]] = k;
+    const glm::dvec3& point = receivers[number_[k]].point;
     x_[k] = point.x;
     y_[k] = point.y;
     z_[k] = point.z;
@@ -303,50 +302,62 @@ void ChannelScores::close_response(std::uint32_t jackknife) {
   responded_.clear();
 }
 
+namespace {
+
+// Adds some sums to others and clears them.
+template <class Own, class Other>
+void move_all(std::vector<Own>& from, std::size_t from_first, std::vector<Other>& to, std::size_t to_first,
+              std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    to[to_first + i] += from[from_first + i];
+    from[from_first + i] = 0;
+  }
+}
+
+void move_cell(ChannelScores::Cell& from, BackwardSums& to) {
+  to.sum += from.sum;
+  to.squares += from.squares();
+  from = {};
+}
+
+}  // namespace
+
 void ChannelScores::hand_over(std::size_t first, ChannelSums& sums, std::uint64_t& capped) {
-  const ChannelAxes& axes = *axes_;
   for (std::size_t k = 0; k < size_; ++k) {
-    for (std::uint32_t group = 0; group < axes.groups; ++group) {
-      const std::size_t from = axes.pair(k, group);
-      const std::size_t to = axes.pair(first + lanes_->number(k), group);
-      for (std::uint32_t column = 0; column < axes.columns; ++column) {
-        const std::size_t from_row = axes.row(from, column);
-        const std::size_t to_row = axes.row(to, column);
-        Cell* cells = cells_.data() + from_row * axes.bins_of_row();
-        BackwardSums* bins = sums.bins.data() + to_row * axes.bins_of_row();
-        const auto move = [](Cell& cell, BackwardSums& sum) {
-          sum.sum += cell.sum;
-          sum.squares += cell.squares();
-          cell = {};
-        };
-        Range& range = ranges_[from_row];
-        for (std::size_t b = range.low; b <= range.high; ++b) move(cells[b], bins[b]);
-        range = {};
-        move(column_cells_[from_row], sums.columns[to_row]);
-        double& earliest = dense(earliest_, group, column, axes.columns)[k];
-        sums.earliest[to_row] += Earliest{std::bit_cast<std::uint64_t>(earliest)};
-        earliest = std::numeric_limits<double>::infinity();
-      }
-      const auto move_all = [](auto& own, std::size_t own_first, auto& other, std::size_t other_first, std::size_t n) {
-        for (std::size_t i = 0; i < n; ++i) {
-          other[other_first + i] += own[own_first + i];
-          own[own_first + i] = 0;
-        }
-      };
-      for (std::size_t j = 0; j < jackknife_groups; ++j) {
-        MomentSums& to_moments = sums.moments[to * jackknife_groups + j];
-        uint128* from_moments = moment_sums_.data() + (from * jackknife_groups + j) * moments;
-        to_moments.weight += std::exchange(from_moments[0], 0);
-        to_moments.first += std::exchange(from_moments[1], 0);
-        to_moments.second += std::exchange(from_moments[2], 0);
-      }
-      const std::size_t coarse = jackknife_groups * axes.coarse_bins;
-      move_all(coarse_, from * coarse, sums.coarse, to * coarse, coarse);
-      const std::size_t response = jackknife_groups * axes.frequency_count * 2;
-      move_all(response_sums_, from * response, sums.response, to * response, response);
+    for (std::uint32_t group = 0; group < axes_->groups; ++group) {
+      for (std::uint32_t column = 0; column < axes_->columns; ++column) hand_over_row(k, group, column, first, sums);
+      hand_over_groups(axes_->pair(k, group), axes_->pair(first + number_[k], group), sums);
     }
   }
   capped += std::exchange(capped_, 0);
+}
+
+void ChannelScores::hand_over_row(std::size_t position, std::uint32_t group, std::uint32_t column, std::size_t first,
+                                  ChannelSums& sums) {
+  const std::size_t from = axes_->row(axes_->pair(position, group), column);
+  const std::size_t to = axes_->row(axes_->pair(first + number_[position], group), column);
+  Cell* cells = cells_.data() + from * axes_->bins_of_row();
+  BackwardSums* bins = sums.bins.data() + to * axes_->bins_of_row();
+  const Range range = std::exchange(ranges_[from], {});
+  for (std::size_t b = range.low; b <= range.high; ++b) move_cell(cells[b], bins[b]);
+  move_cell(column_cells_[from], sums.columns[to]);
+  double& earliest = dense(earliest_, group, column, axes_->columns)[position];
+  sums.earliest[to] += Earliest{std::bit_cast<std::uint64_t>(earliest)};
+  earliest = std::numeric_limits<double>::infinity();
+}
+
+void ChannelScores::hand_over_groups(std::size_t from, std::size_t to, ChannelSums& sums) {
+  for (std::size_t j = 0; j < jackknife_groups; ++j) {
+    MomentSums& all = sums.moments[to * jackknife_groups + j];
+    uint128* own = moment_sums_.data() + (from * jackknife_groups + j) * moments;
+    all.weight += std::exchange(own[0], 0);
+    all.first += std::exchange(own[1], 0);
+    all.second += std::exchange(own[2], 0);
+  }
+  const std::size_t coarse = std::size_t{jackknife_groups} * axes_->coarse_bins;
+  move_all(coarse_, from * coarse, sums.coarse, to * coarse, coarse);
+  const std::size_t response = std::size_t{jackknife_groups} * axes_->frequency_count * 2;
+  move_all(response_sums_, from * response, sums.response, to * response, response);
 }
 
 }  // namespace lichtmc

@@ -19,7 +19,6 @@
 namespace lichtmc {
 
 struct ChannelSums;
-class ReceiverLanes;
 
 // Units of the integers: 2⁻³² of the emitters' power over the area of all surfaces, and a length of about the room's
 // size, a power of two (m). A score is at most 2⁵⁴ units: the squares of 2²⁰ of these stay below 2¹²⁸.
@@ -65,11 +64,9 @@ class ChannelScores {
     std::uint64_t squares_high = 0;
   };
 
-  // receivers: of the block, which `lanes` has in its own order. All must outlive this.
-  ChannelScores(const ChannelAxes& axes, const ChannelScale& scale, const ReceiverLanes& lanes,
-                const ReferencePoint* receivers);
-
-  const ReceiverLanes* lanes() const { return lanes_; }
+  // receivers: of the block; order: their numbers in the order of its lanes. The axes must outlive this.
+  ChannelScores(const ChannelAxes& axes, const ChannelScale& scale, const ReferencePoint* receivers,
+                const std::vector<std::uint32_t>& order);
 
   // Rounds first_round … first_round + rounds − 1 follow, in turn.
   void begin(std::uint64_t first_round, std::size_t rounds);
@@ -106,6 +103,9 @@ class ChannelScores {
   uint128 wide_units(double moment);
   void close_moments(std::uint32_t jackknife);
   void close_response(std::uint32_t jackknife);
+  void hand_over_row(std::size_t position, std::uint32_t group, std::uint32_t column, std::size_t first,
+                     ChannelSums& sums);
+  void hand_over_groups(std::size_t from, std::size_t to, ChannelSums& sums);
 
   // Of a dense array [group][what][position].
   double* dense(std::vector<double>& array, std::size_t group, std::size_t what, std::size_t number_of_whats) const {
@@ -114,7 +114,7 @@ class ChannelScores {
 
   const ChannelAxes* axes_;
   ChannelScale scale_;
-  const ReceiverLanes* lanes_;
+  std::vector<std::uint32_t> number_;    // of the receiver at each position of the lanes
   std::size_t size_;                     // receivers
   std::size_t whole_;                    // the same in whole lanes
   std::vector<std::uint32_t> position_;  // of each receiver in the lanes

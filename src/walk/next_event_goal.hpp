@@ -1,5 +1,5 @@
-// The goal of photons that contribute to receivers, and their walks for each estimator: templates, which next_event.cpp
-// and next_event_paths.cpp compile without and with the paths of light.
+// The goal of photons that contribute to receivers, and their walks for each estimator: templates, which
+// make_next_event.cpp and make_next_event_paths.cpp compile without and with the paths of light.
 #pragma once
 
 #include <algorithm>

@@ -57,6 +57,7 @@ class ReceiverLanes {
   std::size_t size() const { return number_.size(); }
   // The receiver at position k of the arrays, counted from `first`.
   std::uint32_t number(std::size_t k) const { return number_[k]; }
+  const std::vector<std::uint32_t>& numbers() const { return number_; }
   // Whether a receiver is a cell: then impacts have places in cells.
   bool has_cells() const { return !edges_.empty(); }
   // m: the unit of length.

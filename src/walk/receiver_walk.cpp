@@ -36,11 +36,11 @@ class RoundWalk final : public BackwardWalk {
 
  private:
   void use_scores_of(const WalkBlock& work) {
-    const ReceiverLanes& lanes = parts_.blocks.at(work.first);
-    if (scores_ && scores_->lanes() == &lanes) return;
+    if (scores_ && first_of_scores_ == work.first) return;
     first_of_scores_ = work.first;
     const ChannelParts& channels = *parts_.channels;
-    scores_.emplace(channels.axes, channels.scale, lanes, channels.receivers.data() + work.first);
+    scores_.emplace(channels.axes, channels.scale, channels.receivers.data() + work.first,
+                    parts_.blocks.at(work.first).numbers());
   }
 
   // As many as fill a wave, but no more than keep the scores in a processor's cache. The light of walks from receivers
