@@ -64,7 +64,8 @@ double BackwardStage::walk() {
   Parts& p = *parts_;
   std::fill(p.irradiance.begin(), p.irradiance.end(), 0.0);
   BackwardCount count;
-  p.walk->collect({0, p.points.size(), p.next, p.next + walks_in_round}, p.irradiance, count, [] { return false; });
+  p.walk->collect({0, p.points.size(), p.next, p.next + walks_in_round}, p.irradiance, count, [] { return false; },
+                   nullptr);
   p.next += walks_in_round;
   return static_cast<double>(walks_in_round * p.points.size());
 }

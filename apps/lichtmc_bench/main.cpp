@@ -4,6 +4,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -16,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "backward.hpp"
+#include "channel.hpp"
 #include "direct.hpp"
 #include "lichtmc/simulate.hpp"
 #include "lichtmc/version.hpp"
@@ -41,11 +43,11 @@ struct Options {
 struct Measured {
   std::string what;
   double value = 0.0;
-  double bar = 0.0;
+  std::optional<double> bar;  // none: only measured
   bool at_least = true;  // else at most
   std::string unit;      // empty for a ratio
   nlohmann::ordered_json details;
-  bool reached() const { return at_least ? value >= bar : value <= bar; }
+  bool reached() const { return !bar || (at_least ? value >= *bar : value <= *bar); }
 };
 
 nlohmann::ordered_json details_of(const Ratio& ratio, const char* first, const char* second) {
@@ -263,6 +265,20 @@ std::vector<Measured> points(const Options& options, const std::string& what, co
   return measured;
 }
 
+std::vector<Measured> channel(const Options& options, std::size_t receivers, std::uint64_t histories, double bar) {
+  const ChannelCost cost = cost_of_channels(receivers, options.quick ? histories / 4 : histories, options.quick ? 1 : 3);
+  const std::string what = "impulse responses at " + std::to_string(receivers) + " receivers of a living room, ";
+  return {{what + "time of the walks against the run without", median(cost.walk), bar, false, "", {{"ratios", cost.walk}}},
+          {what + "time of the whole", median(cost.whole), bar, false, "", {{"ratios", cost.whole}}}};
+}
+
+Measured bins_to_one_percent(const Options& options) {
+  std::vector<double> times;
+  for (int turn = 0; turn < options.turns(); ++turn) times.push_back(seconds_to_one_percent_of_bins(1'000'000));
+  return {"impulse response of an empty room, bins of 1 ns from 15 to 60 ns, time to 1 %", median(times), {}, false, "s",
+          {{"times", times}}};
+}
+
 std::vector<Measured> measure_all(const Options& options) {
   std::vector<std::function<Measured()>> all;
   const auto add = [&](const std::string& group, const std::function<Measured()>& one) {
@@ -293,12 +309,17 @@ std::vector<Measured> measure_all(const Options& options) {
   add("backward", [&] { return backward_variance(options); });
   add("direct", [&] { return direct_light(options); });
   add("lamps", [&] { return many_lamps(options); });
+  add("channel", [&] { return bins_to_one_percent(options); });
   std::vector<Measured> measured;
   if (options.only.empty() || options.only == "points") {
     for (const auto& of : {points(options, "1044 points of a furnished room", furnished_room(), Engine::embree, 20'000'000, 400,
                                   10.0, 40.0),
                            points(options, "20 points of an empty room, Embree", empty_room(), Engine::embree, 20'000'000, 40'000, 5.0, 0.0),
                            points(options, "20 points of an empty room, closed form", empty_room(), Engine::cuboid, 40'000'000, 80'000, 8.0, 0.0)})
+      measured.insert(measured.end(), of.begin(), of.end());
+  }
+  if (options.only.empty() || options.only == "channel") {
+    for (const auto& of : {channel(options, 1000, 4'000'000, 1.25), channel(options, 20, 4'000'000, 1.15)})
       measured.insert(measured.end(), of.begin(), of.end());
   }
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -321,10 +342,14 @@ const char* instructions() {
 }
 
 std::string row(const Measured& one) {
+  const std::string unit = one.unit.empty() ? "" : " " + one.unit;
   char text[240];
-  std::snprintf(text, sizeof text, "| %s | %.3g %s| %s %.3g %s| %s |", one.what.c_str(), one.value,
-                one.unit.empty() ? "" : (one.unit + " ").c_str(), one.at_least ? "≥" : "≤", one.bar,
-                one.unit.empty() ? "" : (one.unit + " ").c_str(), one.reached() ? "reached" : "MISSED");
+  if (!one.bar) {
+    std::snprintf(text, sizeof text, "| %s | %.3g%s | – | |", one.what.c_str(), one.value, unit.c_str());
+    return text;
+  }
+  std::snprintf(text, sizeof text, "| %s | %.3g%s | %s %.3g%s | %s |", one.what.c_str(), one.value, unit.c_str(),
+                one.at_least ? "≥" : "≤", *one.bar, unit.c_str(), one.reached() ? "reached" : "MISSED");
   return text;
 }
 
@@ -336,7 +361,7 @@ int run(const Options& options) {
     for (const Measured& one : measured) {
       rows.push_back({{"what", one.what},
                       {"value", one.value},
-                      {"bar", one.bar},
+                      {"bar", one.bar ? nlohmann::ordered_json(*one.bar) : nlohmann::ordered_json()},
                       {"reached_if", one.at_least ? "at least" : "at most"},
                       {"unit", one.unit},
                       {"reached", one.reached()},
@@ -368,7 +393,7 @@ static int run_program(int argc, char** argv) {
   program.add_flag("--quick", options.quick, "Shorter turns: under a minute");
   program.add_option("--only", options.only, "One group of measurements")
       ->check(CLI::IsMember(
-          {"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators", "backward", "lamps", "points", "direct"}));
+          {"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators", "backward", "lamps", "points", "direct", "channel"}));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

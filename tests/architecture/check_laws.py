@@ -27,6 +27,7 @@ ONLY_CREATE = {
     "src/inspect/inspect.cpp": "creates an isotropic emitter to test a room without emitters",
     "src/run/receiver_grid.cpp": "creates an isotropic emitter to find the rooms of a building without emitters",
     "apps/lichtmc/light_spec.cpp": "creates the emitters of --light",
+    "apps/lichtmc_bench/channel.cpp": "creates emitters of benchmark rooms",
     "apps/lichtmc_bench/points.cpp": "creates emitters of benchmark rooms",
     "apps/lichtmc_bench/main.cpp": "creates emitters of benchmark rooms",
     "apps/lichtmc_bench/rooms.cpp": "creates emitters of benchmark rooms",
