@@ -151,8 +151,7 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
                          "(and 'unit', \"lm\" or \"W\"), or give it a light.");
   }
   result.emitter.name = node.name.empty() ? placed.label : node.name;
-  const auto delay = first(delay_in(document, node.extras, placed.label), delay_in(document, of_light, light_label));
-  result.emitter.delay_s = delay.value_or(0.0);
+  result.emitter.delay_s = delay_in(document, of_light, light_label).value_or(0.0);
   // Read only here: nodes that emit nothing may have a 'unit' of another program.
   const auto unit = first(unit_in(document, node.extras, placed.label), unit_in(document, of_light, light_label));
   result.quantity = unit.value_or(Quantity::photometric);
@@ -160,6 +159,16 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
   // This replaces the shape; the power is kept.
   if (exponent) result.emitter.shape = LambertEmitter{placed.position(), axis_of(document, placed), *exponent};
   return result;
+}
+
+void set_delay_of_node(const Document& document, const PlacedNode& placed, std::span<Emitter> emitters,
+                       std::vector<Ignored>& ignored) {
+  const auto delay_s = delay_in(document, document.model.nodes[placed.index].extras, placed.label);
+  if (!delay_s) return;
+  for (Emitter& emitter : emitters) emitter.delay_s = *delay_s;
+  if (!emitters.empty()) return;
+  ignored.push_back({"'delay_ns' of " + placed.label + ": nothing of this node emits light.", Effect::figures,
+                     "Set it on the node of a light or of an emissive surface, or remove it."});
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,11 @@ struct FileEmitter {
 // and the value.
 std::optional<FileEmitter> read_light(const Document& document, const PlacedNode& placed,
                                       std::vector<Ignored>& ignored);
+
+// Sets the delay of a node that has one for all that it emits: it precedes those of its light and of the materials of
+// its mesh, which several nodes may share. A delay of nothing is added to `ignored`.
+void set_delay_of_node(const Document& document, const PlacedNode& placed, std::span<Emitter> emitters,
+                       std::vector<Ignored>& ignored);
 
 // The receiver of a node with extras.receiver.
 std::optional<Receiver> read_receiver(const Document& document, const PlacedNode& placed);

@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <span>
 
 #include <glm/geometric.hpp>
 
@@ -94,29 +95,17 @@ class RoomReader {
     const PlacedNode& placed = nodes_[k];
     const std::size_t emitters = room_.emitters.size();
     read_mesh(k);
-    set_delay_of_node(placed, emitters);
     if (auto light = read_light(*document_, placed, room_.ignored)) {
       light->emitter.name = names_of_scene_.nodes[k];
       add_emitter(std::move(*light));
     }
+    set_delay_of_node(*document_, placed, std::span(room_.emitters).subspan(emitters), room_.ignored);
     if (auto receiver = read_receiver(*document_, placed)) {
       receiver->name = names_of_scene_.nodes[k];
       room_.receivers.push_back(std::move(*receiver));
     }
     const auto& node = document_->model.nodes[placed.index];
-    if (room_.emitters.size() == emitters && node.extras.IsObject() && node.extras.Has("delay_ns")) {
-      room_.ignored.push_back({"'delay_ns' of " + placed.label + ": nothing of this node emits light.", Effect::figures,
-                               "Set it on the node of a light or of an emissive surface, or remove it."});
-    }
     if (node.camera >= 0) note("The camera of " + placed.label + " is not used.", Effect::none);
-  }
-
-  // The delay of a node precedes that of the materials of its mesh, which several nodes may share. first: its first
-  // emitter.
-  void set_delay_of_node(const PlacedNode& placed, std::size_t first) {
-    const auto delay_s = delay_in(*document_, document_->model.nodes[placed.index].extras, placed.label);
-    if (!delay_s) return;
-    for (std::size_t k = first; k < room_.emitters.size(); ++k) room_.emitters[k].delay_s = *delay_s;
   }
 
   void read_mesh(std::size_t number) {
