@@ -54,11 +54,11 @@ struct SightOfPair {
   Response response;  // of all paths
   std::vector<Response> response_of_set;
 
-  DelayMoments without_set(std::size_t j) const {
-    if (!sampled) return moments;
-    DelayMoments sum;
-    for (const DelayMoments& one : of_set) sum += one;
-    return (sum - of_set[j]) * (1.0 / (jackknife_groups - 1)) += exact;
+  // Moments whose difference from `moments` has the part of set j in the jackknife; leverage: see sight_leverage().
+  DelayMoments without_set(std::size_t j, double leverage) const {
+    DelayMoments sum = moments;
+    if (sampled) sum += (moments - exact - of_set[j]) * leverage;
+    return sum;
   }
 };
 
@@ -91,8 +91,8 @@ class ReceiverChannels {
   }
 
  private:
-  // The parts of area lights add up to the direct irradiance of the receiver: of each set, if there is one channel,
-  // whose gain then has the error of that irradiance; else on average.
+  // The parts of area lights add up to the direct irradiance of the receiver, which was sampled apart. Its error is
+  // given to the sets: each of them is higher or lower by √31 of it, so that the mean of 32 has this error.
   void match_direct(LineOfSight& sight) const {
     double exact = 0.0;
     std::array<double, jackknife_groups> of_set{};
@@ -101,9 +101,14 @@ class ReceiverChannels {
     const double sampled = in_.direct[receiver_].value - exact;
     const double mean = std::accumulate(of_set.begin(), of_set.end(), 0.0) / jackknife_groups;
     if (!(sampled > 0.0) || !(mean > 0.0)) return;
-    const bool each = axes_.groups == 1 && *std::min_element(of_set.begin(), of_set.end()) > 0.0;
+    // Sets without light keep their own differences.
+    const bool each = *std::min_element(of_set.begin(), of_set.end()) > 0.0;
+    const double step =
+        std::min(1.0, std::sqrt(jackknife_groups - 1.0) * in_.direct[receiver_].standard_error / sampled);
     for (SightPath& path : sight.paths) {
-      if (path.set != SightPath::exact) path.irradiance *= sampled / (each ? of_set[path.set] : mean);
+      if (path.set == SightPath::exact) continue;
+      const double higher = path.set % 2 == 0 ? 1.0 + step : 1.0 - step;
+      path.irradiance *= each ? sampled * higher / of_set[path.set] : sampled / mean;
     }
   }
 
@@ -283,16 +288,23 @@ class ReceiverChannels {
 
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
+  // By how much a set of the 32 counts in the jackknife over g groups of rounds, so that it gives the variance of the
+  // mean of all sets: with the pseudo-values (g − 1) l d_j of their deviations d_j it gives l² (g − 1) mean(d²), to be
+  // mean(d²)/31. With 32 groups it is that of leaving out a set, 1/31.
+  double sight_leverage() const {
+    const double groups = std::max(2.0, static_cast<double>(jackknife_.groups().size()));
+    return 1.0 / std::sqrt((jackknife_groups - 1.0) * (groups - 1.0));
+  }
+
   void add_sight(Response& response, const SightOfPair& sight, std::size_t without) const {
     for (std::size_t f = 0; f < response.size(); ++f) response[f] += sight.response[f];
     if (!sight.sampled || without == none) return;
-    // The mean over the other sets instead of that over all.
     Response mean(response.size());
     for (const Response& one : sight.response_of_set) {
       for (std::size_t f = 0; f < one.size(); ++f) mean[f] += one[f] / static_cast<double>(jackknife_groups);
     }
     for (std::size_t f = 0; f < response.size(); ++f)
-      response[f] += (mean[f] - sight.response_of_set[without][f]) / static_cast<double>(jackknife_groups - 1);
+      response[f] += (mean[f] - sight.response_of_set[without][f]) * sight_leverage();
   }
 
   // H(f), its error, and the bandwidths.
@@ -398,7 +410,7 @@ class ReceiverChannels {
     gains_without_.clear();
     for (const std::size_t j : jackknife_.groups()) {
       const DelayMoments rest = (sum - moments_of(j)) * (1.0 / (n - static_cast<double>(jackknife_.rounds_of(j))));
-      const DelayMoments own_sight = sight.without_set(j);
+      const DelayMoments own_sight = sight.without_set(j, sight_leverage());
       DelayMoments all = rest;
       all += own_sight;
       without[mean].push_back(all.mean_s());
@@ -416,9 +428,6 @@ class ReceiverChannels {
     channel.diffuse_rms_delay_spread_s = jackknife_.figure(diffuse.rms_spread_s(), without[diffuse_rms]);
     if (!(diffuse.weight > 0.0)) return;
     channel.rician_k = jackknife_.figure(sight.moments.weight / diffuse.weight, without[k_factor]);
-    if (axes_.groups == 1 && sight.sampled)
-      channel.rician_k.standard_error =
-          std::hypot(channel.rician_k.standard_error, channel.line_of_sight.standard_error / diffuse.weight);
   }
 
   void compute_pair(const SightOfPair& sight, const FirstSight& first) {
