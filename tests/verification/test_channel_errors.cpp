@@ -43,8 +43,8 @@ double binomial_tail(double count, double n, double p) {
   return 1.0 - below;
 }
 
-// The law of z = (value − truth)/error: Σ z², the largest z, and the numbers beyond 2 and 3. Errors of half the size
-// and of twice the size would be found.
+// The law of z = (value − truth)/error: Σ z², the largest z, and the numbers beyond 2 and 3. Errors 0.4 times
+// or 2.5 times as large would be found.
 void check_law(const Tested& one) {
   const auto n = static_cast<double>(one.runs.size());
   const Verdict verdict = compare(with_errors(one, 1.0));
@@ -69,8 +69,8 @@ void check_law(const Tested& one) {
   // Of the normal law: 4.55 % and 0.27 %.
   CHECK(binomial_tail(beyond_2, n, 0.0455) > false_alarm);
   CHECK(binomial_tail(beyond_3, n, 0.0027) > false_alarm);
-  CHECK_FALSE(compare(with_errors(one, 0.5)).agrees);
-  CHECK_FALSE(compare(with_errors(one, 2.0)).agrees);
+  CHECK_FALSE(compare(with_errors(one, 0.4)).agrees);
+  CHECK_FALSE(compare(with_errors(one, 2.5)).agrees);
 }
 
 Settings channel_settings(ReceiverWalk walk, double histories, std::uint64_t seed) {
