@@ -93,7 +93,7 @@ TEST_CASE("mistakes in times, orders, gains and errors of impulse responses woul
     const Bins own = bins_of(found, 0, 0, order);
     test(name, own, bins_of(expected, name), true);
     test(name + " taken for the next", bins_of(found, 0, 0, order - 1), bins_of(expected, name), false);
-    if (order >= 2) test(name + ", floors of parts", with_floors(own, order), bins_of(expected, name), false);
+    test(name + ", floors of parts", with_floors(own, order), bins_of(expected, name), false);
   }
   // Walls that are a little darker: 0.79 in place of 0.80.
   Room darker = barry_room();
