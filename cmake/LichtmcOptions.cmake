@@ -56,6 +56,15 @@ function(lichtmc_precompiled_options target)
   endif()
 endfunction()
 
+# lichtmc_compile_together(TARGET GROUP SOURCE...): with LICHTMC_UNITY these sources of the current folder are compiled as
+# one, which reads and instantiates the templates of a large library once for all. Names in unnamed namespaces must
+# differ within a group. asan, tsan and fuzz compile them one by one.
+function(lichtmc_compile_together target group)
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${LICHTMC_UNITY} UNITY_BUILD_MODE GROUP)
+  set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
+endfunction()
+
 find_program(LICHTMC_CCACHE ccache)
 mark_as_advanced(LICHTMC_CCACHE)
 if(LICHTMC_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

@@ -10,8 +10,6 @@ namespace lichtmc {
 
 namespace {
 
-constexpr const char* export_again = " Export the file again.";
-
 // Elements in a buffer, `stride` bytes apart.
 struct Elements {
   const unsigned char* first = nullptr;

@@ -18,7 +18,6 @@ namespace lichtmc {
 namespace {
 
 constexpr const char* extension_name = "KHR_draco_mesh_compression";
-constexpr const char* export_again = " Export the file again, or without compression.";
 
 // Adds a buffer with these values to the model. Returns the index of its accessor.
 template <class T>
@@ -49,7 +48,7 @@ std::unique_ptr<draco::Mesh> decode(const Document& document, const tinygltf::Va
   const auto& bytes =
       model.buffers[checked_index(document, view.buffer, model.buffers.size(), "the buffer of " + where)].data;
   if (static_cast<uint128>(view.byteOffset) + view.byteLength > bytes.size())
-    refuse(document, where + " reaches beyond its buffer." + export_again);
+    refuse(document, where + " reaches beyond its buffer." + export_uncompressed);
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()) + view.byteOffset, view.byteLength);
   draco::Decoder decoder;
@@ -61,7 +60,7 @@ std::unique_ptr<draco::Mesh> decode(const Document& document, const tinygltf::Va
   } catch (const std::exception& fault) {  // for example a stored length beyond the memory
     reason = fault.what();
   }
-  refuse(document, where + " is damaged and cannot be decompressed (" + reason + ")." + export_again);
+  refuse(document, where + " is damaged and cannot be decompressed (" + reason + ")." + export_uncompressed);
 }
 
 std::vector<std::uint32_t> indices_of(const draco::Mesh& mesh) {
@@ -82,7 +81,7 @@ std::vector<float> values_of(const Document& document, const draco::Mesh& mesh, 
   for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
     float* value = values.data() + std::size_t{point.value()} * static_cast<std::size_t>(components);
     if (!attribute.ConvertValue<float>(attribute.mapped_index(point), static_cast<std::int8_t>(components), value))
-      refuse(document, where + " has an attribute that cannot be converted to float." + export_again);
+      refuse(document, where + " has an attribute that cannot be converted to float." + export_uncompressed);
   }
   return values;
 }
@@ -145,12 +144,12 @@ void decompress(Document& document, tinygltf::Primitive& primitive, bool morphed
       add_accessor(model, indices_of(*mesh), 1, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   if (!extension.Has("attributes") || !extension.Get("attributes").IsObject())
-    refuse(document, where + " has no 'attributes' object." + export_again);
+    refuse(document, where + " has no 'attributes' object." + export_uncompressed);
   for (auto& [name, index] : primitive.attributes) {
     if (components_of(name) == 0 || !extension.Get("attributes").Has(name)) continue;
     const double id = number_in(document, extension.Get("attributes"), name.c_str(), -1.0, where);
     const int number = id >= 0.0 && id < 0x1p31 ? mesh->GetAttributeIdByUniqueId(static_cast<std::uint32_t>(id)) : -1;
-    if (number < 0) refuse(document, where + " does not contain its attribute " + name + "." + export_again);
+    if (number < 0) refuse(document, where + " does not contain its attribute " + name + "." + export_uncompressed);
     const auto& described =
         model.accessors[checked_index(document, index, model.accessors.size(), "the accessor of " + name)];
     // Colours may have three or four components.

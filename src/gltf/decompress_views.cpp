@@ -13,8 +13,6 @@ namespace lichtmc {
 
 namespace {
 
-constexpr const char* export_again = " Export the file again, or without compression.";
-
 // The codecs need at least 1 bit for 256 bytes. A view that states a higher ratio is damaged: it is rejected before
 // memory is allocated for it.
 constexpr std::uint64_t max_compression_ratio = 2048;
@@ -36,7 +34,8 @@ std::uint64_t whole_number(const Document& document, const tinygltf::Value& obje
                            const std::string& where) {
   const double value = number_in(document, object, name, otherwise, where);
   if (value >= 0.0 && value < 0x1p32 && value == std::floor(value)) return static_cast<std::uint64_t>(value);
-  refuse(document, "'" + std::string(name) + "' of " + where + " is not a whole number below 2^32." + export_again);
+  refuse(document,
+         "'" + std::string(name) + "' of " + where + " is not a whole number below 2^32." + export_uncompressed);
 }
 
 std::string text_in(const tinygltf::Value& object, const char* name, const char* otherwise) {
@@ -55,7 +54,8 @@ Packed read_extent(const Document& document, const tinygltf::Value& extension, c
   const auto& bytes =
       buffers[checked_index(document, static_cast<long long>(buffer), buffers.size(), "the buffer of " + where)].data;
   // Each is below 2³²: the sum does not overflow.
-  if (offset + packed.size > bytes.size()) refuse(document, where + " reaches beyond its buffer." + export_again);
+  if (offset + packed.size > bytes.size())
+    refuse(document, where + " reaches beyond its buffer." + export_uncompressed);
   packed.data = bytes.data() + offset;
   return packed;
 }
@@ -79,16 +79,16 @@ bool read_mode(const tinygltf::Value& extension, const std::string& mode, Packed
 }
 
 Packed read_description(const Document& document, const tinygltf::Value& extension, const std::string& where) {
-  if (!extension.IsObject()) refuse(document, where + " is not an object." + export_again);
+  if (!extension.IsObject()) refuse(document, where + " is not an object." + export_uncompressed);
   Packed packed = read_extent(document, extension, where);
   const std::string mode = text_in(extension, "mode", "(none)");
   if (!read_mode(extension, mode, packed)) {
     refuse(document, where + " has values that the extension does not allow together (mode " + mode + ", filter " +
                          packed.filter + ", stride " + std::to_string(packed.stride) + ", count " +
-                         std::to_string(packed.count) + ")." + export_again);
+                         std::to_string(packed.count) + ")." + export_uncompressed);
   }
   if (std::uint64_t{packed.count} * packed.stride > max_compression_ratio * packed.size + always_allowed_bytes)
-    refuse(document, where + " states more elements than its data can hold." + export_again);
+    refuse(document, where + " states more elements than its data can hold." + export_uncompressed);
   return packed;
 }
 
@@ -106,7 +106,7 @@ std::vector<unsigned char> decompressed(const Document& document, const Packed& 
       fault = meshopt_decodeIndexSequence(bytes.data(), packed.count, packed.stride, packed.data, packed.size);
       break;
   }
-  if (fault != 0) refuse(document, where + " is damaged and cannot be decompressed." + export_again);
+  if (fault != 0) refuse(document, where + " is damaged and cannot be decompressed." + export_uncompressed);
   if (packed.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(bytes.data(), packed.count, packed.stride);
   if (packed.filter == "QUATERNION") meshopt_decodeFilterQuat(bytes.data(), packed.count, packed.stride);
   if (packed.filter == "EXPONENTIAL") meshopt_decodeFilterExp(bytes.data(), packed.count, packed.stride);

@@ -7,11 +7,7 @@
 
 namespace lichtmc {
 
-namespace {
-
-constexpr const char* export_again = " Export the file again.";
-
-}  // namespace
+namespace {}  // namespace
 
 std::string label(const char* kind, const std::string& name, std::size_t index) {
   return std::string(kind) + " " + (name.empty() ? std::to_string(index) : in_quotes(name));

@@ -40,6 +40,10 @@ std::string label(const char* kind, const std::string& name, std::size_t index);
 // Throws InputError with the message "FILE: what is wrong. What to do."
 [[noreturn]] void refuse(const Document& document, const std::string& what_and_remedy);
 
+// Ends of such messages.
+inline constexpr const char* export_again = " Export the file again.";
+inline constexpr const char* export_uncompressed = " Export the file again, or without compression.";
+
 // Returns an index of the file if it is below `count`; throws InputError otherwise.
 std::size_t checked_index(const Document& document, long long index, std::size_t count, const std::string& what);
 

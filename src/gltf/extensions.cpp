@@ -35,8 +35,8 @@ constexpr std::string_view metadata = "it contains information about the file";
 constexpr std::string_view motion = "it moves objects; the room is read at rest";
 constexpr std::string_view physics = "it describes bodies for a simulation of motion";
 constexpr std::string_view interaction = "it describes reactions to a user";
-constexpr std::string_view sound = "it describes sound";
-constexpr std::string_view lines = "it describes how edges are drawn";
+constexpr std::string_view about_sound = "it describes sound";
+constexpr std::string_view about_lines = "it describes how edges are drawn";
 constexpr std::string_view gloss_textures = "it names textures of roughness and normals, which are not modelled";
 
 // Registered extensions of https://github.com/KhronosGroup/glTF/tree/main/extensions, and others that are common.
@@ -76,19 +76,19 @@ constexpr std::array known_extensions{
     Known{"KHR_materials_variants", Role::harmless, "it offers other materials; those of the meshes are used"},
     Known{"AGI_articulations", Role::harmless, motion},
     Known{"AGI_stk_metadata", Role::harmless, metadata},
-    Known{"CESIUM_primitive_outline", Role::harmless, lines},
+    Known{"CESIUM_primitive_outline", Role::harmless, about_lines},
     Known{"EXT_feature_metadata", Role::harmless, metadata},
     Known{"EXT_instance_features", Role::harmless, metadata},
     Known{"EXT_mesh_features", Role::harmless, metadata},
     Known{"EXT_mesh_manifold", Role::harmless, "it repeats the triangles as a closed mesh"},
-    Known{"EXT_mesh_primitive_edge_visibility", Role::harmless, lines},
+    Known{"EXT_mesh_primitive_edge_visibility", Role::harmless, about_lines},
     Known{"EXT_structural_metadata", Role::harmless, metadata},
     Known{"FB_geometry_metadata", Role::harmless, metadata},
     Known{"FB_ngon_encoding", Role::harmless, "it states which triangles form a polygon"},
     Known{"GODOT_single_root", Role::harmless, "it states that the file has one root node"},
     Known{"GRIFFEL_bim_data", Role::harmless, metadata},
     Known{"KHR_animation_pointer", Role::harmless, motion},
-    Known{"KHR_audio_emitter", Role::harmless, sound},
+    Known{"KHR_audio_emitter", Role::harmless, about_sound},
     Known{"KHR_implicit_shapes", Role::harmless, physics},
     Known{"KHR_interactivity", Role::harmless, interaction},
     Known{"KHR_node_hoverability", Role::harmless, interaction},
@@ -99,7 +99,7 @@ constexpr std::array known_extensions{
     Known{"MSFT_packing_normalRoughnessMetallic", Role::harmless, gloss_textures},
     Known{"MSFT_packing_occlusionRoughnessMetallic", Role::harmless, gloss_textures},
     Known{"MSFT_physics_rigid_bodies", Role::harmless, physics},
-    Known{"OMI_audio_emitter", Role::harmless, sound},
+    Known{"OMI_audio_emitter", Role::harmless, about_sound},
     Known{"OMI_collider", Role::harmless, physics},
     Known{"OMI_physics_body", Role::harmless, physics},
     Known{"OMI_physics_gravity", Role::harmless, physics},

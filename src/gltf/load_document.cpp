@@ -22,8 +22,6 @@ namespace lichtmc {
 
 namespace {
 
-constexpr const char* export_again = " Export the file again.";
-
 // The parser counts bytes in 32 bits.
 constexpr std::size_t most_bytes = std::numeric_limits<std::int32_t>::max();
 

@@ -80,6 +80,13 @@ def change_headers(folder):
         file.write_text(text.replace(old, new))
 
 
+def compiled_by(file):
+    """The sources that a file of the build compiles: those that a file of CMake's folder Unity includes, or itself."""
+    if file.parent.name != "Unity":
+        return [file]
+    return [pathlib.Path(path) for path in re.findall(r'#include "([^"]+)"', file.read_text())]
+
+
 def syntax_commands(project, build):
     """The compile command of each source, without its outputs, with its folder."""
     commands = {}
@@ -97,7 +104,9 @@ def syntax_commands(project, build):
                 skip = True
             elif word not in ("-c", "-MD", "-MMD"):
                 kept.append(word)
-        commands[file.relative_to(project).as_posix()] = (kept + ["-fsyntax-only"], entry["directory"])
+        for source in compiled_by(file):
+            own = [str(source) if word == entry["file"] else word for word in kept]
+            commands[source.relative_to(project).as_posix()] = (own + ["-fsyntax-only"], entry["directory"])
     return commands
 
 
