@@ -78,7 +78,9 @@ struct LambertLaw {
   // The law is the same at all azimuths.
   double density_at(double cos_polar) const {
     if (cos_polar <= 0.0) return 0.0;
-    return (exponent + 1.0) / (2.0 * std::numbers::pi) * std::pow(cos_polar, exponent);
+    // Most emitters follow Lambert's law, whose power is the cosine itself.
+    const double power = exponent == 1.0 ? cos_polar : std::pow(cos_polar, exponent);
+    return (exponent + 1.0) / (2.0 * std::numbers::pi) * power;
   }
   // cos^m θ falls to 10⁻¹⁶ at 1 − cos θ = 36.8/m, and by half over an angle of about √(2 ln 2/m).
   EmitterExtent extent() const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "walk/channel_scores.hpp"
@@ -14,6 +15,7 @@
 
 namespace lichtmc {
 
+// The walks of a round start in one wave: then the order of its scores depends on the round alone.
 class BackwardArrivals {
  public:
   // planes: null if paths are not kept; then nothing is called. every_impact: light scores where it is collected; else
@@ -21,13 +23,18 @@ class BackwardArrivals {
   BackwardArrivals(const DirectLight& light, const FacetPlanes* planes, bool every_impact)
       : light_(&light), paths_(planes), every_impact_(every_impact) {
     if (planes == nullptr) return;
-    found_.resize(batch_histories);
+    walks_.resize(batch_histories);
     if (!every_impact) left_.resize(batch_histories);
   }
 
-  void start(std::uint32_t photon, const glm::dvec3& point) {
+  // What follows is scored here. All its rounds have been begun.
+  void begin(ChannelScores& scores) { scores_ = &scores; }
+
+  // A photon starts at a point: a walk of a round from a receiver, both numbered as in ChannelScores. factor: of all
+  // that it collects.
+  void start(std::uint32_t photon, const glm::dvec3& point, std::size_t round, std::size_t receiver, double factor) {
     paths_.start(photon, point, 0.0);
-    found_[photon].clear();
+    walks_[photon] = {static_cast<std::uint32_t>(round), static_cast<std::uint32_t>(receiver), factor};
     if (!every_impact_) left_[photon].clear();
   }
   void land(const Wave& wave) { paths_.land(wave); }
@@ -56,29 +63,35 @@ class BackwardArrivals {
   void score_last(std::uint32_t photon, double factor) {
     for (Arrival& one : left_[photon]) {
       one.irradiance *= factor;
-      found_[photon].push_back(one);
+      scores_->collect(walks_[photon].round, one);
     }
     left_[photon].clear();
   }
 
-  // Calls take(arrival) for the light that a photon has found, without the factor of its first flight.
-  template <class Take>
-  void take(std::uint32_t photon, const Take& take_one) {
-    for (const Arrival& one : found_[photon]) take_one(one);
-    found_[photon].clear();
-  }
-
  private:
+  struct Walk {
+    std::uint32_t round = 0;
+    std::uint32_t receiver = 0;
+    double factor = 1.0;
+  };
+
   void add(std::uint32_t photon, std::size_t source, std::uint32_t order, double length_m, double irradiance) {
+    const Walk& walk = walks_[photon];
     const auto emitter = static_cast<std::uint32_t>(light_->source(source).emitter);
-    (every_impact_ ? found_ : left_)[photon].push_back({0, emitter, order, length_m, irradiance});
+    const Arrival arrival{walk.receiver, emitter, order, length_m, walk.factor * irradiance};
+    if (every_impact_) {
+      scores_->collect(walk.round, arrival);
+    } else {
+      left_[photon].push_back(arrival);
+    }
   }
 
   const DirectLight* light_;
   FlightPaths paths_;
   bool every_impact_;
+  ChannelScores* scores_ = nullptr;
   // By the number of the photon:
-  std::vector<std::vector<Arrival>> found_;
+  std::vector<Walk> walks_;
   std::vector<std::vector<Arrival>> left_;  // at the surface that it left last
 };
 

@@ -61,9 +61,12 @@ class BackwardGoal : public GoalBase {
   double irradiance(std::uint32_t i) const { return found_[i] * factor_[i]; }
   std::uint64_t origin(std::uint32_t i) const { return origin_[i]; }
   std::uint64_t round(std::uint32_t i) const { return round_[i]; }
-  // The light that the photons have collected, with their paths; irradiance() has factors that these have not.
-  BackwardArrivals& arrivals() { return arrivals_; }
-  double factor(std::uint32_t i) const { return factor_[i]; }
+  // The light that photons collect is scored here, as rounds from first_round on and of origins from first_origin on.
+  void begin_paths(ChannelScores& scores, std::uint64_t first_round, std::uint64_t first_origin) {
+    arrivals_.begin(scores);
+    first_round_ = first_round;
+    first_origin_ = first_origin;
+  }
 
   // The first flight leaves by Lambert's law within the field of view: the receiver weights radiance by the cosine.
   void start(Wave& wave, std::uint32_t n) {
@@ -80,7 +83,10 @@ class BackwardGoal : public GoalBase {
       forward_ratio_[i] = 0.0;
       found_[i] = 0.0;
       direct_[i] = 0.0;
-      if constexpr (keeps_paths) arrivals_.start(i, origins_->point(origin_[i]));
+      if constexpr (keeps_paths) {
+        arrivals_.start(i, origins_->point(origin_[i]), round_[i] - first_round_, origin_[i] - first_origin_,
+                        factor_[i] / group_);
+      }
     }
     first_flights_.aim(n, scene_->tracer->directions(), wave.rays, cosine_.data());
     for (const auto& [i, direction] : ways_out_) wave.rays.set_direction(i, direction);
@@ -242,7 +248,10 @@ class BackwardGoal : public GoalBase {
   std::vector<std::uint32_t> cell_;  // of light samples there, see DirectLight::cell_of()
   std::uint32_t flight_ = 0;
   BackwardCount* count_ = nullptr;
+  // Only if paths are kept:
   BackwardArrivals arrivals_;
+  std::uint64_t first_round_ = 0;
+  std::uint64_t first_origin_ = 0;
 };
 
 template <class Policy, class Reflectance, class Origins, bool keeps_paths>
@@ -273,17 +282,11 @@ class PolicyBackwardWalk final : public BackwardWalk {
                ChannelScores* scores) override {
     const std::uint64_t origins = work.last - work.first;
     const std::uint64_t first_round = work.first_sample / group_;
+    assert((scores != nullptr) == keeps_paths);
+    if constexpr (keeps_paths) goal_.begin_paths(*scores, first_round, work.first);
     walk(work, count, abandon, [&](std::uint32_t i) {
       const std::uint64_t round = goal_.round(i) - first_round;
       irradiance[round * origins + (goal_.origin(i) - work.first)] += goal_.irradiance(i) / group_;
-      if constexpr (keeps_paths) {
-        if (scores == nullptr) return;
-        goal_.arrivals().take(i, [&](Arrival arrival) {
-          arrival.receiver = static_cast<std::uint32_t>(goal_.origin(i) - work.first);
-          arrival.irradiance *= goal_.factor(i) / group_;
-          scores->collect(round, arrival);
-        });
-      }
     });
   }
 
@@ -307,6 +310,8 @@ class PolicyBackwardWalk final : public BackwardWalk {
     const std::uint64_t last_round = work.last_sample / group_;
     for (std::uint64_t origin = work.first; origin < work.last; ++origin) {
       for (std::uint64_t round = work.first_sample / group_; round < last_round; ++round) {
+        // The walks of a round start together, see BackwardArrivals.
+        if (keeps_paths && n + group_ > batch_histories) fly();
         for (std::uint32_t number = 0; number < group_; ++number) {
           goal_.prepare(n++, origin, round, number);
           if (n == batch_histories) fly();

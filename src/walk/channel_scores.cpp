@@ -106,17 +106,12 @@ void ChannelScores::begin(std::uint64_t first_round, std::size_t rounds) {
 
 void ChannelScores::open(std::size_t r) {
   round_ = first_round_ + r;
-  const std::vector<Arrival>& all = arrivals_[r];
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const Arrival& ahead = all[std::min(k + prefetch_ahead, all.size() - 1)];
-    const std::size_t row =
-        axes_->row(axes_->pair(position_[ahead.receiver], axes_->group_of_emitter[ahead.emitter]), axes_->all_column());
-    __builtin_prefetch(&cells_[row * axes_->bins_of_row() + bin_of(ahead.length_m + axes_->delay_m[ahead.emitter])], 1);
-    const Arrival& one = all[k];
+  std::vector<Arrival>& all = arrivals_[r];
+  for (const Arrival& one : all) {
     add(position_[one.receiver], axes_->group_of_emitter[one.emitter], axes_->column_of(one.order),
         one.length_m + axes_->delay_m[one.emitter], one.irradiance);
   }
-  arrivals_[r].clear();
+  all.clear();
 }
 
 std::uint32_t ChannelScores::bin_of(double length_m) const {

@@ -4,15 +4,40 @@
 // length is exact: none is shorter than the shortest possible one.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "base/lanes.hpp"
 #include "lichtmc/room.hpp"
 #include "tracer/tracer.hpp"
 
 namespace lichtmc {
+
+// Where the flights of a wave end, for loops in lanes.
+struct FlightEnds {
+  const float* LICHTMC_APART x;
+  const float* LICHTMC_APART y;
+  const float* LICHTMC_APART z;
+  const float* LICHTMC_APART dx;
+  const float* LICHTMC_APART dy;
+  const float* LICHTMC_APART dz;
+  const float* LICHTMC_APART length;
+  const std::uint32_t* LICHTMC_APART facet;
+  const double* LICHTMC_APART normal_x;
+  const double* LICHTMC_APART normal_y;
+  const double* LICHTMC_APART normal_z;
+  const double* LICHTMC_APART offset;
+  // A point (x, y, z) in the tracer's coordinates → the world: of x, origin_x + x_x x + x_y y + x_z z, and so on.
+  // (Loops with types of GLM are not vectorised.)
+  double origin_x, origin_y, origin_z;
+  double x_x, x_y, x_z;
+  double y_x, y_y, y_z;
+  double z_x, z_y, z_z;
+};
 
 class FacetPlanes {
  public:
@@ -21,22 +46,16 @@ class FacetPlanes {
 
   // The point of the facet's plane that is nearest to a point (m, world).
   glm::dvec3 nearest(std::uint32_t facet, const glm::dvec3& point) const {
-    const Plane& plane = planes_[facet];
-    return point - glm::dot(plane.normal, point - plane.point) * plane.normal;
+    const glm::dvec3 normal(normal_x_[facet], normal_y_[facet], normal_z_[facet]);
+    return point - (glm::dot(normal, point) - offset_[facet]) * normal;
   }
-  // Where flight i, which has hit a surface, ended.
-  glm::dvec3 end_of(const Rays& rays, std::size_t i) const {
-    const glm::dvec3 end = glm::dvec3(rays.start(i)) + double{rays.length[i]} * glm::dvec3(rays.direction(i));
-    return nearest(rays.facet[i], tracer_->world_point(end));
-  }
+  // All flights have hit a surface.
+  FlightEnds ends_of(const Rays& rays) const;
 
  private:
-  struct Plane {
-    glm::dvec3 point{0.0};   // m
-    glm::dvec3 normal{0.0};  // length 1; 0 for a facet without an area
-  };
   const Tracer* tracer_;
-  std::vector<Plane> planes_;
+  // Of each facet: the normal n of length 1, or 0 for a facet without an area, and n · p for the points p of its plane.
+  std::vector<double> normal_x_, normal_y_, normal_z_, offset_;
 };
 
 }  // namespace lichtmc

@@ -1,9 +1,10 @@
 // The paths of the photons of a wave: how far each has come, and where it is.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "walk/facet_planes.hpp"
@@ -15,33 +16,26 @@ namespace lichtmc {
 class FlightPaths {
  public:
   // planes: of the tracer's facets, which must outlive this; null: paths are not kept.
-  explicit FlightPaths(const FacetPlanes* planes) : planes_(planes) {
-    if (planes == nullptr) return;
-    length_.resize(batch_histories);
-    point_.resize(batch_histories);
-  }
+  explicit FlightPaths(const FacetPlanes* planes);
 
   const FacetPlanes& planes() const { return *planes_; }
   void start(std::uint32_t photon, const glm::dvec3& point, double length_m) {
-    point_[photon] = point;
+    x_[photon] = point.x;
+    y_[photon] = point.y;
+    z_[photon] = point.z;
     length_[photon] = length_m;
   }
   // All photons of the wave have landed.
-  void land(const Wave& wave) {
-    for (std::size_t i = 0; i < wave.rays.size; ++i) {
-      const std::uint32_t photon = wave.photon[i];
-      const glm::dvec3 end = planes_->end_of(wave.rays, i);
-      length_[photon] += glm::length(end - point_[photon]);
-      point_[photon] = end;
-    }
-  }
+  void land(const Wave& wave);
+
   double length_m(std::uint32_t photon) const { return length_[photon]; }
-  const glm::dvec3& point(std::uint32_t photon) const { return point_[photon]; }
+  glm::dvec3 point(std::uint32_t photon) const { return {x_[photon], y_[photon], z_[photon]}; }
 
  private:
   const FacetPlanes* planes_;
-  std::vector<double> length_;
-  std::vector<glm::dvec3> point_;
+  std::vector<double> x_, y_, z_, length_;
+  // By the position in the wave: ends and lengths of flights.
+  std::vector<double> end_x_, end_y_, end_z_, flight_;
 };
 
 }  // namespace lichtmc
