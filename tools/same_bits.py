@@ -52,7 +52,7 @@ ADDED_TO_SURFACES = {
 # Figures of summary.json that a base may not have.
 ADDED = {"unreached_tiles", "tile_images"}
 # The same, also within other keys.
-ADDED_ANYWHERE = {"rms_relative_error_without_floor", "error_floor", "concentrator_index", "filter_gain"}
+ADDED_ANYWHERE = {"rms_relative_error_without_floor", "error_floor", "concentrator_index", "filter_gain", "delay_ns"}
 # Keys of summary.json that hold times or follow from one: two runs of one program differ in them.
 TIMES = {"seconds", "impacts_per_second", "figure_of_merit", "checkpoint_seconds"}
 
