@@ -50,6 +50,7 @@ class Sight {
         stream_(stream),
         number_(number) {
     found_.first.resize(axes.groups);
+    hidden_.resize(axes.groups, std::numeric_limits<double>::infinity());
   }
 
   LineOfSight find() {
@@ -61,14 +62,22 @@ class Sight {
         add_area(light_.areas()[source.index], source.emitter);
       }
     }
+    // Light of points that are nearer, but not in sight, may be reflected, or come past what hides others of them.
+    for (std::size_t group = 0; group < hidden_.size(); ++group) {
+      FirstSight& first = found_.first[group];
+      first.exact = first.exact && first.length_m <= hidden_[group];
+    }
     return std::move(found_);
   }
 
  private:
   void add_point(const PointLight& light, std::size_t emitter) {
     const LightSample sample = light.sample_light(receiver_);
-    if (!(sample.irradiance > 0.0) || is_blocked(tracer_, receiver_, sample.target, count_)) return;
     const double length = glm::length(light.position() - receiver_.point) + axes_.delay_m[emitter];
+    if (!(sample.irradiance > 0.0) || is_blocked(tracer_, receiver_, sample.target, count_)) {
+      hide(emitter, length);
+      return;
+    }
     found_.paths.push_back({axes_.group_of_emitter[emitter], length, sample.irradiance, SightPath::exact});
     see(emitter, length, true);
   }
@@ -76,6 +85,12 @@ class Sight {
   void see(std::size_t emitter, double length, bool exact) {
     FirstSight& first = found_.first[axes_.group_of_emitter[emitter]];
     if (length < first.length_m || (exact && length == first.length_m)) first = {length, exact};
+  }
+
+  // No light of an emitter comes by a shorter path, but its light does not come straight, or not from there.
+  void hide(std::size_t emitter, double length) {
+    double& hidden = hidden_[axes_.group_of_emitter[emitter]];
+    hidden = std::min(hidden, length);
   }
 
   void add_area(const AreaLight& light, std::size_t emitter) {
@@ -101,32 +116,44 @@ class Sight {
           AreaLightSampler(light, tracer_, same_point, stream_, number, count_, record).sample(accuracy);
       for (std::size_t k = begin; k < found_.paths.size(); ++k) found_.paths[k].irradiance *= mean.value / sum;
     }
-    if (shortest == std::numeric_limits<double>::infinity()) return;
-    const double nearest = nearest_length(emitter) + axes_.delay_m[emitter];
-    const bool exact = nearest <= shortest;
-    see(emitter, exact ? nearest : shortest, exact);
+    const NearestPoint nearest = nearest_point(emitter);
+    const double length = nearest.length_m + axes_.delay_m[emitter];
+    // Samples are on the triangles to rounding.
+    constexpr double rounding = 1e-12;
+    const bool exact = length <= shortest * (1.0 + rounding) && is_seen(nearest, emitter);
+    if (shortest < std::numeric_limits<double>::infinity()) see(emitter, exact ? length : shortest, exact);
+    if (!exact) hide(emitter, length);
   }
 
-  // The length of the shortest path from an area light, if it is free; else infinite.
-  double nearest_length(std::size_t emitter) {
+  struct NearestPoint {
+    glm::dvec3 point{0.0};
+    double length_m = std::numeric_limits<double>::infinity();
+    bool is_front = false;
+  };
+
+  // The point of an area light that is nearest to the receiver.
+  NearestPoint nearest_point(std::size_t emitter) const {
     const Surface& surface = room_.surfaces[*emitting_surface(room_.emitters[emitter])];
-    double shortest = std::numeric_limits<double>::infinity();
-    glm::dvec3 nearest(0.0);
+    NearestPoint nearest;
     for (const glm::uvec3& corner : surface.triangles) {
       const glm::dvec3& a = surface.positions[corner.x];
       const glm::dvec3& b = surface.positions[corner.y];
       const glm::dvec3& c = surface.positions[corner.z];
-      if (glm::dot(glm::cross(b - a, c - a), receiver_.point - a) <= 0.0) continue;  // its back
       const glm::dvec3 point = nearest_of_triangle(receiver_.point, a, b, c);
       const double length = glm::length(point - receiver_.point);
-      if (length >= shortest) continue;
-      shortest = length;
-      nearest = point;
+      const bool is_front = glm::dot(glm::cross(b - a, c - a), receiver_.point - a) > 0.0;
+      // Of two triangles with a common edge the one that shines here.
+      if (length < nearest.length_m || (length == nearest.length_m && is_front)) nearest = {point, length, is_front};
     }
-    const double cosine = glm::dot(nearest - receiver_.point, receiver_.normal) / shortest;
-    const bool is_free = shortest > 0.0 && cosine > std::max(0.0, receiver_.least_cosine) &&
-                         tracer_.faces_in_one_plane() == nullptr && !is_blocked(tracer_, receiver_, nearest, count_);
-    return is_free ? shortest : std::numeric_limits<double>::infinity();
+    return nearest;
+  }
+
+  // Whether light comes straight from there; with an emission map it may be dark.
+  bool is_seen(const NearestPoint& nearest, std::size_t emitter) {
+    if (!nearest.is_front || !(nearest.length_m > 0.0) || tracer_.faces_in_one_plane() != nullptr) return false;
+    if (std::get<SurfaceEmitter>(room_.emitters[emitter].shape).emission_map) return false;
+    const double cosine = glm::dot(nearest.point - receiver_.point, receiver_.normal) / nearest.length_m;
+    return cosine > std::max(0.0, receiver_.least_cosine) && !is_blocked(tracer_, receiver_, nearest.point, count_);
   }
 
   const Room& room_;
@@ -138,6 +165,8 @@ class Sight {
   std::uint64_t number_;
   TraceCount count_;
   LineOfSight found_;
+  std::vector<double>
+      hidden_;  // of each group: the least distance of its emitters, with their delays, that are not in sight
 };
 
 }  // namespace

@@ -191,6 +191,45 @@ TEST_CASE("channels: the first arrival from a panel is exact if its nearest poin
   CHECK(std::isnan(dark.channels[0].bandwidth_electrical_hz.value));
 }
 
+TEST_CASE("channels: a first arrival is not called exact if light may come earlier") {
+  Settings settings = channel_settings(9);
+  // A panel that is dark where it is nearest.
+  Room room = black_room(1.0);
+  room.receivers = {{"eye", {1.2, 1.0, 1.1}, {0, 1, 0}, 80.0, 1e-4}};
+  room.emission_maps.push_back({"right half", 2, 1, {0.0F, 1.0F}, Wrap::clamp, Wrap::clamp});
+  auto& panel = std::get<SurfaceEmitter>(room.emitters[0].shape);
+  panel.emission_map = 0;
+  panel.emission_uvs = room.surfaces[panel.surface].uvs;
+  const Channel half = simulate(room, settings).channels->channels[0];
+  CHECK(!half.first_arrival_is_exact);
+  // Between the centres of the two pixels, at 1.4 m and 2.0 m, the luminance rises from 0.
+  CHECK(half.first_arrival_s >= std::hypot(1.4, 0.2) / speed_of_light * (1.0 - 1e-6));
+  CHECK(half.first_arrival_s < std::hypot(1.4, 0.5) / speed_of_light);
+
+  // Two lamps on one channel; the nearer one behind a board: its light may come by the walls before that of the other.
+  room = make_cuboid({3.0, 2.5, 3.0}, uniform_reflectance(0.5));
+  Surface board = make_floor(0.4, 0.4);
+  for (glm::dvec3& p : board.positions) p += glm::dvec3(0.8, 1.2, 0.8);
+  board.name = "board";
+  room.surfaces.push_back(board);
+  room.emitters = {isotropic({1.0, 1.4, 1.0}), isotropic({2.9, 2.4, 2.9})};
+  room.emitters[1].name = "far";
+  room.receivers = {{"eye", {1.0, 0.9, 1.0}, {0, 1, 0}, 90.0, 1e-4}};
+  const double far_s = std::sqrt(1.9 * 1.9 + 1.5 * 1.5 + 1.9 * 1.9) / speed_of_light;
+  settings.channel.per_emitter = true;
+  const Result each = simulate(room, settings);
+  CHECK(!each.channels->channels[0].first_arrival_is_exact);
+  CHECK(each.channels->channels[1].first_arrival_is_exact);
+  CHECK(each.channels->channels[1].first_arrival_s == Approx(far_s).epsilon(1e-12));
+  settings.channel.per_emitter = false;
+  CHECK(!simulate(room, settings).channels->channels[0].first_arrival_is_exact);
+  // Late enough it does not come before.
+  room.emitters[0].delay_s = far_s;
+  const Channel late = simulate(room, settings).channels->channels[0];
+  CHECK(late.first_arrival_is_exact);
+  CHECK(late.first_arrival_s == Approx(far_s).epsilon(1e-12));
+}
+
 TEST_CASE("channels: two panels in one channel keep their shares and their times") {
   // The second is late by more than the first takes.
   Room room = black_room(1.0);
