@@ -106,12 +106,13 @@ void ChannelScores::begin(std::uint64_t first_round, std::size_t rounds) {
 
 void ChannelScores::open(std::size_t r) {
   round_ = first_round_ + r;
-  std::vector<Arrival>& all = arrivals_[r];
-  for (const Arrival& one : all) {
+  Arrivals& all = arrivals_[r];
+  for (std::size_t k = 0; k < all.size; ++k) {
+    const Arrival& one = all.list[k];
     add(position_[one.receiver], axes_->group_of_emitter[one.emitter], axes_->column_of(one.order),
         one.length_m + axes_->delay_m[one.emitter], one.irradiance);
   }
-  all.clear();
+  all.size = 0;
 }
 
 std::uint32_t ChannelScores::bin_of(double length_m) const {

@@ -71,7 +71,11 @@ class ChannelScores {
   // Rounds first_round … first_round + rounds − 1 follow, in turn.
   void begin(std::uint64_t first_round, std::size_t rounds);
   // Light for round first_round + r: in an order that depends on the receiver alone.
-  void collect(std::size_t r, const Arrival& arrival) { arrivals_[r].push_back(arrival); }
+  void collect(std::size_t r, const Arrival& arrival) {
+    Arrivals& all = arrivals_[r];
+    if (all.size == all.list.size()) all.list.resize(2 * all.size + 64);
+    all.list[all.size++] = arrival;
+  }
 
   // Opens round first_round + r with the arrivals collected for it.
   void open(std::size_t r);
@@ -122,7 +126,11 @@ class ChannelScores {
 
   std::uint64_t first_round_ = 0;
   std::uint64_t round_ = 0;  // that is open
-  std::vector<std::vector<Arrival>> arrivals_;
+  struct Arrivals {          // of a round: the first `size` of the list
+    std::vector<Arrival> list;
+    std::size_t size = 0;
+  };
+  std::vector<Arrivals> arrivals_;
 
   // By pair and column, of positions in place of receivers.
   std::vector<Cell> cells_;

@@ -9,17 +9,17 @@ namespace lichtmc {
 namespace {
 
 struct Points {
-  double* LICHTMC_APART x;
-  double* LICHTMC_APART y;
-  double* LICHTMC_APART z;
+  const double* LICHTMC_APART x;
+  const double* LICHTMC_APART y;
+  const double* LICHTMC_APART z;
 };
 
 // Where flights end, and how long they are.
 LICHTMC_LANES void end_flights(std::size_t n, const FlightEnds& ends, const std::uint32_t* LICHTMC_APART photon,
-                               const Points& starts, const Points& to, double* LICHTMC_APART length) {
+                               const Points& starts, double* LICHTMC_APART end_x, double* LICHTMC_APART end_y,
+                               double* LICHTMC_APART end_z, double* LICHTMC_APART length) {
   const FlightEnds from = ends;
   const Points start = starts;
-  const Points end = to;
   for (std::size_t i = 0; i < n; ++i) {
     const double px = double{from.x[i]} + double{from.length[i]} * double{from.dx[i]};
     const double py = double{from.y[i]} + double{from.length[i]} * double{from.dy[i]};
@@ -39,9 +39,9 @@ LICHTMC_LANES void end_flights(std::size_t n, const FlightEnds& ends, const std:
     const double dx = ex - start.x[k];
     const double dy = ey - start.y[k];
     const double dz = ez - start.z[k];
-    end.x[i] = ex;
-    end.y[i] = ey;
-    end.z[i] = ez;
+    end_x[i] = ex;
+    end_y[i] = ey;
+    end_z[i] = ez;
     length[i] = std::sqrt(dx * dx + dy * dy + dz * dz);
   }
 }
@@ -56,8 +56,8 @@ FlightPaths::FlightPaths(const FacetPlanes* planes) : planes_(planes) {
 
 void FlightPaths::land(const Wave& wave) {
   const std::size_t n = wave.rays.size;
-  end_flights(n, planes_->ends_of(wave.rays), wave.photon.data(), {x_.data(), y_.data(), z_.data()},
-              {end_x_.data(), end_y_.data(), end_z_.data()}, flight_.data());
+  end_flights(n, planes_->ends_of(wave.rays), wave.photon.data(), {x_.data(), y_.data(), z_.data()}, end_x_.data(),
+              end_y_.data(), end_z_.data(), flight_.data());
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t photon = wave.photon[i];
     x_[photon] = end_x_[i];
