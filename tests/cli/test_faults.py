@@ -102,8 +102,11 @@ class Faults(FaultTest):
         options = ["--tile", "0.05", "--photons", "20k", "--grid", "0.5"]
         self.assertEqual(lichtmc("run", CUBE, "-o", out, *options).returncode, 0)
         old = digests(out)
+        complete = self.folder / "complete"
+        shutil.copytree(out, complete)
         largest = max(path.stat().st_size for path in out.rglob("*") if path.is_file()) // 1024 + 1
         failed = 0
+        left = []  # the sets of files that were new after a failure
         # Limits from 0 to the largest file: the state, a table or the report is the first that does not fit.
         for kilobytes in [0, 1, 2, 4, 8] + [largest * k // 12 for k in range(1, 12)]:
             done = self.limited(kilobytes, "run", CUBE, "-o", out, "--seed", "2", *options)
@@ -120,15 +123,20 @@ class Faults(FaultTest):
             results = {name for name in old if name.endswith((".csv", ".json"))}
             if changed & results:
                 self.assertTrue(results <= changed, changed)
-                self.assertEqual(lichtmc("resume", out, "--quiet").returncode, 0)
             else:
                 self.assertTrue(changed <= {"state.h5"}, changed)
             self.assertEqual([name for name in os.listdir(out) if name.startswith(".lichtmc") or ".tmp" in name], [])
-            self.assertEqual(lichtmc("run", CUBE, "-o", out, *options).returncode, 0)
-            again = digests(out)
-            self.assertEqual(again["tiles.csv"], old["tiles.csv"])
-            old = again
+            # What follows depends only on the files that are left.
+            if changed not in left:
+                left.append(changed)
+                if changed & results:
+                    self.assertEqual(lichtmc("resume", out, "--quiet").returncode, 0)
+                self.assertEqual(lichtmc("run", CUBE, "-o", out, *options).returncode, 0)
+                self.assertEqual(digests(out)["tiles.csv"], old["tiles.csv"])
+            shutil.rmtree(out)
+            shutil.copytree(complete, out)
         self.assertGreater(failed, 8)
+        self.assertIn({"state.h5"}, left)
 
     def test_a_checkpoint_that_fails_does_not_end_the_run(self):
         out = self.folder / "out"
