@@ -118,7 +118,7 @@ class Measure(ProgramTest):
             with self.subTest(options=options):
                 found = {}
                 for name, more in (("all", []), ("some", ["--measure", "f*"])):
-                    done = lichtmc("run", CUBE, "-o", self.folder / name, "--photons", "60k", *options, *more)
+                    done = lichtmc("run", CUBE, "-o", self.folder / name, "--photons", "60k", "--no-report", *options, *more)
                     self.assertEqual(done.returncode, 0, done.stderr)
                     found[name] = self.tiles(self.folder / name)
                 self.assertEqual(len(found["some"]), 100)
