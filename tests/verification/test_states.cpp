@@ -229,7 +229,7 @@ TEST_CASE("any number of ranks gives the same figures, on all ranks") {
       });
       REQUIRE(results.size() == size);
       for (const Result& result : results) CHECK(same_figures(alone, result));
-    REQUIRE_FALSE(states.empty());
+      REQUIRE_FALSE(states.empty());
       CHECK(same_figures(alone, resume(room, states.front(), split.settings)));
     }
   }
