@@ -319,7 +319,7 @@ std::vector<Measured> measure_all(const Options& options) {
       measured.insert(measured.end(), of.begin(), of.end());
   }
   if (options.only.empty() || options.only == "channel") {
-    for (const auto& of : {channel(options, 1000, 4'000'000, 1.25), channel(options, 20, 4'000'000, 1.15)})
+    for (const auto& of : {channel(options, 1000, 16'000'000, 1.25), channel(options, 20, 4'000'000, 1.15)})
       measured.insert(measured.end(), of.begin(), of.end());
   }
   for (std::size_t k = 0; k < all.size(); ++k) {

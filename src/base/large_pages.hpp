@@ -6,6 +6,7 @@
 // usual.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -30,7 +31,7 @@ struct LargePages {
     constexpr std::size_t fewest = std::size_t{1} << 17;
     const std::size_t bytes = n * sizeof(T);
     const bool large = bytes >= fewest;
-    const std::size_t unit = large ? page : alignof(std::max_align_t);
+    const std::size_t unit = large ? page : std::max(alignof(T), alignof(std::max_align_t));
     void* memory = std::aligned_alloc(unit, (bytes + unit - 1) / unit * unit);
     if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)

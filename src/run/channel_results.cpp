@@ -36,7 +36,7 @@ std::vector<std::uint64_t> rounds_of_groups(const std::vector<HistoryRange>& ran
 // The frequencies at which the response is computed from bins: up to a fourth of the rate of the coarse bins, whose
 // differences give its error.
 std::vector<double> usual_frequencies(const ChannelAxes& axes) {
-  constexpr std::size_t steps = 200;
+  constexpr std::size_t steps = 100;
   const double highest = 0.25 / (axes.bin_width_s * static_cast<double>(std::uint64_t{1} << axes.coarse_shift));
   std::vector<double> frequencies;
   for (std::size_t k = 0; k <= steps; ++k) frequencies.push_back(highest * static_cast<double>(k) / steps);

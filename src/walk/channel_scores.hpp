@@ -11,6 +11,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "base/large_pages.hpp"
 #include "base/wide.hpp"
 #include "lichtmc/room.hpp"
 #include "walk/channel_axes.hpp"
@@ -133,7 +134,7 @@ class ChannelScores {
   std::vector<Arrivals> arrivals_;
 
   // By pair and column, of positions in place of receivers.
-  std::vector<Cell> cells_;
+  std::vector<Cell, LargePages<Cell>> cells_;
   std::vector<Range> ranges_;
   std::vector<Cell> column_cells_;  // of all times
   std::vector<Touched> touched_;
