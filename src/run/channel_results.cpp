@@ -11,27 +11,14 @@
 #include "base/parallel.hpp"
 #include "chance/moments.hpp"
 #include "run/channel_figures.hpp"
+#include "run/channel_sight.hpp"
 #include "run/jackknife.hpp"
-#include "walk/line_of_sight.hpp"
 
 namespace lichtmc {
 
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-using Response = std::vector<std::complex<double>>;
-
-std::vector<std::uint64_t> rounds_of_groups(const std::vector<HistoryRange>& ranges) {
-  std::vector<std::uint64_t> rounds(jackknife_groups, 0);
-  for (const HistoryRange& range : ranges) {
-    for (std::uint32_t j = 0; j < jackknife_groups; ++j) {
-      // Numbers below n that leave the remainder j.
-      const auto below = [j](std::uint64_t n) { return (n + jackknife_groups - 1 - j) / jackknife_groups; };
-      rounds[j] += below(range.last) - below(range.first);
-    }
-  }
-  return rounds;
-}
 
 // The frequencies at which the response is computed from bins: up to a fourth of the rate of the coarse bins, whose
 // differences give its error.
@@ -42,25 +29,6 @@ std::vector<double> usual_frequencies(const ChannelAxes& axes) {
   for (std::size_t k = 0; k <= steps; ++k) frequencies.push_back(highest * static_cast<double>(k) / steps);
   return frequencies;
 }
-
-// The light without reflection of one channel, as gains.
-struct SightOfPair {
-  bool sampled = false;
-  DelayMoments moments;
-  std::array<DelayMoments, jackknife_groups> of_set{};  // of sampled paths only
-  DelayMoments exact;
-  std::vector<std::pair<std::uint32_t, std::array<double, jackknife_groups>>> bins;  // of sampled paths, by set
-  std::vector<std::pair<std::uint32_t, double>> exact_bins;
-  Response response;  // of all paths
-  std::vector<Response> response_of_set;
-
-  // Moments whose difference from `moments` has the part of set j in the jackknife; leverage: see sight_leverage().
-  DelayMoments without_set(std::size_t j, double leverage) const {
-    DelayMoments sum = moments;
-    if (sampled) sum += (moments - exact - of_set[j]) * leverage;
-    return sum;
-  }
-};
 
 // All channels of one receiver.
 class ReceiverChannels {
@@ -80,98 +48,17 @@ class ReceiverChannels {
       sight =
           line_of_sight(room, axes_, in_.light, *in_.context.scene.tracer, in_.receivers[receiver_], stream, receiver_);
     }
-    match_direct(sight);
+    match_direct(sight, in_.direct[receiver_]);
     for (std::uint32_t group = 0; group < axes_.groups; ++group) {
       const double power = out_.powers[group];
       gain_ = power > 0.0 ? receiver.area_m2 * receiver.optical_gain() / power : 0.0;
       group_ = group;
       pair_ = axes_.pair(receiver_, group);
-      compute_pair(sight_of(sight, group), sight.first[group]);
+      compute_pair(sight_of_group(sight, group, gain_, axes_, out_.frequencies_hz), sight.first[group]);
     }
   }
 
  private:
-  // The parts of area lights add up to the direct irradiance of the receiver, which was sampled apart. Its error is
-  // given to the sets: each of them is higher or lower by √31 of it, so that the mean of 32 has this error.
-  void match_direct(LineOfSight& sight) const {
-    double exact = 0.0;
-    std::array<double, jackknife_groups> of_set{};
-    for (const SightPath& path : sight.paths)
-      (path.set == SightPath::exact ? exact : of_set[path.set]) += path.irradiance;
-    const double sampled = in_.direct[receiver_].value - exact;
-    const double mean = std::accumulate(of_set.begin(), of_set.end(), 0.0) / jackknife_groups;
-    if (!(sampled > 0.0) || !(mean > 0.0)) return;
-    // Sets without light keep their own differences.
-    const bool each = *std::min_element(of_set.begin(), of_set.end()) > 0.0;
-    const double step =
-        std::min(1.0, std::sqrt(jackknife_groups - 1.0) * in_.direct[receiver_].standard_error / sampled);
-    for (SightPath& path : sight.paths) {
-      if (path.set == SightPath::exact) continue;
-      const double higher = path.set % 2 == 0 ? 1.0 + step : 1.0 - step;
-      path.irradiance *= each ? sampled * higher / of_set[path.set] : sampled / mean;
-    }
-  }
-
-  struct TimedGain {
-    double time_s;
-    double gain;
-  };
-
-  // The response of many paths: those that arrive within 1/64 of the shortest period count at their mean time, which
-  // changes their part by less than (π/64)²/6 = 4e-4.
-  void add_paths(Response& response, std::vector<TimedGain>& paths) const {
-    const double together = out_.frequencies_hz.back() > 0.0 ? 1.0 / (64.0 * out_.frequencies_hz.back()) : 0.0;
-    std::sort(paths.begin(), paths.end(), [](const TimedGain& a, const TimedGain& b) { return a.time_s < b.time_s; });
-    for (std::size_t first = 0; first < paths.size();) {
-      DelayMoments sum;
-      std::size_t next = first;
-      for (; next < paths.size() && paths[next].time_s <= paths[first].time_s + together; ++next)
-        sum += DelayMoments{paths[next].gain, paths[next].gain * paths[next].time_s, 0.0};
-      add_path(response, sum.weight, sum.mean_s(), out_.frequencies_hz);
-      first = next;
-    }
-  }
-
-  SightOfPair sight_of(const LineOfSight& all, std::uint32_t group) const {
-    SightOfPair sight;
-    sight.response.resize(out_.frequencies_hz.size());
-    std::vector<std::vector<TimedGain>> sampled;
-    for (const SightPath& path : all.paths) {
-      if (path.group != group) continue;
-      const double t = path.length_m / speed_of_light;
-      const double w = path.irradiance * gain_;
-      const double position = path.length_m * axes_.bins_per_m;
-      const std::uint32_t bin = position < axes_.bins ? static_cast<std::uint32_t>(position) : axes_.bins;
-      const DelayMoments own{w, w * t, w * t * t};
-      if (path.set == SightPath::exact) {
-        sight.exact += own;
-        sight.exact_bins.emplace_back(bin, w);
-        add_path(sight.response, w, t, out_.frequencies_hz);
-        continue;
-      }
-      if (!sight.sampled) {
-        sight.sampled = true;
-        sight.response_of_set.assign(jackknife_groups, Response(out_.frequencies_hz.size()));
-        sampled.resize(jackknife_groups);
-      }
-      sight.of_set[path.set] += own;
-      const auto place = std::lower_bound(sight.bins.begin(), sight.bins.end(), bin,
-                                          [](const auto& one, std::uint32_t b) { return one.first < b; });
-      const auto found = place != sight.bins.end() && place->first == bin
-                             ? place
-                             : sight.bins.insert(place, {bin, std::array<double, jackknife_groups>{}});
-      found->second[path.set] += w;
-      sampled[path.set].push_back({t, w});
-    }
-    for (std::size_t set = 0; set < sampled.size(); ++set) add_paths(sight.response_of_set[set], sampled[set]);
-    sight.moments = sight.exact;
-    for (const DelayMoments& one : sight.of_set) sight.moments += one * (1.0 / jackknife_groups);
-    for (const Response& one : sight.response_of_set) {
-      for (std::size_t f = 0; f < one.size(); ++f) sight.response[f] += one[f] / static_cast<double>(jackknife_groups);
-    }
-    return sight;
-  }
-
   // A gain and its standard error from sums over rounds.
   Figure gain_of(const BackwardSums& sums) const {
     const auto n = static_cast<long double>(jackknife_.all());
@@ -198,7 +85,7 @@ class ReceiverChannels {
   }
 
   // h of every order and of all.
-  void fill_bins(const SightOfPair& sight) {
+  void fill_bins(const SightOfChannel& sight) {
     const std::size_t columns = out_.columns();
     std::vector<Figure> of_sight(axes_.bins_of_row(), Figure{0.0, 0.0});
     for (const auto& [bin, gain] : sight.exact_bins) of_sight[bin].value += gain;
@@ -237,7 +124,7 @@ class ReceiverChannels {
     errors[k] = gain.standard_error / axes_.bin_width_s;
   }
 
-  Figure sight_gain(const SightOfPair& sight) const {
+  Figure sight_gain(const SightOfChannel& sight) const {
     if (!sight.sampled) return {sight.moments.weight, 0.0};
     if (axes_.groups == 1) return {sight.moments.weight, in_.direct[receiver_].standard_error * gain_};
     double squares = 0.0;
@@ -296,7 +183,7 @@ class ReceiverChannels {
     return 1.0 / std::sqrt((jackknife_groups - 1.0) * (groups - 1.0));
   }
 
-  void add_sight(Response& response, const SightOfPair& sight, std::size_t without) const {
+  void add_sight(Response& response, const SightOfChannel& sight, std::size_t without) const {
     for (std::size_t f = 0; f < response.size(); ++f) response[f] += sight.response[f];
     if (!sight.sampled || without == none) return;
     Response mean(response.size());
@@ -308,7 +195,7 @@ class ReceiverChannels {
   }
 
   // H(f), its error, and the bandwidths.
-  void fill_response(const SightOfPair& sight, Channel& channel) {
+  void fill_response(const SightOfChannel& sight, Channel& channel) {
     const std::vector<double>& frequencies = out_.frequencies_hz;
     if (frequencies.empty()) return;
     Response whole;
@@ -350,7 +237,7 @@ class ReceiverChannels {
     at_level(0.5, channel.bandwidth_optical_hz);
   }
 
-  void fill_squared(const SightOfPair& sight, Channel& channel) const {
+  void fill_squared(const SightOfChannel& sight, Channel& channel) const {
     const double width = axes_.bin_width_s;
     std::vector<double> diffuse(axes_.bins);
     std::vector<double> variance(axes_.bins);
@@ -398,7 +285,7 @@ class ReceiverChannels {
   }
 
   // Figures of the moments, and their errors.
-  void fill_delays(const SightOfPair& sight, Channel& channel) {
+  void fill_delays(const SightOfChannel& sight, Channel& channel) {
     const auto n = static_cast<double>(jackknife_.all());
     DelayMoments sum;
     for (const std::size_t j : jackknife_.groups()) sum += moments_of(j);
@@ -430,7 +317,7 @@ class ReceiverChannels {
     channel.rician_k = jackknife_.figure(sight.moments.weight / diffuse.weight, without[k_factor]);
   }
 
-  void compute_pair(const SightOfPair& sight, const FirstSight& first) {
+  void compute_pair(const SightOfChannel& sight, const FirstSight& first) {
     Channel& channel = out_.channels[out_.pair(group_, receiver_)];
     channel.emitter = group_;
     channel.receiver = receiver_;
@@ -504,7 +391,7 @@ ImpulseResponses channel_results(const ChannelInput& input) {
   for (std::size_t f = 0; f < axes.frequency_count; ++f) out.frequencies_hz.push_back(axes.frequencies[f]);
   out.response.resize(pairs * out.frequencies_hz.size());
   out.magnitude_error.resize(out.response.size(), nan);
-  const Jackknife jackknife(rounds_of_groups(input.rounds));
+  const Jackknife jackknife(rounds_by_turns(input.rounds, jackknife_groups));
   out.groups = jackknife.groups().size();
   for_each_on_threads(input.context.threads, room.receivers.size(),
                       [&](std::size_t k) { ReceiverChannels(input, jackknife, k, out).compute(); });

@@ -13,6 +13,18 @@ double student_factor(double freedom) {
   return student_from_normal(at, freedom) / at;
 }
 
+std::vector<std::uint64_t> rounds_by_turns(const std::vector<HistoryRange>& ranges, std::uint32_t groups) {
+  std::vector<std::uint64_t> rounds(groups, 0);
+  for (const HistoryRange& range : ranges) {
+    for (std::uint32_t j = 0; j < groups; ++j) {
+      // Numbers below n that leave the remainder j.
+      const auto below = [j, groups](std::uint64_t n) { return (n + groups - 1 - j) / groups; };
+      rounds[j] += below(range.last) - below(range.first);
+    }
+  }
+  return rounds;
+}
+
 Jackknife::Jackknife(std::vector<std::uint64_t> rounds) : rounds_(std::move(rounds)) {
   for (std::size_t j = 0; j < rounds_.size(); ++j) {
     all_ += rounds_[j];

@@ -11,11 +11,15 @@
 #include <vector>
 
 #include "lichtmc/channel.hpp"
+#include "lichtmc/state.hpp"
 
 namespace lichtmc {
 
 // By which a standard error from this many degrees of freedom (> 1) is enlarged.
 double student_factor(double freedom);
+
+// The number of rounds of each group, if round r belongs to group r mod `groups`. ranges: of all rounds.
+std::vector<std::uint64_t> rounds_by_turns(const std::vector<HistoryRange>& ranges, std::uint32_t groups);
 
 class Jackknife {
  public:

@@ -9,6 +9,7 @@
 
 #include "base/lanes.hpp"
 #include "room/bounds.hpp"
+#include "walk/backward.hpp"
 #include "walk/channel_sums.hpp"
 
 namespace lichtmc {
@@ -62,10 +63,7 @@ LICHTMC_LANES void add_weights(std::size_t n, double unit, const float* LICHTMC_
 
 }  // namespace
 
-ChannelScale::ChannelScale(const Room& room) {
-  double area = 0.0;
-  for (const Surface& surface : room.surfaces) area += surface_area(surface);
-  unit = total_power(room) / area * 0x1p-32;
+ChannelScale::ChannelScale(const Room& room) : unit(0x1p-8 * BackwardScale(room).unit) {
   const Bounds bounds = bounds_of(room);
   length_m = std::exp2(std::ceil(std::log2(glm::length(bounds.high - bounds.low))));
 }
