@@ -41,8 +41,8 @@ struct ChannelSettings {
   std::optional<double> time_span_s;
   std::uint32_t orders = 0;      // paths of 0, 1, … `orders` reflections are kept apart from each other and the rest
   bool per_emitter = false;      // each emitter has a channel of its own; emitters of the same name share one
-  FrequencyRange frequencies;    // at which the frequency response is accumulated
   bool squared_weights = false;  // adds the rms delay spread with the weights h², which depends on the bin width
+  FrequencyRange frequencies;    // at which the frequency response is accumulated
 
   bool wanted() const { return bin_width_s.has_value(); }
 };

@@ -16,8 +16,6 @@ namespace lichtmc {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 // Up to this number of emitters, each is sampled at every surface. With more, the shadow rays cost more than the lower
 // variance saves.
 constexpr std::size_t few = 4;

@@ -68,6 +68,8 @@ TEST_CASE("every field of a struct is in its list") {
   CHECK(gaps_in(Settings{}).empty());
   CHECK(gaps_in(Counted{}).empty());
   CHECK(gaps_in(BackwardState{}).empty());
+  CHECK(gaps_in(MomentSums{}).empty());
+  CHECK(gaps_in(ChannelSums{}).empty());
   CHECK(gaps_in(StateData{}).empty());
   CHECK(gaps_in(Forgetful{}).size() == 1);  // the check itself
 }
