@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "chance/moments.hpp"
 #include "run/channel_figures.hpp"
 #include "run/channel_sight.hpp"
 #include "run/jackknife.hpp"
