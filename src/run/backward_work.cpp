@@ -250,13 +250,9 @@ double OriginEstimates::indirect(std::size_t k) const {
   return static_cast<double>((*sums)[k].sum) / static_cast<double>(rounds * group) * unit;
 }
 
-// Rounds are independent: the variance of their mean follows from their sample variance.
 double OriginEstimates::indirect_error(std::size_t k) const {
   if (rounds < 2) return std::numeric_limits<double>::quiet_NaN();
-  const auto n = static_cast<long double>(rounds);
-  const auto sum = static_cast<long double>((*sums)[k].sum);
-  const long double between = static_cast<long double>((*sums)[k].squares) - sum / n * sum;
-  return static_cast<double>(std::sqrt(std::max(between, 0.0L) / (n - 1) / n)) / group * unit;
+  return (*sums)[k].error_of_mean(rounds) / group * unit;
 }
 
 namespace {

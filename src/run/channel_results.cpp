@@ -60,14 +60,10 @@ class ReceiverChannels {
  private:
   // A gain and its standard error from sums over rounds.
   Figure gain_of(const BackwardSums& sums) const {
-    const auto n = static_cast<long double>(jackknife_.all());
     const double unit = in_.scale.unit * gain_;
-    const auto sum = static_cast<long double>(sums.sum);
-    Figure figure{static_cast<double>(sum / n) * unit, nan};
-    if (jackknife_.all() < 2) return figure;
-    const long double between = std::max(static_cast<long double>(sums.squares) - sum / n * sum, 0.0L);
-    figure.standard_error = static_cast<double>(std::sqrt(between / (n - 1) / n)) * unit;
-    figure.standard_error *= student_;
+    const auto n = static_cast<long double>(jackknife_.all());
+    Figure figure{static_cast<double>(static_cast<long double>(sums.sum) / n) * unit, nan};
+    if (jackknife_.all() >= 2) figure.standard_error = sums.error_of_mean(jackknife_.all()) * unit * student_;
     return figure;
   }
 
@@ -83,39 +79,43 @@ class ReceiverChannels {
             static_cast<double>(sums.second) * unit * second * second};
   }
 
-  // h of every order and of all.
-  void fill_bins(const SightOfChannel& sight) {
-    const std::size_t columns = out_.columns();
-    std::vector<Figure> of_sight(axes_.bins_of_row(), Figure{0.0, 0.0});
-    for (const auto& [bin, gain] : sight.exact_bins) of_sight[bin].value += gain;
+  // The gains in the bins of a row, the last for later light.
+  std::vector<Figure> gains_of(std::size_t row) const {
+    std::vector<Figure> gains(axes_.bins_of_row());
+    const BackwardSums* sums = in_.sums.bins.data() + row * axes_.bins_of_row();
+    for (std::size_t b = 0; b < gains.size(); ++b) gains[b] = gain_of(sums[b]);
+    return gains;
+  }
+
+  std::vector<Figure> gains_of(const SightOfChannel& sight) const {
+    std::vector<Figure> gains(axes_.bins_of_row(), Figure{0.0, 0.0});
+    for (const auto& [bin, gain] : sight.exact_bins) gains[bin].value += gain;
     for (const auto& [bin, sets] : sight.bins) {
-      double mean = 0.0;
-      double squares = 0.0;
-      for (const double one : sets) mean += one / jackknife_groups;
-      for (const double one : sets) squares += (one - mean) * (one - mean);
-      of_sight[bin].value += mean;
-      of_sight[bin].standard_error = std::sqrt(squares / (jackknife_groups - 1) / jackknife_groups);
+      const Figure sampled = mean_of_sets(sets);
+      gains[bin].value += sampled.value;
+      gains[bin].standard_error = sampled.standard_error;
     }
-    const std::size_t own = out_.pair(group_, receiver_);
-    all_beyond_ = Figure{0.0, 0.0};
-    for (std::size_t order = 0; order < columns; ++order) {
-      const bool is_sight = order == 0;
-      const std::size_t row = axes_.row(pair_, is_sight ? 0 : axes_.column_of(static_cast<std::uint32_t>(order)));
-      const auto in_bin = [&](std::size_t b) {
-        return is_sight ? of_sight[b] : gain_of(in_.sums.bins[row * axes_.bins_of_row() + b]);
-      };
+    return gains;
+  }
+
+  // h of every order and of all. diffuse: the gains of all reflections.
+  void fill_bins(const SightOfChannel& sight, const std::vector<Figure>& diffuse, Channel& channel) {
+    const std::vector<Figure> of_sight = gains_of(sight);
+    const std::size_t first_order = out_.pair(group_, receiver_) * out_.columns();
+    for (std::uint32_t order = 0; order < out_.columns(); ++order) {
+      const std::size_t row = axes_.row(pair_, order == 0 ? 0 : axes_.column_of(order));
+      const bool is_all = order > 0 && axes_.columns == 1;
+      const std::vector<Figure> gains = order == 0 ? of_sight : is_all ? diffuse : gains_of(row);
       for (std::size_t b = 0; b < axes_.bins; ++b)
-        set(out_.h, out_.standard_error, out_.row(group_, receiver_, order) + b, in_bin(b));
-      out_.order_beyond[own * columns + order] = in_bin(axes_.bins);
-      out_.order_gain[own * columns + order] = is_sight ? sight_gain(sight) : gain_of(in_.sums.columns[row]);
+        set(out_.h, out_.standard_error, out_.row(group_, receiver_, order) + b, gains[b]);
+      out_.order_beyond[first_order + order] = gains[axes_.bins];
+      out_.order_gain[first_order + order] = order == 0 ? sight_gain(sight) : gain_of(in_.sums.columns[row]);
       const double first = in_.sums.earliest[row].length_m() / speed_of_light;
-      out_.order_first_s[own * columns + order] = is_sight ? nan : std::isfinite(first) ? first : nan;
+      if (order > 0 && std::isfinite(first)) out_.order_first_s[first_order + order] = first;
     }
-    const std::size_t all = axes_.row(pair_, axes_.all_column()) * axes_.bins_of_row();
     for (std::size_t b = 0; b < axes_.bins; ++b)
-      set(out_.h_all, out_.standard_error_all, out_.row(group_, receiver_) + b,
-          sum_of(of_sight[b], gain_of(in_.sums.bins[all + b])));
-    all_beyond_ = sum_of(of_sight[axes_.bins], gain_of(in_.sums.bins[all + axes_.bins]));
+      set(out_.h_all, out_.standard_error_all, out_.row(group_, receiver_) + b, sum_of(of_sight[b], diffuse[b]));
+    channel.beyond = sum_of(of_sight[axes_.bins], diffuse[axes_.bins]);
   }
 
   void set(std::vector<double>& values, std::vector<double>& errors, std::size_t k, const Figure& gain) const {
@@ -126,53 +126,50 @@ class ReceiverChannels {
   Figure sight_gain(const SightOfChannel& sight) const {
     if (!sight.sampled) return {sight.moments.weight, 0.0};
     if (axes_.groups == 1) return {sight.moments.weight, in_.direct[receiver_].standard_error * gain_};
-    double squares = 0.0;
-    double mean = 0.0;
-    for (const DelayMoments& one : sight.of_set) mean += one.weight / jackknife_groups;
-    for (const DelayMoments& one : sight.of_set) squares += (one.weight - mean) * (one.weight - mean);
-    return {sight.moments.weight, std::sqrt(squares / (jackknife_groups - 1) / jackknife_groups)};
+    std::array<double, jackknife_groups> weights{};
+    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = sight.of_set[k].weight;
+    return {sight.moments.weight, mean_of_sets(weights).standard_error};
+  }
+
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+  // Calls add(number of the pair's group of rounds) for all but one; returns the factor of their sums to gains.
+  template <class Add>
+  double add_groups(std::size_t without, const Add& add) const {
+    std::uint64_t rounds = 0;
+    for (const std::size_t j : jackknife_.groups()) {
+      if (j == without) continue;
+      rounds += jackknife_.rounds_of(j);
+      add(pair_ * jackknife_groups + j);
+    }
+    return in_.scale.unit * gain_ / static_cast<double>(rounds);
   }
 
   // Bins of the diffuse part as gains, coarse ones: of all rounds or without a group.
   std::vector<double> coarse_bins(std::size_t without) const {
     std::vector<double> sums(axes_.coarse_bins, 0.0);
-    std::uint64_t rounds = 0;
-    for (const std::size_t j : jackknife_.groups()) {
-      if (j == without) continue;
-      rounds += jackknife_.rounds_of(j);
-      const uint128* own = in_.sums.coarse.data() + (pair_ * jackknife_groups + j) * axes_.coarse_bins;
+    const double factor = add_groups(without, [&](std::size_t group) {
+      const uint128* own = in_.sums.coarse.data() + group * axes_.coarse_bins;
       for (std::size_t b = 0; b < sums.size(); ++b) sums[b] += static_cast<double>(own[b]);
-    }
-    for (double& one : sums) one *= in_.scale.unit * gain_ / static_cast<double>(rounds);
+    });
+    for (double& one : sums) one *= factor;
     return sums;
   }
   double coarse_width_s() const {
     return axes_.bin_width_s * static_cast<double>(std::uint64_t{1} << axes_.coarse_shift);
   }
 
-  std::vector<double> fine_bins() const {
-    std::vector<double> bins(axes_.bins);
-    const std::size_t all = axes_.row(pair_, axes_.all_column()) * axes_.bins_of_row();
-    for (std::size_t b = 0; b < bins.size(); ++b) bins[b] = gain_of(in_.sums.bins[all + b]).value;
-    return bins;
-  }
-
   // The diffuse response accumulated path by path: of all rounds or without a group.
   Response accumulated(std::size_t without) const {
-    Response sum(axes_.frequency_count);
-    std::uint64_t rounds = 0;
-    for (const std::size_t j : jackknife_.groups()) {
-      if (j == without) continue;
-      rounds += jackknife_.rounds_of(j);
-      const int128* own = in_.sums.response.data() + (pair_ * jackknife_groups + j) * axes_.frequency_count * 2;
-      for (std::size_t f = 0; f < sum.size(); ++f)
-        sum[f] += std::complex<double>(static_cast<double>(own[2 * f]), static_cast<double>(own[2 * f + 1]));
-    }
-    for (std::complex<double>& one : sum) one *= in_.scale.unit * gain_ / static_cast<double>(rounds);
-    return sum;
+    Response sums(axes_.frequency_count);
+    const double factor = add_groups(without, [&](std::size_t group) {
+      const int128* own = in_.sums.response.data() + group * axes_.frequency_count * 2;
+      for (std::size_t f = 0; f < sums.size(); ++f)
+        sums[f] += std::complex<double>(static_cast<double>(own[2 * f]), static_cast<double>(own[2 * f + 1]));
+    });
+    for (std::complex<double>& one : sums) one *= factor;
+    return sums;
   }
-
-  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
   // By how much a set of the 32 counts in the jackknife over g groups of rounds, so that it gives the variance of the
   // mean of all sets: with the pseudo-values (g − 1) l d_j of their deviations d_j it gives l² (g − 1) mean(d²), to be
@@ -185,22 +182,20 @@ class ReceiverChannels {
   void add_sight(Response& response, const SightOfChannel& sight, std::size_t without) const {
     for (std::size_t f = 0; f < response.size(); ++f) response[f] += sight.response[f];
     if (!sight.sampled || without == none) return;
-    Response mean(response.size());
-    for (const Response& one : sight.response_of_set) {
-      for (std::size_t f = 0; f < one.size(); ++f) mean[f] += one[f] / static_cast<double>(jackknife_groups);
-    }
     for (std::size_t f = 0; f < response.size(); ++f)
-      response[f] += (mean[f] - sight.response_of_set[without][f]) * sight_leverage();
+      response[f] += (sight.mean_of_sets[f] - sight.response_of_set[without][f]) * sight_leverage();
   }
 
   // H(f), its error, and the bandwidths.
-  void fill_response(const SightOfChannel& sight, Channel& channel) {
+  // gains_without: H(0) without each group of rounds.
+  void fill_response(const SightOfChannel& sight, const std::vector<Figure>& diffuse,
+                     const std::vector<double>& gains_without, Channel& channel) const {
     const std::vector<double>& frequencies = out_.frequencies_hz;
     if (frequencies.empty()) return;
     Response whole;
     std::vector<Response> without;
     if (out_.from_bins) {
-      whole = transform(fine_bins(), axes_.bin_width_s, frequencies);
+      whole = transform(values_of(diffuse), axes_.bin_width_s, frequencies);
       const Response coarse = transform(coarse_bins(none), coarse_width_s(), frequencies);
       for (const std::size_t j : jackknife_.groups()) {
         without.push_back(transform(coarse_bins(j), coarse_width_s(), frequencies));
@@ -227,7 +222,7 @@ class ReceiverChannels {
       };
       const double dc = out_.from_bins ? std::abs(whole[0]) : channel.gain.value;
       for (std::size_t k = 0; k < without.size(); ++k) {
-        const double own = out_.from_bins ? std::abs(without[k][0]) : gains_without_[k];
+        const double own = out_.from_bins ? std::abs(without[k][0]) : gains_without[k];
         of_groups[k] = of(without[k], own);
       }
       figure = jackknife_.figure(of(whole, dc), of_groups);
@@ -236,16 +231,18 @@ class ReceiverChannels {
     at_level(0.5, channel.bandwidth_optical_hz);
   }
 
-  void fill_squared(const SightOfChannel& sight, Channel& channel) const {
+  // The bins of the time span.
+  std::vector<double> values_of(const std::vector<Figure>& gains) const {
+    std::vector<double> values(axes_.bins);
+    for (std::size_t b = 0; b < values.size(); ++b) values[b] = gains[b].value;
+    return values;
+  }
+
+  void fill_squared(const SightOfChannel& sight, const std::vector<Figure>& gains, Channel& channel) const {
     const double width = axes_.bin_width_s;
-    std::vector<double> diffuse(axes_.bins);
+    const std::vector<double> diffuse = values_of(gains);
     std::vector<double> variance(axes_.bins);
-    const std::size_t all = axes_.row(pair_, axes_.all_column()) * axes_.bins_of_row();
-    for (std::size_t b = 0; b < diffuse.size(); ++b) {
-      const Figure gain = gain_of(in_.sums.bins[all + b]);
-      diffuse[b] = gain.value;
-      variance[b] = gain.standard_error * gain.standard_error;
-    }
+    for (std::size_t b = 0; b < variance.size(); ++b) variance[b] = gains[b].standard_error * gains[b].standard_error;
     const auto with_sight = [&](std::vector<double> bins) {
       for (const auto& [bin, gain] : sight.exact_bins) {
         if (bin < bins.size()) bins[bin] += gain;
@@ -283,8 +280,8 @@ class ReceiverChannels {
       out_.order_first_s[out_.pair(group_, receiver_) * out_.columns()] = first.length_m / speed_of_light;
   }
 
-  // Figures of the moments, and their errors.
-  void fill_delays(const SightOfChannel& sight, Channel& channel) {
+  // Figures of the moments, and their errors. Returns the gains without each group of rounds.
+  std::vector<double> fill_delays(const SightOfChannel& sight, Channel& channel) const {
     const auto n = static_cast<double>(jackknife_.all());
     DelayMoments sum;
     for (const std::size_t j : jackknife_.groups()) sum += moments_of(j);
@@ -293,7 +290,7 @@ class ReceiverChannels {
     whole += sight.moments;
     enum { mean, rms, diffuse_mean, diffuse_rms, k_factor, figures };
     std::array<std::vector<double>, figures> without;
-    gains_without_.clear();
+    std::vector<double> gains;
     for (const std::size_t j : jackknife_.groups()) {
       const DelayMoments rest = (sum - moments_of(j)) * (1.0 / (n - static_cast<double>(jackknife_.rounds_of(j))));
       const DelayMoments own_sight = sight.without_set(j, sight_leverage());
@@ -304,7 +301,7 @@ class ReceiverChannels {
       without[diffuse_mean].push_back(rest.mean_s());
       without[diffuse_rms].push_back(rest.rms_spread_s());
       without[k_factor].push_back(own_sight.weight / rest.weight);
-      gains_without_.push_back(all.weight);
+      gains.push_back(all.weight);
     }
     channel.mean_delay_s = jackknife_.figure(whole.mean_s(), without[mean]);
     channel.mean_excess_delay_s = {channel.mean_delay_s.value - channel.first_arrival_s,
@@ -312,24 +309,25 @@ class ReceiverChannels {
     channel.rms_delay_spread_s = jackknife_.figure(whole.rms_spread_s(), without[rms]);
     channel.diffuse_mean_delay_s = jackknife_.figure(diffuse.mean_s(), without[diffuse_mean]);
     channel.diffuse_rms_delay_spread_s = jackknife_.figure(diffuse.rms_spread_s(), without[diffuse_rms]);
-    if (!(diffuse.weight > 0.0)) return;
-    channel.rician_k = jackknife_.figure(sight.moments.weight / diffuse.weight, without[k_factor]);
+    if (diffuse.weight > 0.0)
+      channel.rician_k = jackknife_.figure(sight.moments.weight / diffuse.weight, without[k_factor]);
+    return gains;
   }
 
   void compute_pair(const SightOfChannel& sight, const FirstSight& first) {
     Channel& channel = out_.channels[out_.pair(group_, receiver_)];
     channel.emitter = group_;
     channel.receiver = receiver_;
-    fill_bins(sight);
+    const std::vector<Figure> diffuse = gains_of(axes_.row(pair_, axes_.all_column()));
+    fill_bins(sight, diffuse, channel);
     channel.line_of_sight = sight_gain(sight);
     channel.diffuse = gain_of(in_.sums.columns[axes_.row(pair_, axes_.all_column())]);
     channel.gain = sum_of(channel.line_of_sight, channel.diffuse);
     if (axes_.groups == 1) match_gain(channel);
-    channel.beyond = all_beyond_;
     fill_arrivals(first, channel);
-    fill_delays(sight, channel);
-    fill_response(sight, channel);
-    if (in_.context.settings.channel.squared_weights) fill_squared(sight, channel);
+    const std::vector<double> gains_without = fill_delays(sight, channel);
+    fill_response(sight, diffuse, gains_without, channel);
+    if (in_.context.settings.channel.squared_weights) fill_squared(sight, diffuse, channel);
   }
 
   // All emitters together are the receiver's gain: the same digits.
@@ -350,8 +348,6 @@ class ReceiverChannels {
   std::uint32_t group_ = 0;
   std::size_t pair_ = 0;
   double gain_ = 0.0;  // received power over emitted power, for an irradiance of 1
-  Figure all_beyond_;
-  std::vector<double> gains_without_;  // H(0) without each group of rounds
 };
 
 }  // namespace
@@ -359,19 +355,17 @@ class ReceiverChannels {
 ImpulseResponses channel_results(const ChannelInput& input) {
   const Room& room = input.context.room;
   const ChannelAxes& axes = input.axes;
-  const ChannelSettings& settings = input.context.settings.channel;
   ImpulseResponses out;
   out.bin_width_s = axes.bin_width_s;
   out.bins = axes.bins;
-  out.time_span_was_chosen = !settings.time_span_s;
+  out.time_span_was_chosen = !input.context.settings.channel.time_span_s;
   out.orders = axes.orders;
-  std::vector<std::uint32_t> group_of_emitter;
-  out.emitters = emitter_groups(room, settings, group_of_emitter);
+  out.emitters = axes.group_names;
   out.powers.resize(axes.groups, 0.0);
   out.delays_s.resize(axes.groups, -1.0);
   for (std::size_t n = 0; n < room.emitters.size(); ++n) {
-    out.powers[group_of_emitter[n]] += room.emitters[n].power;
-    double& delay = out.delays_s[group_of_emitter[n]];
+    out.powers[axes.group_of_emitter[n]] += room.emitters[n].power;
+    double& delay = out.delays_s[axes.group_of_emitter[n]];
     const double own = room.emitters[n].delay_s;
     delay = delay == -1.0 || delay == own ? own : nan;
   }

@@ -6,6 +6,14 @@
 
 namespace lichtmc {
 
+Figure mean_of_sets(const std::array<double, jackknife_groups>& sets) {
+  double mean = 0.0;
+  double squares = 0.0;
+  for (const double one : sets) mean += one / jackknife_groups;
+  for (const double one : sets) squares += (one - mean) * (one - mean);
+  return {mean, std::sqrt(squares / (jackknife_groups - 1) / jackknife_groups)};
+}
+
 void match_direct(LineOfSight& sight, const DirectIrradiance& direct) {
   double exact = 0.0;
   std::array<double, jackknife_groups> of_set{};
@@ -84,8 +92,13 @@ SightOfChannel sight_of_group(const LineOfSight& all, std::uint32_t group, doubl
     add_paths(sight.response_of_set[set], sampled[set], frequencies_hz);
   sight.moments = sight.exact;
   for (const DelayMoments& one : sight.of_set) sight.moments += one * (1.0 / jackknife_groups);
+  sight.mean_of_sets.resize(sight.sampled ? frequencies_hz.size() : 0);
   for (const Response& one : sight.response_of_set) {
-    for (std::size_t f = 0; f < one.size(); ++f) sight.response[f] += one[f] / static_cast<double>(jackknife_groups);
+    for (std::size_t f = 0; f < one.size(); ++f) {
+      const std::complex<double> part = one[f] / static_cast<double>(jackknife_groups);
+      sight.response[f] += part;
+      sight.mean_of_sets[f] += part;
+    }
   }
   return sight;
 }

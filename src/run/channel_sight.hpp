@@ -26,6 +26,7 @@ struct SightOfChannel {
   std::vector<std::pair<std::uint32_t, double>> exact_bins;
   Response response;  // of all paths
   std::vector<Response> response_of_set;
+  Response mean_of_sets;
 
   // Moments whose difference from `moments` has the part of set j in the jackknife; leverage: see sight_leverage().
   DelayMoments without_set(std::size_t j, double leverage) const {
@@ -34,6 +35,9 @@ struct SightOfChannel {
     return sum;
   }
 };
+
+// The mean of the sets of sampled paths and its standard error, from their differences.
+Figure mean_of_sets(const std::array<double, jackknife_groups>& sets);
 
 // The parts of area lights add up to the direct irradiance of the receiver, which was sampled apart. Its error is given
 // to the sets: each of them is higher or lower by √31 of it, so that the mean of 32 has this error.

@@ -236,15 +236,10 @@ void check_memory(const Room& room, const Tiling& tiling, const Settings& settin
                    " GB, the available memory). Give --tile a greater length, or fewer --threads.");
 }
 
-MemoryForecast forecast_channel_memory(const Room& room, const Settings& settings, unsigned threads) {
-  const MemoryForecast nothing{0.0, memory_available()};
-  if (!settings.channel.wanted() || room.receivers.empty()) return nothing;
-  try {
-    check_settings(settings);
-  } catch (const InputError&) {  // simulate() refuses them, with the reason
-    return nothing;
-  }
-  const ChannelAxes axes(room, settings);
+namespace {
+
+// Bytes that impulse responses need.
+double channel_memory(const Room& room, const ChannelAxes& axes, unsigned threads) {
   const auto receivers = static_cast<double>(room.receivers.size());
   // The sums of the run and those of a step; then the results (h and its error of each order and of all) with their
   // files, or the state with its file in memory.
@@ -253,17 +248,29 @@ MemoryForecast forecast_channel_memory(const Room& room, const Settings& setting
   const double results = 2.0 * sizeof(double) * rows * axes.bins;
   const double of_threads =
       threads * std::min(receivers, static_cast<double>(receivers_in_block(axes))) * bytes_of_scores(axes);
-  return {2.0 * sums + std::max(of_threads, std::max(2.0 * results, sums + results)), memory_available()};
+  return 2.0 * sums + std::max(of_threads, std::max(2.0 * results, sums + results));
+}
+
+}  // namespace
+
+MemoryForecast forecast_channel_memory(const Room& room, const Settings& settings, unsigned threads) {
+  const MemoryForecast nothing{0.0, memory_available()};
+  if (!settings.channel.wanted() || room.receivers.empty()) return nothing;
+  try {
+    check_settings(settings);
+  } catch (const InputError&) {  // simulate() refuses them, with the reason
+    return nothing;
+  }
+  return {channel_memory(room, ChannelAxes(room, settings), threads), memory_available()};
 }
 
 namespace {
 
 void check_channel_memory(const Room& room, const Settings& settings) {
-  if (!settings.channel.wanted()) return;
-  const double needed = forecast_channel_memory(room, settings, settings.threads == 0 ? 1 : settings.threads).needed;
+  const ChannelAxes axes(room, settings);
+  const double needed = channel_memory(room, axes, settings.threads == 0 ? 1 : settings.threads);
   const double limit = memory_limit();
   if (needed <= limit) return;
-  const ChannelAxes axes(room, settings);
   const auto gigabytes = [](double bytes) { return short_number(bytes / 1e9) + " GB"; };
   throw InputError(
       "The impulse responses of " + to_text(room.receivers.size(), "receiver") + " from " +

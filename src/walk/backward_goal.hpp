@@ -120,14 +120,12 @@ class BackwardGoal : public GoalBase {
       const FlightGeometry flight = flight_geometry(tracer, rays, i);
       if (flight.degenerate()) continue;
       const std::uint32_t photon = wave.photon[i];
-      const double irradiance =
-          light_->mis_weighted_emission(rays, i, cell_[i], double{cosine_[i]}, flight, forward_ratio_[photon]);
-      if constexpr (keeps_paths) {
-        const auto record = [&](std::size_t source, double part) {
-          arrivals_.hit(photon, source, flight_ - 1, weight(wave, i) * part);
-        };
-        light_->weigh_emission(rays, i, cell_[i], double{cosine_[i]}, flight, forward_ratio_[photon], record);
-      }
+      double irradiance = 0.0;
+      const auto add = [&](std::size_t source, double part) {
+        irradiance += part;
+        if constexpr (keeps_paths) arrivals_.hit(photon, source, flight_ - 1, weight(wave, i) * part);
+      };
+      light_->mis_weighted_emission(rays, i, cell_[i], double{cosine_[i]}, flight, forward_ratio_[photon], add);
       if constexpr (Policy::scores_every_impact) {
         found_[photon] += weight(wave, i) * irradiance;
       } else {

@@ -1,6 +1,8 @@
 // Sums of the scores of rounds, and of their squares: integers, so that the order does not matter.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "base/fields.hpp"
@@ -15,6 +17,14 @@ struct BackwardSums {
   void add(std::uint64_t score) {
     sum += score;
     squares += static_cast<uint128>(score) * score;
+  }
+
+  // The standard error of the mean over this number of rounds, ≥ 2, which are independent: from their sample variance.
+  double error_of_mean(std::uint64_t rounds) const {
+    const auto n = static_cast<long double>(rounds);
+    const auto total = static_cast<long double>(sum);
+    const long double between = static_cast<long double>(squares) - total / n * total;
+    return static_cast<double>(std::sqrt(std::max(between, 0.0L) / (n - 1) / n));
   }
 };
 

@@ -21,8 +21,6 @@ std::uint32_t whole_bins(double span_s, double width_s) {
   return static_cast<std::uint32_t>(std::max(1.0, std::ceil(span_s / width_s - rounding)));
 }
 
-}  // namespace
-
 std::vector<std::string> emitter_groups(const Room& room, const ChannelSettings& settings,
                                         std::vector<std::uint32_t>& group_of_emitter) {
   group_of_emitter.assign(room.emitters.size(), 0);
@@ -35,6 +33,8 @@ std::vector<std::string> emitter_groups(const Room& room, const ChannelSettings&
   }
   return names;
 }
+
+}  // namespace
 
 std::uint32_t usual_bins(const Room& room, double bin_width_s) {
   double area = 0.0;
@@ -72,7 +72,8 @@ ChannelAxes::ChannelAxes(const Room& room, const Settings& settings) {
   coarse_bins = ((bins - 1) >> coarse_shift) + 1;
   frequencies = wanted.frequencies;
   frequency_count = static_cast<std::uint32_t>(frequencies.size());
-  groups = static_cast<std::uint32_t>(emitter_groups(room, wanted, group_of_emitter).size());
+  group_names = emitter_groups(room, wanted, group_of_emitter);
+  groups = static_cast<std::uint32_t>(group_names.size());
   for (const Emitter& emitter : room.emitters) delay_m.push_back(emitter.delay_s * speed_of_light);
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "lichtmc/channel.hpp"
@@ -33,6 +34,7 @@ struct ChannelAxes {
   FrequencyRange frequencies;
   std::uint32_t frequency_count = 0;
 
+  std::vector<std::string> group_names;         // of each emitter's name in the order of the room, or "all"
   std::vector<std::uint32_t> group_of_emitter;  // of Room::emitters
   std::vector<double> delay_m;                  // of Room::emitters
   std::uint32_t groups = 0;                     // of emitters
@@ -45,10 +47,6 @@ struct ChannelAxes {
   std::size_t row(std::size_t pair, std::size_t column) const { return pair * columns + column; }
   std::size_t bins_of_row() const { return std::size_t{bins} + 1; }
 };
-
-// The names of the groups of emitters: of each emitter's name in the order of the room, or "all".
-std::vector<std::string> emitter_groups(const Room& room, const ChannelSettings& settings,
-                                        std::vector<std::uint32_t>& group_of_emitter);
 
 // The number of bins for a room, if no time span is given: 10⁻⁴ of the light is later, by the mean length of flights
 // and the mean reflectance (C. F. Eyring, J. Acoust. Soc. Am. 1 (1930) 217), and delays; at most 8192.

@@ -311,7 +311,7 @@ void move_all(std::vector<Own>& from, std::size_t from_first, std::vector<Other>
 
 void move_cell(ChannelScores::Cell& from, BackwardSums& to) {
   to.sum += from.sum;
-  to.squares += from.squares();
+  to.squares += from.squares;
   from = {};
 }
 

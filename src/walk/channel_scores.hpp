@@ -54,15 +54,12 @@ class ChannelScores {
   struct alignas(32) Cell {
     double open = 0.0;  // W/m² or lx
     std::uint64_t sum = 0;
-    uint128 squares() const { return static_cast<uint128>(squares_high) << 64 | squares_low; }
+    uint128 squares = 0;
+
     void add(std::uint64_t score) {
       sum += score;
-      const uint128 all = squares() + static_cast<uint128>(score) * score;
-      squares_low = static_cast<std::uint64_t>(all);
-      squares_high = static_cast<std::uint64_t>(all >> 64);
+      squares += static_cast<uint128>(score) * score;
     }
-    std::uint64_t squares_low = 0;
-    std::uint64_t squares_high = 0;
   };
 
   // receivers: of the block; order: their numbers in the order of its lanes. The axes must outlive this.

@@ -152,14 +152,6 @@ LightSample DirectLight::sample_of(const Choice& choice, const ReferencePoint& r
   return sample;
 }
 
-double DirectLight::mis_weighted_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
-                                          const FlightGeometry& flight, double forward_ratio) const {
-  double sum = 0.0;
-  weigh_emission(rays, i, cell, cosine_here, flight, forward_ratio,
-                 [&](std::size_t /*source*/, double irradiance) { sum += irradiance; });
-  return sum;
-}
-
 std::optional<std::size_t> DirectLight::emitter_at(const ReferencePoint& reference) const {
   for (const PointLight& light : points_) {
     if (light.position() == reference.point) return light.number();

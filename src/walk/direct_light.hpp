@@ -109,16 +109,13 @@ class DirectLight {
   }
 
   // Flight i, which left a surface point of this cell at an angle of cosine `cosine_here`, has hit the front of an area
-  // light: its weighted contribution to the direct irradiance at the surface that it left. Samples of the emitter's
-  // points and flights that hit it are combined by the balance heuristic, see area_light_sampling.hpp. Without it,
-  // light samples on a wall that touches a luminous ceiling would grow as 1/r² near the common edge. forward_ratio: see
-  // sample_light().
-  double mis_weighted_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
-                               const FlightGeometry& flight, double forward_ratio = 0.0) const;
-  // The same for one of its emitters after the other: calls add(number of the source, contribution).
+  // light: calls add(number of the source, its weighted contribution to the direct irradiance at the surface that it
+  // left), for each emitter of that surface. Samples of the emitter's points and flights that hit it are combined by
+  // the balance heuristic, see area_light_sampling.hpp. Without it, light samples on a wall that touches a luminous
+  // ceiling would grow as 1/r² near the common edge. forward_ratio: see sample_light().
   template <class Add>
-  void weigh_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
-                      const FlightGeometry& flight, double forward_ratio, const Add& add) const;
+  void mis_weighted_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
+                             const FlightGeometry& flight, double forward_ratio, const Add& add) const;
   bool has_area_lights() const { return !areas_.empty(); }
   bool is_area_light(std::size_t surface) const { return !area_sources_of_surface_[surface].empty(); }
 
@@ -152,8 +149,8 @@ class DirectLight {
 };
 
 template <class Add>
-void DirectLight::weigh_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
-                                 const FlightGeometry& flight, double forward_ratio, const Add& add) const {
+void DirectLight::mis_weighted_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
+                                        const FlightGeometry& flight, double forward_ratio, const Add& add) const {
   constexpr double pi = std::numbers::pi;
   const double pdf_bsdf = flight.pdf_bsdf(cosine_here);
   for (const std::size_t k : area_sources_of_surface_[tracer_->facets()[rays.facet[i]].surface]) {

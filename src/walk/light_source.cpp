@@ -15,6 +15,7 @@
 #include "chance/choice.hpp"
 #include "chance/philox.hpp"
 #include "chance/places.hpp"
+#include "room/nearest_on_triangle.hpp"
 
 namespace lichtmc {
 
@@ -167,20 +168,11 @@ bool AreaLight::reaches_above_horizon(const ReferencePoint& reference) const {
 double AreaLight::distance_m(const glm::dvec3& point) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (const std::size_t triangle : triangles_) {
-    const glm::dvec3 normal = glm::normalize(cross_of(*surface_, triangle));
-    const double height = glm::dot(point - corner_of(*surface_, triangle, 0), normal);
-    if (height <= 0.0) continue;
-    bool over = true;
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec3 corner = corner_of(*surface_, triangle, k);
-      const glm::dvec3 side = corner_of(*surface_, triangle, (k + 1) % 3) - corner;
-      const glm::dvec3 from = point - corner;
-      if (glm::dot(from, glm::cross(normal, side)) >= 0.0) continue;  // on the inner side of this side
-      over = false;
-      const double along = std::clamp(glm::dot(from, side) / glm::dot(side, side), 0.0, 1.0);
-      nearest = std::min(nearest, glm::length(from - along * side));
-    }
-    if (over) nearest = std::min(nearest, height);
+    const glm::dvec3 a = corner_of(*surface_, triangle, 0);
+    if (glm::dot(point - a, cross_of(*surface_, triangle)) <= 0.0) continue;  // its back
+    const glm::dvec3 there =
+        nearest_on_triangle(point, a, corner_of(*surface_, triangle, 1), corner_of(*surface_, triangle, 2));
+    nearest = std::min(nearest, glm::length(there - point));
   }
   return nearest;
 }

@@ -5,38 +5,13 @@
 #include <glm/geometric.hpp>
 
 #include "room/emitter_shape.hpp"
+#include "room/nearest_on_triangle.hpp"
 #include "walk/area_light_sampling.hpp"
 #include "walk/visibility.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-// The point of a triangle that is nearest to p (C. Ericson, Real-Time Collision Detection, 2005, 5.1.5).
-glm::dvec3 nearest_of_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const glm::dvec3 ab = b - a;
-  const glm::dvec3 ac = c - a;
-  const glm::dvec3 ap = p - a;
-  const double d1 = glm::dot(ab, ap);
-  const double d2 = glm::dot(ac, ap);
-  if (d1 <= 0.0 && d2 <= 0.0) return a;
-  const glm::dvec3 bp = p - b;
-  const double d3 = glm::dot(ab, bp);
-  const double d4 = glm::dot(ac, bp);
-  if (d3 >= 0.0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + d1 / (d1 - d3) * ab;
-  const glm::dvec3 cp = p - c;
-  const double d5 = glm::dot(ab, cp);
-  const double d6 = glm::dot(ac, cp);
-  if (d6 >= 0.0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + d2 / (d2 - d6) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 >= d3 && d5 >= d6) return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
-  const double sum = va + vb + vc;
-  return a + vb / sum * ab + vc / sum * ac;
-}
 
 class Sight {
  public:
@@ -139,7 +114,7 @@ class Sight {
       const glm::dvec3& a = surface.positions[corner.x];
       const glm::dvec3& b = surface.positions[corner.y];
       const glm::dvec3& c = surface.positions[corner.z];
-      const glm::dvec3 point = nearest_of_triangle(receiver_.point, a, b, c);
+      const glm::dvec3 point = nearest_on_triangle(receiver_.point, a, b, c);
       const double length = glm::length(point - receiver_.point);
       const bool is_front = glm::dot(glm::cross(b - a, c - a), receiver_.point - a) > 0.0;
       // Of two triangles with a common edge the one that shines here.

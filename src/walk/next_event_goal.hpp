@@ -76,7 +76,6 @@ class NextEventGoal : public GoalBase {
     scene_->launcher->launch_all(words_, first_history_, n, wave.rays, wave.photon.data(), emitter_.data());
     for (std::uint32_t i = 0; i < n; ++i) from_[wave.photon[i]] = {wave.rays.facet[i], wave.rays.s[i], wave.rays.t[i]};
     if (!Policy::scores_every_impact) std::fill(left_.begin(), left_.end(), Impact{});
-    if constexpr (keeps_paths) start_paths(wave, n);
   }
   Misses misses() const { return scene_->misses; }
   TraceCount& traced() { return count_->traced; }
@@ -93,7 +92,10 @@ class NextEventGoal : public GoalBase {
   void land(Wave& wave) {
     const Rays& rays = wave.rays;
     count_->impacts += rays.size;
-    if constexpr (keeps_paths) flight_paths_.land(wave);
+    if constexpr (keeps_paths) {
+      if (flight_ == 0) start_paths(wave);
+      flight_paths_.land(wave);
+    }
     if (++flight_ == 1 && plan_.two_way()) set_ratios(wave);
     for (std::size_t i = 0; i < rays.size; ++i) wave.surface[i] = scene_->surface_of[rays.facet[i]];
   }
@@ -174,24 +176,18 @@ class NextEventGoal : public GoalBase {
     }
   }
 
-  // Emitters with a place have it exactly; on area lights it is the point of the plane.
-  void start_paths(const Wave& wave, std::uint32_t n) {
-    for (std::uint32_t i = 0; i < n; ++i) {
+  // Point emitters have their place exactly; on area lights flights start one step off the plane.
+  void start_paths(const Wave& wave) {
+    for (std::size_t i = 0; i < wave.rays.size; ++i) {
       const std::uint32_t photon = wave.photon[i];
       const glm::dvec3 start = visit_shape(
           room_->emitters[emitter_[photon]], [](const auto& point) { return point.position; },
-          [&](const auto& /*area*/) { return point_on_facet(from_[photon]); });
+          [&](const auto& /*area*/) {
+            const glm::dvec3 off = scene_->tracer->world_point(glm::dvec3(wave.rays.start(i)));
+            return flight_paths_.planes().nearest(from_[photon].facet, off);
+          });
       flight_paths_.start(photon, start, delay_m_[emitter_[photon]]);
     }
-  }
-  glm::dvec3 point_on_facet(const StartOnFacet& from) {
-    one_.size = 1;
-    one_.facet[0] = from.facet;
-    one_.s[0] = from.s;
-    one_.t[0] = from.t;
-    one_.behind[0] = 0;
-    scene_->tracer->depart(one_);
-    return flight_paths_.planes().nearest(from.facet, scene_->tracer->world_point(glm::dvec3(one_.start(0))));
   }
   ImpactPath path_of(std::uint32_t photon, std::uint32_t order) const {
     return {flight_paths_.point(photon), flight_paths_.length_m(photon), emitter_[photon], order};
@@ -257,7 +253,6 @@ class NextEventGoal : public GoalBase {
   std::vector<ImpactPath> left_paths_;    // by the number of the photon
   std::vector<ImpactPath> impact_paths_;  // of impacts_
   std::vector<std::uint32_t> order_;
-  Rays one_{1};
 };
 
 template <class Policy, class Reflectance, bool keeps_paths>
