@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "lichtmc/cuboid.hpp"
+#include "lichtmc/simulate.hpp"
 #include "support/rooms.hpp"
 
 namespace lichtmc::test {
@@ -40,6 +41,23 @@ std::vector<std::vector<std::string>> read_fields(const std::string& file) {
 }
 
 }  // namespace
+
+Settings channel_settings(double width_s, double span_s, double histories, std::uint64_t seed) {
+  Settings settings = settings_of(Estimator::weight, Engine::automatic, histories, seed);
+  settings.measured = Measured::receivers;
+  settings.channel.bin_width_s = width_s;
+  settings.channel.time_span_s = span_s;
+  settings.channel.orders = 5;
+  return settings;
+}
+
+ImpulseResponses channels_of(const Room& room, const Settings& settings) {
+  return *simulate(room, settings).channels;
+}
+
+std::map<std::string, std::vector<double>> channel_table(const std::string& name) {
+  return read_columns(LICHTMC_TEST_DATA "/channel/" + name + ".csv");
+}
 
 Room barry_room(double half_angle_deg) {
   Room room = make_cuboid({5.0, 3.0, 5.0}, {0.3, 0.8, 0.8, 0.8, 0.8, 0.8});

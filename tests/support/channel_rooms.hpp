@@ -1,11 +1,14 @@
 // The rooms of tests/data/channel, and its tables.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "lichtmc/channel.hpp"
 #include "lichtmc/room.hpp"
+#include "lichtmc/settings.hpp"
 
 namespace lichtmc::test {
 
@@ -18,6 +21,14 @@ Room cube_with_receivers();
 
 // 6 m × 2.7 m × 5 m, with a partition between the emitter and the receiver.
 Room partitioned_room();
+
+// Of receivers only, with the weight estimator and the orders 0 … 5.
+Settings channel_settings(double width_s, double span_s, double histories, std::uint64_t seed);
+
+ImpulseResponses channels_of(const Room& room, const Settings& settings);
+
+// A table of tests/data/channel, by its name without ".csv".
+std::map<std::string, std::vector<double>> channel_table(const std::string& name);
 
 // The columns of a table of numbers, by the names in its first line that does not begin with #. Words and empty fields
 // are NaN.

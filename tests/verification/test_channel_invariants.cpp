@@ -16,11 +16,8 @@ using namespace lichtmc::test;
 namespace {
 
 Settings channel_settings(ReceiverWalk walk, double histories, std::uint64_t seed) {
-  Settings settings = settings_of(Estimator::weight, Engine::automatic, histories, seed);
-  settings.measured = Measured::receivers;
+  Settings settings = test::channel_settings(1e-9, 80e-9, histories, seed);
   settings.receiver_walk = walk;
-  settings.channel.bin_width_s = 1e-9;
-  settings.channel.time_span_s = 80e-9;
   settings.channel.orders = 2;
   return settings;
 }

@@ -8,6 +8,7 @@
 #include "support/catch.hpp"
 #include "support/channel_rooms.hpp"
 #include "support/rooms.hpp"
+#include "support/verdict.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
@@ -15,22 +16,9 @@ using namespace lichtmc::test;
 namespace {
 
 Settings channel_settings(double histories, std::uint64_t seed) {
-  Settings settings = settings_of(Estimator::weight, Engine::automatic, histories, seed);
-  settings.measured = Measured::receivers;
-  settings.channel.bin_width_s = 1e-9;
-  settings.channel.time_span_s = 100e-9;
+  Settings settings = test::channel_settings(1e-9, 100e-9, histories, seed);
   settings.channel.orders = 2;
   return settings;
-}
-
-ImpulseResponses channels_of(const Room& room, const Settings& settings) {
-  return *simulate(room, settings).channels;
-}
-
-void check(const std::string& what, const Verdict& verdict) {
-  INFO(what << ": " << verdict.text);
-  WARN(what << ": " << verdict.text);
-  CHECK(verdict.agrees);
 }
 
 // Bins of all orders, and derived figures, of independent runs. The same photons may serve several receivers: each is

@@ -10,6 +10,7 @@
 #include "support/channel_bins.hpp"
 #include "support/channel_rooms.hpp"
 #include "support/rooms.hpp"
+#include "support/verdict.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
@@ -17,25 +18,6 @@ using namespace lichtmc::test;
 namespace {
 
 using Table = std::map<std::string, std::vector<double>>;
-
-Table table(const std::string& name) {
-  return read_columns(LICHTMC_TEST_DATA "/channel/" + name + ".csv");
-}
-
-Settings channel_settings(double width_s, double span_s, double histories, std::uint64_t seed) {
-  Settings settings = settings_of(Estimator::weight, Engine::automatic, histories, seed);
-  settings.measured = Measured::receivers;
-  settings.channel.bin_width_s = width_s;
-  settings.channel.time_span_s = span_s;
-  settings.channel.orders = 5;
-  return settings;
-}
-
-void check(const std::string& what, const Verdict& verdict, bool agrees = true) {
-  INFO(what << ": " << verdict.text);
-  WARN(what << ": " << verdict.text);
-  CHECK(verdict.agrees == agrees);
-}
 
 Bins with_errors(Bins bins, double factor) {
   for (double& error : bins.error) error *= factor;
@@ -63,7 +45,7 @@ Bins with_floors(const Bins& bins, std::size_t reflections) {
 }  // namespace
 
 TEST_CASE("mistakes in times, orders, gains and errors of impulse responses would be noticed") {
-  const Table expected = table("barry_0.2ns");
+  const Table expected = channel_table("barry_0.2ns");
   const ImpulseResponses found = *simulate(barry_room(), channel_settings(0.2e-9, 120e-9, 1e6, 81)).channels;
   const auto diffuse = [](Bins bins, const Bins& sight) {
     for (std::size_t k = 0; k < bins.gain.size() && k < sight.gain.size(); ++k) {
@@ -110,7 +92,7 @@ TEST_CASE("mistakes in times, orders, gains and errors of impulse responses woul
 }
 
 TEST_CASE("impulse responses: no light before the shortest paths, by any walk and estimator") {
-  const Table arrivals = table("first_arrivals");
+  const Table arrivals = channel_table("first_arrivals");
   struct Place {
     Room room;
     std::size_t receiver;
@@ -149,7 +131,7 @@ TEST_CASE("impulse responses: no light before the shortest paths, by any walk an
 }
 
 TEST_CASE("impulse responses: delay spreads with the weights h², for bins of 0.2 ns, 1 ns and 5 ns") {
-  const Table expected = table("squared_weights");
+  const Table expected = channel_table("squared_weights");
   const auto reference = [&](std::size_t first_row, double width_ns) {
     for (std::size_t row = first_row; row < first_row + 6; ++row) {
       if (expected.at("bin_ns")[row] == width_ns) return expected.at("rms_h2_ns")[row] * 1e-9;

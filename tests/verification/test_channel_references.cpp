@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "support/catch.hpp"
+#include "support/channel_bins.hpp"
 #include "support/channel_rooms.hpp"
 #include "support/rooms.hpp"
 #include "support/surfaces.hpp"
+#include "support/verdict.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
@@ -18,58 +20,34 @@ namespace {
 
 using Columns = std::map<std::string, std::vector<double>>;
 
-Columns table(const std::string& name) {
-  return read_columns(LICHTMC_TEST_DATA "/channel/" + name + ".csv");
-}
-
-Settings channel_settings(double width_s, double span_s, double histories, std::uint64_t seed) {
-  Settings settings = settings_of(Estimator::weight, Engine::automatic, histories, seed);
-  settings.measured = Measured::receivers;
-  settings.channel.bin_width_s = width_s;
-  settings.channel.time_span_s = span_s;
-  settings.channel.orders = 5;
-  return settings;
-}
-
-void check(const std::string& what, const Verdict& verdict) {
-  INFO(what << ": " << verdict.text);
-  WARN(what << ": " << verdict.text);
-  CHECK(verdict.agrees);
-}
-
 // The bins of one order (its number, or "all") of the only emitter. Before the first light of the table there is none;
 // of the bins after it those whose error is small enough for a normal law are compared: where less light than expected
 // was met, the error is that of too few paths.
 std::vector<Compared> bins_against(const ImpulseResponses& found, std::size_t receiver, const std::string& order,
                                    const Columns& expected, std::size_t shift = 0) {
   const std::string column = order == "all" ? "total" : order == "6+" ? "k6plus" : "k" + order;
-  const std::vector<double>& value = expected.at(column);
-  // Closed forms have none.
-  const auto errors_of_table = expected.find("se_" + column);
-  const std::vector<double> error =
-      errors_of_table == expected.end() ? std::vector<double>(value.size(), 0.0) : errors_of_table->second;
-  const std::vector<double>& sight = expected.at("k0");
   const bool all = order == "all";
   const std::size_t number = all ? 0 : order == "6+" ? 6 : std::stoul(order);
-  const std::vector<double>& h = all ? found.h_all : found.h;
-  const std::vector<double>& errors = all ? found.standard_error_all : found.standard_error;
-  const std::size_t first = all ? found.row(0, receiver) : found.row(0, receiver, number);
-  const auto first_light = std::find_if(value.begin(), value.end(), [](double gain) { return gain > 0.0; });
+  const Bins ours = bins_of(found, 0, receiver, all ? std::nullopt : std::optional(number));
+  const Bins theirs = bins_of(expected, column);
+  const std::vector<double>& sight = expected.at("k0");
+  const auto first_light = std::find_if(theirs.gain.begin(), theirs.gain.end(), [](double gain) { return gain > 0.0; });
   std::vector<Compared> figures;
-  for (std::size_t bin = 0; bin < std::min(found.bins, value.size()); ++bin) {
-    const double gain = h[first + bin] * found.bin_width_s;
-    const double own = errors[first + bin] * found.bin_width_s;
+  for (std::size_t bin = 0; bin < std::min(found.bins, theirs.gain.size()); ++bin) {
+    const double gain = ours.gain[bin];
+    const double own = ours.error[bin];
     // The line of sight is compared apart.
     if (all && (sight[bin] > 0.0 || found.h[found.row(0, receiver, 0) + bin] > 0.0)) continue;
-    if (value.begin() + static_cast<std::ptrdiff_t>(bin) < first_light && shift == 0) {
+    if (theirs.gain.begin() + static_cast<std::ptrdiff_t>(bin) < first_light && shift == 0) {
       INFO("order " << order << ", bin " << bin);
       CHECK(gain == 0.0);
     }
     if (bin < shift) continue;
     constexpr double small = 0.1;
-    const double expectation = value[bin - shift];
-    if (own > 0.0 && own < small * std::min(gain, expectation) && error[bin - shift] < small * expectation)
-      figures.push_back({gain, own, expectation, error[bin - shift]});
+    const double expectation = theirs.gain[bin - shift];
+    const double error = theirs.error[bin - shift];
+    if (own > 0.0 && own < small * std::min(gain, expectation) && error < small * expectation)
+      figures.push_back({gain, own, expectation, error});
   }
   return figures;
 }
@@ -111,7 +89,7 @@ void check_derived(const std::string& room, const ImpulseResponses& found, std::
 }  // namespace
 
 TEST_CASE("impulse responses: configuration A of Barry, by order, with both tracers") {
-  const Columns expected = table("barry_0.2ns");
+  const Columns expected = channel_table("barry_0.2ns");
   Settings settings = channel_settings(0.2e-9, 120e-9, 1e6, 11);
   SECTION("closed form") {
     settings.engine = Engine::cuboid;
@@ -134,7 +112,7 @@ TEST_CASE("impulse responses: configuration A of Barry, by order, with both trac
 }
 
 TEST_CASE("impulse responses: all walks and estimators give those of configuration A") {
-  const Columns expected = table("barry_1ns");
+  const Columns expected = channel_table("barry_1ns");
   for (const ReceiverWalk walk : {ReceiverWalk::backward, ReceiverWalk::next_event, ReceiverWalk::two_way}) {
     for (const Estimator estimator : {Estimator::weight, Estimator::collision, Estimator::absorption}) {
       Settings settings = channel_settings(1e-9, 120e-9, 2e5, 12);
@@ -148,7 +126,7 @@ TEST_CASE("impulse responses: all walks and estimators give those of configurati
 }
 
 TEST_CASE("impulse responses: another speed of light, or times late by a bin, would be noticed") {
-  const Columns expected = table("barry_1ns");
+  const Columns expected = channel_table("barry_1ns");
   const ImpulseResponses right = *simulate(barry_room(), channel_settings(1e-9, 120e-9, 1e6, 13)).channels;
   CHECK(compare(bins_against(right, 0, "all", expected)).agrees);
   CHECK(!compare(bins_against(right, 0, "all", expected, 1)).agrees);
@@ -197,8 +175,8 @@ TEST_CASE("impulse responses: the cube of the paper at two points of its floor")
   Settings settings = channel_settings(tenth_s, 120 * tenth_s, 1e6, 15);
   settings.channel.frequencies = {0.0, 400e6, 1e6};
   const ImpulseResponses found = *simulate(cube_with_receivers(), settings).channels;
-  check_orders("centre", found, 0, table("cube_centre_0.1m"));
-  check_orders("corner", found, 1, table("cube_corner_0.1m"));
+  check_orders("centre", found, 0, channel_table("cube_centre_0.1m"));
+  check_orders("corner", found, 1, channel_table("cube_corner_0.1m"));
   check_derived("cube_centre", found, 0);
   check_derived("cube_corner", found, 1);
 }
@@ -207,7 +185,7 @@ TEST_CASE("impulse responses: a partition that blocks the line of sight") {
   Settings settings = channel_settings(1e-9, 120e-9, 4e5, 16);
   settings.channel.frequencies = {0.0, 50e6, 0.5e6};
   const ImpulseResponses found = *simulate(partitioned_room(), settings).channels;
-  check_orders("partition", found, 0, table("partition_1ns"));
+  check_orders("partition", found, 0, channel_table("partition_1ns"));
   check_derived("partition", found, 0);
   const Channel& channel = found.channels[0];
   CHECK(channel.line_of_sight.value == 0.0);
@@ -222,7 +200,7 @@ TEST_CASE("impulse responses: a partition that blocks the line of sight") {
 
 TEST_CASE("impulse responses: figures derived for configuration A, and its frequency response") {
   Settings settings = channel_settings(1e-9, 400e-9, 1e6, 17);
-  const Columns expected = table("barry_frequencies");
+  const Columns expected = channel_table("barry_frequencies");
   settings.channel.frequencies = {0.0, 200e6, 1e6};
   const ImpulseResponses found = *simulate(barry_room(), settings).channels;
   check_derived("barry", found, 0);
@@ -288,7 +266,7 @@ TEST_CASE("impulse responses: a sphere with an emitter in its centre, in closed 
   Settings settings = channel_settings(0.1 / speed_of_light, 20.0 / speed_of_light, 1e5, 19);
   settings.receiver_walk = ReceiverWalk::backward;
   const ImpulseResponses found = *simulate(room, settings).channels;
-  Columns expected = table("sphere_0.9");
+  Columns expected = channel_table("sphere_0.9");
   for (auto& [name, column] : expected) {
     if (name.front() == 'p') continue;  // path lengths
     for (double& power : column) power /= 4.0 * 3.14159265358979323846;
@@ -296,7 +274,7 @@ TEST_CASE("impulse responses: a sphere with an emitter in its centre, in closed 
   for (const char* order : {"all", "1", "2", "3", "5"})
     check("sphere, order " + std::string(order), compare(bins_against(found, 0, order, expected, 0)));
   const Channel& channel = found.channels[0];
-  const auto derived = table("sphere_derived");
+  const auto derived = channel_table("sphere_derived");
   const std::size_t row = 5;  // ρ = 0.9
   REQUIRE(derived.at("rho")[row] == 0.9);
   std::vector<Compared> figures;
@@ -314,7 +292,7 @@ TEST_CASE("impulse responses: 200 runs differ from the truth by what their error
   const auto all = derived_reference("barry", "all");
   const auto diffuse = derived_reference("barry", "nlos");
   // h of all orders in the bin of 20 ns to 21 ns too.
-  const double bin = table("barry_1ns").at("total")[20] / 1e-9;
+  const double bin = channel_table("barry_1ns").at("total")[20] / 1e-9;
   Settings settings = channel_settings(1e-9, 60e-9, 1e4, 0);
   settings.receiver_walk = ReceiverWalk::backward;
   settings.channel.orders = 0;

@@ -8,6 +8,7 @@
 #include "support/channel_rooms.hpp"
 #include "support/rooms.hpp"
 #include "support/surfaces.hpp"
+#include "support/verdict.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
@@ -15,22 +16,10 @@ using namespace lichtmc::test;
 namespace {
 
 Settings channel_settings(ReceiverWalk walk, double histories, std::uint64_t seed) {
-  Settings settings = settings_of(Estimator::weight, Engine::automatic, histories, seed);
-  settings.measured = Measured::receivers;
+  Settings settings = test::channel_settings(0.5e-9, 60e-9, histories, seed);
   settings.receiver_walk = walk;
-  settings.channel.bin_width_s = 0.5e-9;
-  settings.channel.time_span_s = 60e-9;
   settings.channel.orders = 2;
   return settings;
-}
-
-ImpulseResponses channels_of(const Room& room, const Settings& settings) {
-  return *simulate(room, settings).channels;
-}
-
-void check(const std::string& what, const Verdict& verdict) {
-  INFO(what << ": " << verdict.text);
-  CHECK(verdict.agrees);
 }
 
 // Bins of the orders 1, 2, of those above and of all of each channel, and the figures of all channels. Order 0 of the

@@ -7,6 +7,7 @@
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
 #include "support/surfaces.hpp"
+#include "support/verdict.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
@@ -58,12 +59,6 @@ std::vector<Compared> surfaces_against(const Result& a, const Result& b) {
     figures.push_back({surface.mean_irradiance, surface.standard_error, other.mean_irradiance, other.standard_error});
   }
   return figures;
-}
-
-void check(const std::string& what, const Verdict& verdict) {
-  INFO(what << ": " << verdict.text);
-  WARN(what << ": " << verdict.text);
-  CHECK(verdict.agrees);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
 #include "support/surfaces.hpp"
+#include "support/verdict.hpp"
 #include "walk/direct_light.hpp"
 #include "walk/scene.hpp"
 
@@ -72,12 +73,6 @@ std::vector<ReceiverResult> measured(const Room& room, ReceiverWalk walk, std::u
   settings.measured = Measured::receivers;
   settings.receiver_walk = walk;
   return simulate(room, settings).receiver_results;
-}
-
-void check(const std::string& what, const Verdict& verdict) {
-  INFO(what << ": " << verdict.text);
-  WARN(what << ": " << verdict.text);
-  CHECK(verdict.agrees);
 }
 
 void check_additive(const Room& room, ReceiverWalk walk) {

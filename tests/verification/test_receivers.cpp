@@ -12,6 +12,7 @@
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
 #include "support/surfaces.hpp"
+#include "support/verdict.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
@@ -48,12 +49,6 @@ std::vector<Compared> indirect_against(const Result& result, const std::function
     figures.push_back({one.indirect, one.standard_error, expected(k), 0.0});
   }
   return figures;
-}
-
-void check(const std::string& what, const Verdict& verdict) {
-  INFO(what << ": " << verdict.text);
-  WARN(what << ": " << verdict.text);
-  CHECK(verdict.agrees);
 }
 
 // The direct light of a room's emitters at one receiver.

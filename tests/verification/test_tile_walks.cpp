@@ -8,6 +8,7 @@
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
 #include "support/surfaces.hpp"
+#include "support/verdict.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
@@ -27,12 +28,6 @@ Settings from_tiles(Estimator estimator, Engine engine, double photons, std::uin
   Settings settings = settings_of(estimator, engine, photons, seed, tile);
   settings.tile_walk = WalkDirection::backward;
   return settings;
-}
-
-void check(const std::string& what, const Verdict& verdict) {
-  INFO(what << ": " << verdict.text);
-  WARN(what << ": " << verdict.text);
-  CHECK(verdict.agrees);
 }
 
 // Tiles of two results with light, whose counts are large enough for a normal law.

@@ -13,6 +13,7 @@
 
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
+#include "support/verdict.hpp"
 #include "walk/backward.hpp"
 #include "walk/receiver_points.hpp"
 
@@ -172,12 +173,6 @@ double over_floor(const FieldOfView& view, const Irradiance& irradiance) {
 
 Compared sum_of(const Mean& a, const Mean& b, double expected) {
   return {a.value + b.value, std::sqrt(a.variance + b.variance), expected, 0.0};
-}
-
-void check(const std::string& what, const Verdict& verdict) {
-  INFO(what << ": " << verdict.text);
-  WARN(what << ": " << verdict.text);
-  CHECK(verdict.agrees);
 }
 
 const Lamps one_lamp{{{0.3, 0.7, 0.4}}, {1.0}};
