@@ -161,14 +161,13 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
   return result;
 }
 
-void set_delay_of_node(const Document& document, const PlacedNode& placed, std::span<Emitter> emitters,
-                       std::vector<Ignored>& ignored) {
+void set_delay_of_node(const Document& document, const PlacedNode& placed, std::size_t first, Room& room) {
   const auto delay_s = delay_in(document, document.model.nodes[placed.index].extras, placed.label);
   if (!delay_s) return;
-  for (Emitter& emitter : emitters) emitter.delay_s = *delay_s;
-  if (!emitters.empty()) return;
-  ignored.push_back({"'delay_ns' of " + placed.label + ": nothing of this node emits light.", Effect::figures,
-                     "Set it on the node of a light or of an emissive surface, or remove it."});
+  for (std::size_t n = first; n < room.emitters.size(); ++n) room.emitters[n].delay_s = *delay_s;
+  if (first < room.emitters.size()) return;
+  room.ignored.push_back({"'delay_ns' of " + placed.label + ": nothing of this node emits light.", Effect::figures,
+                          "Set it on the node of a light or of an emissive surface, or remove it."});
 }
 
 namespace {

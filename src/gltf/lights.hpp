@@ -1,8 +1,8 @@
 // Emitters and receivers of nodes.
 #pragma once
 
+#include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -25,9 +25,9 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
                                       std::vector<Ignored>& ignored);
 
 // Sets the delay of a node that has one for all that it emits: it precedes those of its light and of the materials of
-// its mesh, which several nodes may share. A delay of nothing is added to `ignored`.
-void set_delay_of_node(const Document& document, const PlacedNode& placed, std::span<Emitter> emitters,
-                       std::vector<Ignored>& ignored);
+// its mesh, which several nodes may share. first: its first emitter in the room, the others follow. A delay of nothing
+// is added to Room::ignored.
+void set_delay_of_node(const Document& document, const PlacedNode& placed, std::size_t first, Room& room);
 
 // The receiver of a node with extras.receiver.
 std::optional<Receiver> read_receiver(const Document& document, const PlacedNode& placed);

@@ -4,7 +4,6 @@
 #include <map>
 #include <numbers>
 #include <set>
-#include <span>
 
 #include <glm/geometric.hpp>
 
@@ -93,13 +92,13 @@ class RoomReader {
  private:
   void read_node(std::size_t k) {
     const PlacedNode& placed = nodes_[k];
-    const std::size_t emitters = room_.emitters.size();
+    const std::size_t first_emitter = room_.emitters.size();
     read_mesh(k);
     if (auto light = read_light(*document_, placed, room_.ignored)) {
       light->emitter.name = names_of_scene_.nodes[k];
       add_emitter(std::move(*light));
     }
-    set_delay_of_node(*document_, placed, std::span(room_.emitters).subspan(emitters), room_.ignored);
+    set_delay_of_node(*document_, placed, first_emitter, room_);
     if (auto receiver = read_receiver(*document_, placed)) {
       receiver->name = names_of_scene_.nodes[k];
       room_.receivers.push_back(std::move(*receiver));
