@@ -17,6 +17,7 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@
 #include <variant>
 
 #include <glm/vec3.hpp>
+
+#include "lichtmc/candela_table.hpp"
 
 namespace lichtmc {
 
@@ -144,9 +147,24 @@ struct SpotLaw {
   static constexpr std::string_view name() { return "spot"; }
 };
 
+// A measured luminaire: the density is the intensity of a table divided by its flux. Its frame has +X towards C0 and +Y
+// towards C90.
+struct MeasuredLaw {
+  std::shared_ptr<const CandelaTable> table;
+
+  glm::dvec3 sample(double u, double turns) const { return table->sample(u, turns); }
+  double density(const glm::dvec3& local) const { return table->candela(local) / table->flux(); }
+  EmitterExtent extent() const { return {table->half_angle(), table->width(), table->has_sharp_edge()}; }
+  std::optional<LawFault> fault() const {
+    if (table != nullptr) return std::nullopt;
+    return LawFault{"number of candela tables", 0.0, "1", "Read the luminaire from a photometric file."};
+  }
+  static constexpr std::string_view name() { return "measured"; }
+};
+
 // One of the laws. A class that is added here must satisfy the concept below, and every visit must handle it; otherwise
 // the program does not compile.
-using EmitterLaw = std::variant<IsotropicLaw, LambertLaw, SpotLaw>;
+using EmitterLaw = std::variant<IsotropicLaw, LambertLaw, SpotLaw, MeasuredLaw>;
 
 template <class Law>
 concept DirectionalLaw = requires(const Law& law, double u, const glm::dvec3& local) {
@@ -156,7 +174,8 @@ concept DirectionalLaw = requires(const Law& law, double u, const glm::dvec3& lo
   { law.fault() } -> std::same_as<std::optional<LawFault>>;
   { Law::name() } -> std::same_as<std::string_view>;
 };
-static_assert(DirectionalLaw<IsotropicLaw> && DirectionalLaw<LambertLaw> && DirectionalLaw<SpotLaw>);
+static_assert(DirectionalLaw<IsotropicLaw> && DirectionalLaw<LambertLaw> && DirectionalLaw<SpotLaw> &&
+              DirectionalLaw<MeasuredLaw>);
 
 // Intensity in W/sr or cd of an emitter of flux Φ (W or lm), in a direction of its own frame.
 inline double intensity(const EmitterLaw& law, double flux, const glm::dvec3& local) {

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -16,6 +17,7 @@
 #include <glm/vec3.hpp>
 
 #include "lichtmc/emitter_law.hpp"
+#include "lichtmc/luminous_opening.hpp"
 #include "lichtmc/units.hpp"
 
 namespace lichtmc {
@@ -120,10 +122,26 @@ struct SurfaceEmitter {
   LambertLaw law() const { return {exponent}; }
 };
 
+struct Photometry;
+
+// A luminaire with a photometric file (lichtmc/photometry.hpp): its intensity is the file's in shape, Φ is its flux. Its
+// light starts at its position or, with an opening, all over that, with the same intensity everywhere.
+struct MeasuredEmitter {
+  std::shared_ptr<const Photometry> photometry;
+  glm::dvec3 position{0.0};  // m
+  // Unit vectors, perpendicular to each other, of either handedness: a mirrored luminaire has mirrored light.
+  glm::dvec3 axis{0.0, -1.0, 0.0};  // its aim
+  glm::dvec3 c0{1.0, 0.0, 0.0};     // towards the plane C0
+  glm::dvec3 c90{0.0, 0.0, -1.0};   // towards the plane C90
+  std::optional<LuminousOpening> opening{};  // that light leaves; none: the position alone
+
+  MeasuredLaw law() const;
+};
+
 struct Emitter {
   std::string name;    // for messages and tables
   double power = 1.0;  // Φ: radiant flux in W or luminous flux in lm, ≥ 0
-  std::variant<IsotropicEmitter, LambertEmitter, SpotEmitter, SurfaceEmitter> shape;
+  std::variant<IsotropicEmitter, LambertEmitter, SpotEmitter, SurfaceEmitter, MeasuredEmitter> shape;
   double delay_s = 0.0;  // s, ≥ 0: of its light behind the signal, for impulse responses
 };
 

@@ -214,6 +214,10 @@ PunctualLight punctual(const SpotEmitter& shape, double power) {
        {"spot", {{"innerConeAngle", shape.inner}, {"outerConeAngle", std::min(shape.outer, std::numbers::pi / 2.0)}}}}};
 }
 
+PunctualLight punctual(const MeasuredEmitter& /*shape*/, double /*power*/) {
+  throw InputError("Luminaires cannot be written yet.");
+}
+
 template <PointShape Shape>
 void Writer::add_point_emitter(const Emitter& emitter, const Shape& shape) {
   Json node = document_.placed_node(emitter.name, shape.position);

@@ -26,15 +26,28 @@ concept SurfaceShape = requires(const Shape& shape) {
   shape.surface;
 };
 
-// The frame of a point emitter: its normal is the axis. Without an axis: +Z.
+// The frame of a point emitter: its normal is the axis. Without an axis: +Z. Where the azimuth matters, the tangent is
+// its reference, and the frame may be left-handed.
 template <PointShape Shape>
 Frame frame_of(const Shape& shape) {
-  if constexpr (requires { shape.axis; }) {
+  if constexpr (requires { shape.c90; }) {
+    return {shape.c0, shape.c90, shape.axis};
+  } else if constexpr (requires { shape.axis; }) {
     // Scaled by its largest component first: the square of a very long or short axis would overflow or underflow.
     const glm::dvec3& a = shape.axis;
     return frame_about(glm::normalize(a / std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)})));
   } else {
     return frame_about(glm::dvec3(0.0, 0.0, 1.0));
+  }
+}
+
+// The opening all over which the light of a point emitter starts; null: it starts at its position.
+template <PointShape Shape>
+const LuminousOpening* opening_of(const Shape& shape) {
+  if constexpr (requires { shape.opening; }) {
+    return shape.opening ? &*shape.opening : nullptr;
+  } else {
+    return nullptr;
   }
 }
 

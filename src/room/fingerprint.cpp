@@ -1,7 +1,9 @@
+#include <map>
 #include <variant>
 
 #include "base/checksum.hpp"
 #include "lichtmc/fingerprint.hpp"
+#include "lichtmc/photometry.hpp"
 
 namespace lichtmc {
 
@@ -72,6 +74,30 @@ class RoomChecksum {
       add_all(emitter.emission_uvs);
     }
   }
+  // The same table of many luminaires is read once.
+  void add(const CandelaTable& table) {
+    const auto [found, is_new] = tables_.try_emplace(&table);
+    if (is_new) {
+      const CandelaTable::Grid& grid = table.grid();
+      Checksum own;
+      own.add(static_cast<std::uint8_t>(grid.type));
+      own.add(static_cast<std::uint8_t>(grid.symmetry));
+      own.add(static_cast<std::uint8_t>(grid.flip_horizontal));
+      for (const auto* numbers : {&grid.horizontal_deg, &grid.vertical_deg, &grid.candela}) {
+        own.add(std::uint64_t{numbers->size()});
+        own.add(numbers->data(), numbers->size() * sizeof(double));
+      }
+      found->second = own.value();
+    }
+    sum_.add(&found->second, sizeof found->second);
+  }
+  void add(const MeasuredEmitter& emitter) {
+    for (const auto* vector : {&emitter.position, &emitter.axis, &emitter.c0, &emitter.c90}) add(*vector);
+    add(*emitter.photometry->candela);
+    if (!emitter.opening) return;
+    sum_.add(static_cast<std::uint8_t>(emitter.opening->form));
+    add(emitter.opening->size_m);
+  }
   void add(const Emitter& emitter) {
     sum_.add(emitter.name);
     sum_.add(emitter.power);
@@ -99,6 +125,7 @@ class RoomChecksum {
   }
 
   Checksum sum_;
+  std::map<const CandelaTable*, Fingerprint> tables_;
 };
 
 }  // namespace

@@ -148,6 +148,28 @@ void check_axis(const Room& room, const glm::dvec3& axis, const std::string& of)
     refuse(room, "direction " + of, to_text(axis), "finite numbers, not all 0", "Give it a direction.");
 }
 
+// Of a luminaire: unit vectors at right angles, to the rounding of rotations in float.
+void check_axes(const Room& room, const MeasuredEmitter& shape, const std::string& of) {
+  constexpr double rounding = 1e-5;
+  for (const auto* axis : {&shape.axis, &shape.c0, &shape.c90}) {
+    check_axis(room, *axis, of);
+    require(std::abs(glm::length(*axis) - 1.0) < rounding, room, "length of an axis " + of, glm::length(*axis), "1",
+            "Give unit vectors.");
+  }
+  for (const auto& [a, b] : {std::pair{&shape.axis, &shape.c0}, {&shape.axis, &shape.c90}, {&shape.c0, &shape.c90}}) {
+    require(std::abs(glm::dot(*a, *b)) < rounding, room, "cosine of the angle between two axes " + of, glm::dot(*a, *b),
+            "0", "Give axes at right angles to each other.");
+  }
+}
+
+void check_opening(const Room& room, const LuminousOpening& opening, const std::string& of) {
+  const bool valid = finite(opening.size_m) && std::min({opening.size_m.x, opening.size_m.y, opening.size_m.z}) >= 0.0 &&
+                     opening.largest_m() > 0.0;
+  if (!valid)
+    refuse(room, "size in m of the opening " + of, to_text(opening.size_m), "finite numbers, 0 or more, not all 0",
+           "Give its size, or no opening.");
+}
+
 void check_law(const Room& room, const std::optional<LawFault>& fault, const std::string& of) {
   if (fault) refuse(room, fault->what + " " + of, to_text(fault->value), fault->allowed, fault->remedy);
 }
@@ -156,6 +178,8 @@ template <PointShape Shape>
 void check_shape(const Room& room, const Shape& shape, const std::string& of) {
   check_position(room, shape.position, of);
   if constexpr (requires { shape.axis; }) check_axis(room, shape.axis, of);
+  if constexpr (requires { shape.c90; }) check_axes(room, shape, of);
+  if (const LuminousOpening* opening = opening_of(shape)) check_opening(room, *opening, of);
   check_law(room, shape.law().fault(), of);
 }
 

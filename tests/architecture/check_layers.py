@@ -25,8 +25,8 @@ BELOW = {
 }
 # Public headers by the layer that provides them: a layer may use its own headers and those of the layers below it.
 PUBLIC = {
-    "error": "base", "walk_direction": "base", "emitter_law": "chance", "units": "base", "version": "base", "visible_text": "base",
-    "room": "room", "cover": "room", "cuboid": "room", "overrides": "room", "tiles": "room", "receiver_table": "room",
+    "error": "base", "walk_direction": "base", "emitter_law": "chance", "candela_table": "chance", "luminous_opening": "chance", "units": "base", "version": "base", "visible_text": "base",
+    "room": "room", "photometry": "room", "cover": "room", "cuboid": "room", "overrides": "room", "tiles": "room", "receiver_table": "room",
     "settings": "room", "channel": "room", "fingerprint": "room",  # plain data that every layer may read
     "communicator": "run", "control": "run", "progress": "run", "state": "run", "mpi": "mpi",
     "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
