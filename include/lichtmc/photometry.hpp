@@ -68,7 +68,11 @@ struct Photometry {
   std::optional<std::pair<double, double>> tilt_factors;  // least and greatest, if the file has any
 
   LuminousOpening opening;
-  std::vector<std::string> warnings;  // accepted, but to be told: sentences
+  // Accepted, but to be told, one sentence each. Warnings may change figures: TILT factors, a conversion factor, fluxes
+  // that differ, values or planes that are not as the format demands. Notes do not: encodings, empty lines, and the
+  // like.
+  std::vector<std::string> warnings;
+  std::vector<std::string> notes;
 
   // Its flux in lm, or the radiant flux in the unit that follows from `intensity_unit`.
   double flux() const { return candela->flux(); }
@@ -96,11 +100,11 @@ std::string ies_text(const Photometry& photometry);
 
 // How a luminaire is mounted and what it is scaled to; at most one of lumens, scale and watts.
 struct LuminaireOptions {
-  std::optional<double> lumens;  // its flux in lm
-  std::optional<double> scale;   // its intensity is that of the file times this
-  std::optional<double> watts;   // its radiant flux in W, as for ultraviolet and infrared: the file gives the shape
-  double rotation_deg = 0.0;     // about its aim, from C0 towards C90
-  bool area = false;             // light starts all over the opening, not at its centre
+  std::optional<double> lumens = std::nullopt;  // its flux in lm
+  std::optional<double> scale = std::nullopt;   // its intensity is that of the file times this
+  std::optional<double> watts = std::nullopt;   // radiant flux in W, as of ultraviolet: the file gives the shape
+  double rotation_deg = 0.0;                    // about its aim, from C0 towards C90
+  bool area = false;                            // light starts all over the opening, not at its centre
 };
 
 // Directions of a luminaire in the world: unit vectors, perpendicular to each other, of either handedness.

@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-# Layers from the lowest up; the adapters gltf and output see base, chance, room and the public headers.
+# Layers from the lowest up; the adapters photometry, gltf and output see base, chance, room and the public headers.
 BELOW = {
     "base": [],
     "chance": ["base"],
@@ -20,6 +20,7 @@ BELOW = {
     "inspect": ["base", "chance", "room", "tracer", "walk", "run"],
     "view": ["base", "chance", "room", "tracer", "walk", "run"],
     "mpi": ["base", "run"],
+    "photometry": ["base", "chance", "room"],
     "gltf": ["base", "chance", "room"],
     "output": ["base", "chance", "room"],
 }
