@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/lanes.hpp"
+#include "chance/candela_sampler.hpp"
 #include "chance/lane_math.hpp"
 
 namespace lichtmc {
@@ -38,6 +39,11 @@ void polar_angles(const LambertLaw& law, std::size_t n, const std::uint32_t* wor
 
 void polar_angles(const IsotropicLaw& /*law*/, std::size_t n, const std::uint32_t* words, float* sine, float* cosine) {
   isotropic_angles(n, words, sine, cosine);
+}
+
+void lane_directions(const MeasuredLaw& law, std::size_t n, const std::uint32_t* polar, const std::uint32_t* azimuth,
+                     float* x, float* y, float* z) {
+  law.table->sampler().sample(n, polar, azimuth, x, y, z);
 }
 
 }  // namespace lichtmc

@@ -21,11 +21,12 @@ enum class Purpose : std::uint32_t {
   direct_flight = 6,  // words 0, 1: direction of a flight that may hit one
   direct_place = 7,   // words 0, 1: where on a tile
   // Random shifts of quasi-random points (sobol.hpp); the "history" is the number of the set:
-  shift = 8,        // of emission, words as there
-  place_shift = 9,  // of place, words as there
-  receivers = 10,   // word 0: which receivers an impact serves, of those that it probably does not reach
-  cell = 11,        // words 0, 1: where in the cells of receivers an impact contributes
-  direct_cell = 12,  // words 0, 1: where in a cell direct light is computed
+  shift = 8,            // of emission, words as there
+  place_shift = 9,      // of place, words as there
+  receivers = 10,       // word 0: which receivers an impact serves, of those that it probably does not reach
+  cell = 11,            // words 0, 1: where in the cells of receivers an impact contributes
+  direct_cell = 12,     // words 0, 1: where in a cell direct light is computed
+  direct_opening = 13,  // words 0, 1: point of a luminous opening for direct light that is computed outside the walks
 };
 
 class Stream {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -49,6 +50,23 @@ const LuminousOpening* opening_of(const Shape& shape) {
   } else {
     return nullptr;
   }
+}
+
+// Points of the world between which all of its light starts: its position, or the corners of the box around its
+// opening.
+template <PointShape Shape>
+std::vector<glm::dvec3> outermost_points(const Shape& shape) {
+  const LuminousOpening* opening = opening_of(shape);
+  if (opening == nullptr) return {shape.position};
+  const Frame frame = frame_of(shape);
+  std::vector<glm::dvec3> corners;
+  for (int k = 0; k < 8; ++k) {
+    const auto half = [k](double size, int bit) { return (k >> bit & 1) != 0 ? 0.5 * size : -0.5 * size; };
+    const glm::dvec3& size = opening->size_m;
+    corners.push_back(shape.position + half(size.x, 0) * frame.tangent + half(size.y, 1) * frame.bitangent +
+                      half(size.z, 2) * frame.normal);
+  }
+  return corners;
 }
 
 // Calls on_point(shape) for an emitter that is a point (it has a position, a law, and a frame_of()), on_surface(shape)

@@ -54,8 +54,12 @@ bool ConvexRoom::holds_all_emitters() const {
           constexpr bool has_axis = requires {
             point.axis;
           };
-          const Start start = tracer_->start(point.position, has_axis ? frame_of(point).normal : glm::dvec3(0.0));
-          return start.on_surface || !way_out(start.point);
+          const glm::dvec3 axis = has_axis ? frame_of(point).normal : glm::dvec3(0.0);
+          const std::vector<glm::dvec3> starts = outermost_points(point);
+          return std::all_of(starts.begin(), starts.end(), [&](const glm::dvec3& place) {
+            const Start start = tracer_->start(place, axis);
+            return start.on_surface || !way_out(start.point);
+          });
         },
         [this](const auto& area_light) { return emits_inwards(room_->surfaces[area_light.surface]); });
   });

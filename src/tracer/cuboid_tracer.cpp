@@ -284,7 +284,11 @@ class CuboidTracer final : public Tracer {
 // Whether an emitter is outside the cuboid or emits out of it: its light would hit the other side of the walls.
 bool emits_outside(const Emitter& emitter, const CuboidTracer& tracer) {
   return visit_shape(
-      emitter, [&](const auto& point) { return !tracer.holds(point.position); },
+      emitter,
+      [&](const auto& point) {
+        const std::vector<glm::dvec3> starts = outermost_points(point);
+        return !std::all_of(starts.begin(), starts.end(), [&](const glm::dvec3& place) { return tracer.holds(place); });
+      },
       [&](const auto& area_light) { return tracer.emits_outwards(area_light.surface); });
 }
 

@@ -151,7 +151,7 @@ class BackwardGoal : public GoalBase {
   // by one flight more.
   void reflect(Wave& wave, std::uint32_t flight) {
     if (flight == max_flights_) return;
-    if (!light_->takes_all() || light_->has_area_lights()) number_histories(wave);
+    if (!light_->takes_all() || light_->has_extended_lights()) number_histories(wave);
     const double* forward_ratio = forward_per_walk_ > 0.0 ? forward_ratio_.data() : nullptr;
     if constexpr (keeps_paths) {
       arrivals_.leave(wave);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "walk/opening_sampling.hpp"
+
 namespace lichtmc {
 
 namespace {
@@ -43,12 +45,24 @@ DirectIrradiance cell_irradiance(const DirectLight& light, const Tracer& tracer,
                                  TraceCount& count) {
   DirectIrradiance sum = by_points(light, tracer, cell, stream, number, accuracy, count);
   double variance = sum.standard_error * sum.standard_error;
-  for (std::size_t k = 0; k < light.areas().size() && !cell.way_out; ++k) {
-    const std::uint64_t own = number * light.areas().size() + k;
-    const auto anywhere = [&](std::uint32_t sample) {
+  // Random points of the cell for the samples of an extended light.
+  const auto anywhere_by = [&](std::uint64_t own) {
+    return [&, own](std::uint32_t sample) {
       const Words words = stream.draw(own, sample, Purpose::direct_place);
       return cell.in_cell(unit_open(words[0]), unit_open(words[1]), tracer);
     };
+  };
+  for (std::size_t k = 0; k < light.openings().size(); ++k) {
+    // Other words than those of area lights.
+    const std::uint64_t own = (number * light.openings().size() + k) | std::uint64_t{1} << 63;
+    const DirectIrradiance part =
+        sample_opening(light.openings()[k], tracer, anywhere_by(own), stream, own, accuracy, count);
+    sum.value += part.value;
+    variance += part.standard_error * part.standard_error;
+  }
+  for (std::size_t k = 0; k < light.areas().size() && !cell.way_out; ++k) {
+    const std::uint64_t own = number * light.areas().size() + k;
+    const auto anywhere = anywhere_by(own);
     const DirectIrradiance part = sample_area_light(light.areas()[k], tracer, anywhere, stream, own, accuracy, count);
     sum.value += part.value;
     variance += part.standard_error * part.standard_error;

@@ -11,6 +11,7 @@
 #include "room/emitter_shape.hpp"
 #include "walk/learn_selection.hpp"
 #include "walk/near_area_light.hpp"
+#include "walk/opening_sampling.hpp"
 
 namespace lichtmc {
 
@@ -40,15 +41,18 @@ DirectLight::DirectLight(const Room& room, const Tracer& tracer)
     visit_shape(
         room.emitters[n],
         [&](const auto& point) {
-          sources_.push_back({false, points_.size(), source, n, flux});
-          points_.emplace_back(point, flux, n);
+          const bool opens = opening_of(point) != nullptr;
+          std::vector<PointLight>& lights = opens ? openings_ : points_;
+          const auto kind = opens ? LightSource::Kind::opening : LightSource::Kind::point;
+          sources_.push_back({kind, lights.size(), source, n, flux});
+          lights.emplace_back(point, flux, n);
         },
         [&](const auto& area) {
           AreaLight light(room, area, emission.of(area), flux, tracer.locate(area.surface, 0).facet,
                           tracer.faces_in_one_plane());
           if (!(light.area_m2() > 0.0)) return;  // wholly covered
           area_sources_of_surface_[area.surface].push_back(source);
-          sources_.push_back({true, areas_.size(), source, n, flux});
+          sources_.push_back({LightSource::Kind::area, areas_.size(), source, n, flux});
           areas_.push_back(std::move(light));
         });
     if (sources_.size() > source) source_of_emitter_[n] = source;
@@ -79,6 +83,14 @@ DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, con
   DirectIrradiance sum;
   double variance = 0.0;
   sum.value = irradiance_by_points(reference, count);
+  const auto same_point = [&reference](std::uint32_t) { return reference; };
+  for (std::size_t k = 0; k < openings_.size(); ++k) {
+    const DirectIrradiance part =
+        sample_opening(openings_[k], *tracer_, same_point, stream, number * openings_.size() + k, accuracy, count);
+    sum.value += part.value;
+    variance += part.standard_error * part.standard_error;
+  }
+  sum.standard_error = std::sqrt(variance);
   if (reference.way_out) return sum;  // the walls lie between area lights, which are walls, and points outside
   for (std::size_t k = 0; k < areas_.size(); ++k) {
     if (!tracer_->casts_shadows() && areas_[k].has_closed_form() && reference.least_cosine <= 0.0) {
@@ -92,7 +104,6 @@ DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, con
       variance += part.standard_error * part.standard_error;
       continue;
     }
-    const auto same_point = [&reference](std::uint32_t) { return reference; };
     const DirectIrradiance part =
         sample_area_light(areas_[k], *tracer_, same_point, stream, number * areas_.size() + k, accuracy, count);
     sum.value += part.value;
@@ -137,8 +148,11 @@ LightSample DirectLight::sample_light(std::size_t k, std::uint32_t cell, const R
 LightSample DirectLight::sample_of(const Choice& choice, const ReferencePoint& reference, const Words& where,
                                    double forward_ratio) const {
   const LightSource& source = sources_[choice.source];
-  if (!source.is_area) {
-    LightSample sample = points_[source.index].sample_light(reference);
+  if (source.kind != LightSource::Kind::area) {
+    const bool opens = source.kind == LightSource::Kind::opening;
+    const PointLight& light = opens ? openings_[source.index] : points_[source.index];
+    LightSample sample = opens ? light.sample_light(reference, light.place(unit_open(where[0]), unit_open(where[1])))
+                               : light.sample_light(reference);
     if (sample.irradiance > 0.0) sample.irradiance = weighted(sample.irradiance, choice.probability, forward_ratio);
     return sample;
   }

@@ -29,8 +29,9 @@ struct Scene;
 
 // An emitter with a flux, as DirectLight has it.
 struct LightSource {
-  bool is_area = false;
-  std::size_t index = 0;    // into DirectLight::points() or areas()
+  enum class Kind { point, opening, area };
+  Kind kind = Kind::point;
+  std::size_t index = 0;    // into DirectLight::points(), openings() or areas()
   std::size_t number = 0;   // among all sources
   std::size_t emitter = 0;  // index into Room::emitters
   double flux = 0.0;        // W or lm
@@ -53,19 +54,21 @@ class DirectLight {
   // Its part by point emitters.
   double irradiance_by_points(const ReferencePoint& reference, TraceCount& count) const;
 
-  // The emitters with a flux above 0 that are not wholly covered by other faces in their plane.
+  // The emitters with a flux above 0 that are not wholly covered by other faces in their plane; openings: point
+  // emitters whose light starts all over an opening.
   const std::vector<PointLight>& points() const { return points_; }
+  const std::vector<PointLight>& openings() const { return openings_; }
   const std::vector<AreaLight>& areas() const { return areas_; }
 
   // Number of light samples at each surface of a walk: one of every emitter if there are few, else one of one emitter
   // (light_selection.hpp).
   std::size_t light_samples_per_point() const { return selection_ ? 1 : sources_.size(); }
 
-  // The emitters that light samples choose from, numbered from 0; a point light, or null for an area light.
+  // The emitters that light samples choose from, numbered from 0; a point light, or null for others.
   std::size_t sources() const { return sources_.size(); }
   const LightSource& source(std::size_t number) const { return sources_[number]; }
   const PointLight* point_light(std::size_t source) const {
-    return sources_[source].is_area ? nullptr : &points_[sources_[source].index];
+    return sources_[source].kind == LightSource::Kind::point ? &points_[sources_[source].index] : nullptr;
   }
   // Whether light sample k is of source k; if not, a source is chosen for it by u, uniform in [0, 1).
   bool takes_all() const { return !selection_; }
@@ -95,7 +98,8 @@ class DirectLight {
   // with the density e₀/ΣΦ, e₀ the irradiance by that point; per area of the emitter if it is an area light. With q the
   // probability that the light sample chooses the emitter, p_L the density of its points on it, and p_hit the density
   // with which a flight from the surface hits x₀, the weights are
-  //   of a point light:             q / (q + forward_ratio e₀/ΣΦ)
+  //   of a point light, or a point of an opening, whose density is the same either way:
+  //                                 q / (q + forward_ratio e₀/ΣΦ)
   //   of the point of an area light: q p_L / (q p_L + p_hit + forward_ratio e₀/ΣΦ)
   //   of the flight that hits it:   p_hit / (q p_L + p_hit + forward_ratio e₀/ΣΦ)
   LightSample sample_light(std::size_t k, std::uint32_t cell, const ReferencePoint& reference, const Words& which,
@@ -117,6 +121,8 @@ class DirectLight {
   void mis_weighted_emission(const Rays& rays, std::size_t i, std::uint32_t cell, double cosine_here,
                              const FlightGeometry& flight, double forward_ratio, const Add& add) const;
   bool has_area_lights() const { return !areas_.empty(); }
+  // Whether light samples of some emitters take a random point of them.
+  bool has_extended_lights() const { return !areas_.empty() || !openings_.empty(); }
   bool is_area_light(std::size_t surface) const { return !area_sources_of_surface_[surface].empty(); }
 
   // The emitter that a receiver at this point lies on, as index into Room::emitters.
@@ -140,6 +146,7 @@ class DirectLight {
   const Room* room_;
   const Tracer* tracer_;
   std::vector<PointLight> points_;
+  std::vector<PointLight> openings_;
   std::vector<AreaLight> areas_;
   std::vector<LightSource> sources_;
   std::vector<std::size_t> source_of_emitter_;                     // of Room::emitters; or no_source

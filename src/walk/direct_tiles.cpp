@@ -152,9 +152,11 @@ class DirectTiles::Sum {
     const std::vector<double>& least = tiles.accuracy_.least;
     if (!least.empty()) floor_ = std::max(floor_, least[(*tiles.faces_)[face].tile]);
     const std::size_t points = tiles.light_->points().size();
-    sources_ = points + tiles.light_->areas().size();
+    const std::size_t areas = points + tiles.light_->areas().size();
+    sources_ = areas + tiles.light_->openings().size();
     for (std::size_t k = 0; k < points; ++k) add_point(k, tiles.light_->points()[k]);
-    for (std::size_t k = points; k < sources_; ++k) add_area(k, tiles.light_->areas()[k - points]);
+    for (std::size_t k = points; k < areas; ++k) add_area(k, tiles.light_->areas()[k - points]);
+    for (std::size_t k = areas; k < sources_; ++k) add_opening(k, tiles.light_->openings()[k - areas]);
   }
 
   // The first samples determine how many are needed, and are not used otherwise: so neither the mean nor its error is
@@ -214,6 +216,11 @@ class DirectTiles::Sum {
     if (light->is_dark()) return;
     parts_.emplace_back(std::move(light), face_ * sources_ + k);
     if (!tiles_.tracer_->casts_shadows()) parts_.back().set_exact();
+  }
+
+  void add_opening(std::size_t k, const PointLight& source) {
+    auto light = std::make_unique<OpeningOnFace>(triangles_, source);
+    if (!light->is_dark()) parts_.emplace_back(std::move(light), face_ * sources_ + k);
   }
 
   void add_area(std::size_t k, const AreaLight& source) {

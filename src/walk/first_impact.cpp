@@ -17,8 +17,12 @@ double FirstImpact::backward_over_forward(std::size_t emitter, const StartOnFace
   const ReferencePoint reference{tracer_->world_point(end), hit_normal(*tracer_, rays, i), 0.0};
   const LightSource& source = light_->source_of(emitter);
   const double q = light_->selection_probability(source, reference);
-  if (!source.is_area) {
-    const double irradiance = light_->points()[source.index].sample_light(reference).irradiance;
+  if (source.kind != LightSource::Kind::area) {
+    const bool opens = source.kind == LightSource::Kind::opening;
+    const double irradiance = opens ? light_->openings()[source.index]
+                                          .sample_light(reference, tracer_->world_point(glm::dvec3(rays.start(i))))
+                                          .irradiance
+                                    : light_->points()[source.index].sample_light(reference).irradiance;
     // A photon of a pencil beam reaches points that no light sample finds: its path is made forward only.
     return irradiance > 0.0 ? q * power_ / irradiance : 0.0;
   }

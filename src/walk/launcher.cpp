@@ -52,8 +52,13 @@ LICHTMC_LANES void rotate(std::size_t n, const float* LICHTMC_APART x, const flo
 // Directions of photons begin … end − 1 in the frames of their emitters, which all have this law.
 template <class Law, class Launches>
 void sample_directions(const Law& law, Launches& launches, std::uint32_t begin, std::uint32_t end) {
-  polar_angles(law, end - begin, &launches.polar[begin], &launches.sine[begin], &launches.z[begin]);
-  turn(end - begin, &launches.sine[begin], &launches.azimuth[begin], &launches.x[begin], &launches.y[begin]);
+  if constexpr (PolarLaneLaw<Law>) {
+    polar_angles(law, end - begin, &launches.polar[begin], &launches.sine[begin], &launches.z[begin]);
+    turn(end - begin, &launches.sine[begin], &launches.azimuth[begin], &launches.x[begin], &launches.y[begin]);
+  } else {
+    lane_directions(law, end - begin, &launches.polar[begin], &launches.azimuth[begin], &launches.x[begin],
+                    &launches.y[begin], &launches.z[begin]);
+  }
 }
 
 // Starts photons begin … end − 1, whose directions have been sampled, from one emitter.
@@ -68,11 +73,17 @@ void start_together(const Source& point, const Launches& launches, std::uint32_t
   std::fill_n(&rays.z[begin], n, point.start.point.z);
 }
 
+// Whether all photons of a source start at one point.
+template <class Source>
+bool starts_at_one_point(const Source& source) {
+  return source.start.steps.empty() && !source.opening;
+}
+
 // Whether the photons of two emitters can be sampled together: equal laws that are sampled in lanes, and none of them
-// touches a surface.
+// touches a surface or has an opening.
 template <class Source>
 bool go_together(const Source& a, const Source& b) {
-  if (!a.start.steps.empty() || !b.start.steps.empty()) return false;
+  if (!starts_at_one_point(a) || !starts_at_one_point(b)) return false;
   return std::visit(
       [](const auto& law, const auto& other) {
         using Law = std::decay_t<decltype(law)>;
@@ -140,6 +151,12 @@ Launcher::PointSource Launcher::point_source(const Shape& shape, const Tracer& t
   source.start = tracer.start(shape.position, has_axis ? frame.normal : glm::dvec3(0.0));
   source.to_tracer = tracer.directions() * glm::dmat3(frame.tangent, frame.bitangent, frame.normal);
   all_off_surfaces_ = all_off_surfaces_ && !source.start.on_surface;
+  if (const LuminousOpening* opening = opening_of(shape)) {
+    source.opening = *opening;
+    for (int k = 0; k < 3; ++k)
+      source.places[k] = tracer.tracer_vector(glm::dmat3(frame.tangent, frame.bitangent, frame.normal)[k]);
+    all_off_surfaces_ = false;  // a point of it may be on one
+  }
   return source;
 }
 
@@ -166,7 +183,9 @@ void Launcher::launch(const Stream& stream, std::uint64_t history, Rays& rays, s
   if (const auto* point = std::get_if<PointSource>(&source)) {
     const double u = unit_open(words[0]);
     const double turns = unit_open(words[1]);
-    start_at(*point, std::visit([&](const auto& law) { return law.sample(u, turns); }, point->law), rays, i);
+    const glm::dvec3 local = std::visit([&](const auto& law) { return law.sample(u, turns); }, point->law);
+    const Words place = point->opening ? LaunchWords(stream).place(history) : Words{};
+    start_at(*point, local, point->opening ? &place : nullptr, rays, i);
   } else {
     const auto& surface = std::get<SurfaceSource>(source);
     const glm::dvec3 local = surface.law.sample(unit_open(words[0]), unit_open(words[1]));
@@ -283,27 +302,44 @@ void Launcher::launch_from(std::size_t k, Launches& launches, std::uint32_t begi
   }
   const auto& point = std::get<PointSource>(sources_[k]);
   std::visit([&](const auto& law) { launch_from_point(point, law, launches, begin, end, rays); }, point.law);
+  if (!point.opening) return;
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const Words place = words.place(first + photon[i]);
+    const glm::dvec3 local(launches.x[i], launches.y[i], launches.z[i]);
+    start_at(point, local, &place, rays, i);
+  }
 }
 
 // Photons of a law that is sampled in lanes are launched together; those of other laws, and those of an emitter that
-// touches a surface (on either side), one by one.
+// touches a surface (on either side), one by one. With an opening, only their directions are sampled here.
 template <class Law>
 void Launcher::launch_from_point(const PointSource& point, const Law& law, Launches& launches, std::uint32_t begin,
                                  std::uint32_t end, Rays& rays) const {
   if constexpr (LaneLaw<Law>) {
-    if (point.start.steps.empty()) {
+    if (starts_at_one_point(point)) {
       sample_directions(law, launches, begin, end);
       start_together(point, launches, begin, end, rays);
       return;
     }
   }
-  for (std::uint32_t i = begin; i < end; ++i)
-    start_at(point, law.sample(unit_open(launches.polar[i]), unit_open(launches.azimuth[i])), rays, i);
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const glm::dvec3 local = law.sample(unit_open(launches.polar[i]), unit_open(launches.azimuth[i]));
+    launches.x[i] = static_cast<float>(local.x);
+    launches.y[i] = static_cast<float>(local.y);
+    launches.z[i] = static_cast<float>(local.z);
+    if (!point.opening) start_at(point, local, nullptr, rays, i);
+  }
 }
 
-void Launcher::start_at(const PointSource& source, const glm::dvec3& local, Rays& rays, std::size_t i) {
+void Launcher::start_at(const PointSource& source, const glm::dvec3& local, const Words* place, Rays& rays,
+                        std::size_t i) {
   const glm::vec3 direction(source.to_tracer * local);
   glm::vec3 point = source.start.point;
+  // Anywhere on the opening, with the same distribution of directions.
+  if (place != nullptr) {
+    const glm::dvec3 on_opening = source.opening->place(unit_fine((*place)[0], (*place)[1]), unit_open((*place)[2]));
+    point = glm::vec3(glm::dvec3(point) + source.places * on_opening);
+  }
   // If the emitter touches a surface, each photon starts on the side that its direction points to.
   for (const glm::vec3& step : source.start.steps) point += glm::dot(step, direction) < 0.0F ? -step : step;
   rays.facet[i] = no_facet;

@@ -54,6 +54,8 @@ class Launcher {
     Start start;
     glm::dmat3 to_tracer{1.0};  // from the emitter's frame, third axis its own
     EmitterLaw law;
+    std::optional<LuminousOpening> opening{};  // all over which photons start; none: at one point
+    glm::dmat3 places{1.0};                    // its points, from the emitter's frame to the tracer's coordinates
   };
   struct SurfaceSource {
     std::vector<double> areas_up_to;  // cumulative fractions of the triangles' areas, the last is 1
@@ -76,7 +78,9 @@ class Launcher {
   template <class Law>
   void launch_from_point(const PointSource& point, const Law& law, Launches& launches, std::uint32_t begin,
                          std::uint32_t end, Rays& rays) const;
-  static void start_at(const PointSource& source, const glm::dvec3& local, Rays& rays, std::size_t i);
+  // place: random words of the point of the opening; null without one.
+  static void start_at(const PointSource& source, const glm::dvec3& local, const Words* place, Rays& rays,
+                       std::size_t i);
   // A photon of this history starts from a surface, in a direction of the facet's frame.
   void start_on(const SurfaceSource& source, const glm::vec3& local, const LaunchWords& words, std::uint64_t history,
                 Rays& rays, std::size_t i) const;

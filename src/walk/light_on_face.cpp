@@ -33,6 +33,27 @@ void PointOnFace::sample(const UnitPoint& at, std::vector<Connection>& found) {
   if (irradiance > 0.0) found.push_back({irradiance * lit.share, lit.place, source_.position()});
 }
 
+bool OpeningOnFace::is_dark() const {
+  for (std::size_t k = 0; k < face_.size(); ++k) {
+    const ReferencePoint reference = face_.reference(k);
+    if (glm::dot(source_.position() - reference.point, reference.normal) > -source_.reach_m()) return false;
+  }
+  return true;
+}
+
+std::span<const std::uint8_t> OpeningOnFace::dimensions() const {
+  static constexpr std::array<std::uint8_t, 4> of_both{0, 2, 1, 3};
+  return of_both;
+}
+
+void OpeningOnFace::sample(const UnitPoint& at, std::vector<Connection>& found) {
+  const FacePoint from = face_.point(at[0], at[1]);
+  here_.point = from.point;
+  here_.normal = face_.normal(from.triangle);
+  const LightSample sample = source_.sample_light(here_, source_.place(at[2], at[3]));
+  if (sample.irradiance > 0.0) found.push_back({face_.share() * sample.irradiance, from, sample.target});
+}
+
 // The density of flights per area of the light is at most 1/(π d²) at a distance d. Where that is more than the density
 // of uniform points, samples of these vary by more than the strata even out.
 AreaOnFace::AreaOnFace(const FaceTriangles& face, const AreaLight& source) : face_(face), source_(source) {

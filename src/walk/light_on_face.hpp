@@ -64,6 +64,22 @@ class PointOnFace final : public LightOnFace {
   FaceIntegral integral_;
 };
 
+// A point emitter with an opening: points uniform over both.
+class OpeningOnFace final : public LightOnFace {
+ public:
+  OpeningOnFace(const FaceTriangles& face, const PointLight& source) : face_(face), source_(source) {}
+
+  // Whether all of the opening is below the horizon of all parts of the face.
+  bool is_dark() const;
+  std::span<const std::uint8_t> dimensions() const override;
+  void sample(const UnitPoint& at, std::vector<Connection>& found) override;
+
+ private:
+  const FaceTriangles& face_;
+  const PointLight& source_;
+  ReferencePoint here_;
+};
+
 // An area light: points uniform over the face.
 class AreaOnFace final : public LightOnFace {
  public:

@@ -93,14 +93,19 @@ auto further_words(double u, double v, double w) {
 
 }  // namespace
 
-LightSample PointLight::sample_light(const ReferencePoint& reference) const {
-  const glm::dvec3 segment = position_ - reference.point;
+LightSample PointLight::sample_light(const ReferencePoint& reference, const glm::dvec3& from) const {
+  const glm::dvec3 segment = from - reference.point;
   const double r = glm::length(segment);
   if (!(r > 0.0)) return {};
   const glm::dvec3 towards = segment / r;
   const double cosine = glm::dot(towards, reference.normal);
   if (cosine <= 0.0 || cosine < reference.least_cosine) return {};
-  return {flux_ * density(-towards) * cosine / (r * r), position_, 0.0};
+  return {flux_ * density(-towards) * cosine / (r * r), from, 0.0};
+}
+
+glm::dvec3 PointLight::place(double u, double v) const {
+  const glm::dvec3 p = opening_ ? opening_->place(u, v) : glm::dvec3(0.0);
+  return position_ + p.x * frame_.tangent + p.y * frame_.bitangent + p.z * frame_.normal;
 }
 
 std::optional<double> PointLight::uniform_intensity() const {

@@ -40,9 +40,20 @@ class PointLight {
         law_(shape.law()),
         extent_(shape.law().extent()),
         flux_(flux),
-        number_(number) {}
+        number_(number) {
+    if (const LuminousOpening* opening = opening_of(shape)) opening_ = *opening;
+  }
 
-  LightSample sample_light(const ReferencePoint& reference) const;
+  // Of light that starts at its position, or at a point of its opening (world, m).
+  LightSample sample_light(const ReferencePoint& reference) const { return sample_light(reference, position_); }
+  LightSample sample_light(const ReferencePoint& reference, const glm::dvec3& from) const;
+
+  // Whether its light starts all over an opening: its irradiance is the mean over that.
+  bool has_opening() const { return opening_.has_value(); }
+  // A point of it, uniform over its area, for u and v in [0, 1); world, m.
+  glm::dvec3 place(double u, double v) const;
+  // No point of it is further from the position, in m.
+  double reach_m() const { return opening_ ? opening_->half_diagonal_m() : 0.0; }
 
   const EmitterExtent& extent() const { return extent_; }
   std::size_t number() const { return number_; }
@@ -61,6 +72,7 @@ class PointLight {
   EmitterExtent extent_;
   double flux_;
   std::size_t number_;
+  std::optional<LuminousOpening> opening_;
 };
 
 class AreaLight {

@@ -7,6 +7,7 @@
 #include "room/emitter_shape.hpp"
 #include "room/nearest_on_triangle.hpp"
 #include "walk/area_light_sampling.hpp"
+#include "walk/opening_sampling.hpp"
 #include "walk/visibility.hpp"
 
 namespace lichtmc {
@@ -31,8 +32,10 @@ class Sight {
   LineOfSight find() {
     for (std::size_t k = 0; k < light_.sources(); ++k) {
       const LightSource& source = light_.source(k);
-      if (!source.is_area) {
-        add_point(*light_.point_light(k), source.emitter);
+      if (source.kind == LightSource::Kind::point) {
+        add_point(light_.points()[source.index], source.emitter);
+      } else if (source.kind == LightSource::Kind::opening) {
+        add_opening(light_.openings()[source.index], source.emitter);
       } else if (!receiver_.way_out) {  // the walls lie between area lights, which are walls, and points outside
         add_area(light_.areas()[source.index], source.emitter);
       }
@@ -68,7 +71,10 @@ class Sight {
     hidden = std::min(hidden, length);
   }
 
-  void add_area(const AreaLight& light, std::size_t emitter) {
+  // Paths from samples of an extended light, in sets. sample(same point, number, accuracy, record): its irradiance.
+  // Returns the shortest path.
+  template <class Sample>
+  double add_sampled(std::size_t emitter, const Sample& sample) {
     const std::uint32_t group = axes_.group_of_emitter[emitter];
     // Sets of a single channel determine only how its light is spread over time: the direct irradiance is known. Else
     // each set has an error of 0.6 % and all together have 0.1 %.
@@ -87,10 +93,29 @@ class Sight {
       // Other random words than those of the direct irradiance.
       const std::uint64_t number =
           ((number_ * room_.emitters.size() + emitter) * jackknife_groups + set) | std::uint64_t{1} << 62;
-      const DirectIrradiance mean =
-          AreaLightSampler(light, tracer_, same_point, stream_, number, count_, record).sample(accuracy);
+      const DirectIrradiance mean = sample(same_point, number, accuracy, record);
       for (std::size_t k = begin; k < found_.paths.size(); ++k) found_.paths[k].irradiance *= mean.value / sum;
     }
+    return shortest;
+  }
+
+  // The first arrival is known as that of a sample: an upper bound. The least possible distance is that of the box
+  // around the opening.
+  void add_opening(const PointLight& light, std::size_t emitter) {
+    const double shortest = add_sampled(emitter, [&](const auto& same_point, std::uint64_t number,
+                                                     const SamplingAccuracy& accuracy, const auto& record) {
+      return sample_opening(light, tracer_, same_point, stream_, number, accuracy, count_, record);
+    });
+    if (shortest < std::numeric_limits<double>::infinity()) see(emitter, shortest, false);
+    const double nearest = std::max(0.0, glm::length(light.position() - receiver_.point) - light.reach_m());
+    hide(emitter, nearest + axes_.delay_m[emitter]);
+  }
+
+  void add_area(const AreaLight& light, std::size_t emitter) {
+    const double shortest = add_sampled(emitter, [&](const auto& same_point, std::uint64_t number,
+                                                     const SamplingAccuracy& accuracy, const auto& record) {
+      return AreaLightSampler(light, tracer_, same_point, stream_, number, count_, record).sample(accuracy);
+    });
     const NearestPoint nearest = nearest_point(emitter);
     const double length = nearest.length_m + axes_.delay_m[emitter];
     // Samples are on the triangles to rounding.

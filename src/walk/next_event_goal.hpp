@@ -176,12 +176,17 @@ class NextEventGoal : public GoalBase {
     }
   }
 
-  // Point emitters have their place exactly; on area lights flights start one step off the plane.
+  // Point emitters have their place exactly, points of openings that of the flight; on area lights flights start one
+  // step off the plane.
   void start_paths(const Wave& wave) {
     for (std::size_t i = 0; i < wave.rays.size; ++i) {
       const std::uint32_t photon = wave.photon[i];
       const glm::dvec3 start = visit_shape(
-          room_->emitters[emitter_[photon]], [](const auto& point) { return point.position; },
+          room_->emitters[emitter_[photon]],
+          [&](const auto& point) {
+            if (opening_of(point) == nullptr) return point.position;
+            return scene_->tracer->world_point(glm::dvec3(wave.rays.start(i)));
+          },
           [&](const auto& /*area*/) {
             const glm::dvec3 off = scene_->tracer->world_point(glm::dvec3(wave.rays.start(i)));
             return flight_paths_.planes().nearest(from_[photon].facet, off);

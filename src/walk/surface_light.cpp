@@ -55,7 +55,7 @@ void SurfaceLight::sample_one(const Wave& wave, std::uint32_t number, std::size_
   choose(wave, number, k);
   points_.sample(wave.rays, samples_);
   weigh(wave, forward_ratio);
-  if (light_->has_area_lights()) sample_areas(wave, number, forward_ratio);
+  if (light_->has_extended_lights()) sample_extended(wave, number, forward_ratio);
   if (tracer_->casts_shadows()) remove_blocked(wave.rays, count);
   add_lanes(wave.rays.size, samples_.irradiance.data(), irradiance_.data());
 }
@@ -97,7 +97,7 @@ void SurfaceLight::weigh(const Wave& wave, const double* forward_ratio) {
   }
 }
 
-void SurfaceLight::sample_areas(const Wave& wave, std::uint32_t number, const double* forward_ratio) {
+void SurfaceLight::sample_extended(const Wave& wave, std::uint32_t number, const double* forward_ratio) {
   const Rays& rays = wave.rays;
   const std::size_t n = rays.size;
   const bool some = std::any_of(samples_.source.begin(), samples_.source.begin() + static_cast<std::ptrdiff_t>(n),

@@ -51,7 +51,7 @@ class SurfaceLight {
   void find_cells(const Rays& rays);
   void choose(const Wave& wave, std::uint32_t number, std::size_t k);
   void weigh(const Wave& wave, const double* forward_ratio);
-  void sample_areas(const Wave& wave, std::uint32_t number, const double* forward_ratio);
+  void sample_extended(const Wave& wave, std::uint32_t number, const double* forward_ratio);
   void remove_blocked(const Rays& rays, TraceCount& count);
 
   const DirectLight* light_;
