@@ -1,0 +1,70 @@
+#include "photometry/measured_values.hpp"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "lichtmc/error.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+// Below −1 % of the maximum a negative value is no noise of the photometer.
+constexpr double noise = 0.01;
+// Of what any luminaire has, by far: below and above this a number has slipped.
+constexpr double least_candela = 1e-12;
+constexpr double most_candela = 1e15;
+
+}  // namespace
+
+void check_size(const Origin& origin, std::size_t line, std::size_t vertical, std::size_t horizontal) {
+  if (vertical * horizontal > photometry_limits::values)
+    origin.refuse(line, std::to_string(vertical) + " vertical x " + std::to_string(horizontal) +
+                            " horizontal angles are " + std::to_string(vertical * horizontal) + " values; at most " +
+                            std::to_string(photometry_limits::values) + " are read. Use a file with a coarser grid.");
+}
+
+void set_candela(Photometry& photometry, const Origin& origin, CandelaTable::Grid grid, MeasuredValues table,
+                 double factor) {
+  if (!(table.highest > 0.0))
+    origin.refuse(table.negative > 0
+                      ? "no candela value is above 0. Get a file of a measurement."
+                      : "every candela value is 0, the luminaire gives no light. Get a file of a measurement.");
+  if (table.lowest < -noise * table.highest)
+    origin.refuse(table.lowest_line, "a candela value is " + to_text(table.lowest) +
+                                         ". Allowed: 0 or more, and down to -1 % of the maximum (" +
+                                         to_text(table.highest) + ") as noise of the measurement. Correct the value.");
+  if (table.negative > 0)
+    photometry.warnings.push_back((table.negative == 1 ? std::string("1 negative candela value is")
+                                                       : to_text(table.negative, "negative candela value") + " are") +
+                                  " set to 0; the lowest is " + to_text(table.lowest) + ", " +
+                                  percent(-table.lowest / table.highest) + " of the maximum.");
+  const double most = table.highest * factor;
+  if (!(most >= least_candela && most <= most_candela))
+    origin.refuse("the maximum is " + to_text(most) + " " + photometry.intensity_unit + " (table " +
+                  to_text(table.highest) + " times factors " + to_text(factor) +
+                  "). Allowed: " + to_text(least_candela) + " to " + to_text(most_candela) + ". Correct the factors.");
+  for (double& value : table.values) value = std::max(value, 0.0) * factor;
+  grid.candela = std::move(table.values);
+  photometry.factor = factor;
+  try {
+    photometry.candela = std::make_shared<const CandelaTable>(std::move(grid));
+  } catch (const InputError& error) {
+    origin.refuse(error.what());
+  }
+}
+
+void compare_stated_flux(Photometry& photometry, const std::string& origin_of_statement) {
+  constexpr double allowed = 0.05;
+  if (!photometry.stated_lm) return;
+  const double flux = photometry.flux();
+  const double off = flux / *photometry.stated_lm - 1.0;
+  if (std::abs(off) <= allowed) return;
+  photometry.warnings.push_back("The file states " + rounded(*photometry.stated_lm, 4) + " lm (" + origin_of_statement +
+                                "); the integral of its table is " + rounded(flux, 4) + " lm, " +
+                                percent(std::abs(off)) + (off > 0.0 ? " more" : " less") +
+                                ". The table counts: give the flux that is meant, in lm, if it is another.");
+}
+
+}  // namespace lichtmc
