@@ -17,6 +17,7 @@
 
 #include "lichtmc/simulate.hpp"
 #include "lichtmc/version.hpp"
+#include "luminaire_rows.hpp"
 #include "measure.hpp"
 #include "raw_embree.hpp"
 #include "receiver_rows.hpp"
@@ -209,6 +210,11 @@ std::vector<Measured> measure_all(const Options& options) {
       for (int k = 0; k < 9; ++k) room.emitters.push_back({"more", 0.0, IsotropicEmitter{{0.1 * (k + 1), 0.5, 0.5}}});
     });
   });
+  add("unused", [&] {
+    return unused(options, "a measured luminaire", [](Room& room) {
+      room.emitters.push_back(office_luminaire({0.5, 0.9, 0.5}, 0.0));
+    });
+  });
   add("tiles", [&] { return many_tiles(options); });
   add("start", [&] { return start_up(options); });
   add("estimators", [&] { return estimator(options, Estimator::weight); });
@@ -225,6 +231,7 @@ std::vector<Measured> measure_all(const Options& options) {
   };
   add_rows("points", points_rows);
   add_rows("channel", channel_rows);
+  add_rows("luminaires", luminaire_rows);
   for (std::size_t k = 0; k < all.size(); ++k) {
     std::cerr << "\r" << k + 1 << " of " << all.size() << "" << std::flush;
     measured.push_back(all[k]());
@@ -296,7 +303,7 @@ static int run_program(int argc, char** argv) {
   program.add_flag("--quick", options.quick, "Shorter turns: under a minute");
   program.add_option("--only", options.only, "One group of measurements")
       ->check(CLI::IsMember(
-          {"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators", "backward", "lamps", "points", "direct", "channel"}));
+          {"memory", "textbook", "embree", "threads", "unused", "tiles", "start", "estimators", "backward", "lamps", "points", "direct", "channel", "luminaires"}));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

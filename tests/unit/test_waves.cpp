@@ -6,6 +6,7 @@
 
 #include "base/lanes.hpp"
 #include "support/catch.hpp"
+#include "support/luminaires.hpp"
 #include "support/rooms.hpp"
 #include "walk/cell_finder.hpp"
 #include "walk/estimators.hpp"
@@ -100,6 +101,7 @@ TEST_CASE("photons of a wave survive as they do one by one") {
 }
 
 TEST_CASE("photons of a wave start as they do one by one") {
+  const auto skew_luminaire = test::skew_luminaire();
   Room room = make_cuboid({2, 3, 4}, uniform_reflectance(0.5));
   // Successive emitters with one law are launched together, also where one of them touches a surface or emits nothing.
   room.emitters = {lambert({1, 2, 3}, {1, 1, 1}, 1e6, 0.5),
@@ -114,6 +116,12 @@ TEST_CASE("photons of a wave start as they do one by one") {
                    surface_emitter(1, 1.5, 2.0),
                    isotropic({0.3, 2.0, 1.0}),
                    isotropic({1.0, 0.0, 1.0})};  // on the floor
+  // Luminaires with one table, one of them with an opening, one on the floor.
+  for (const double height : {2.0, 1.0, 0.0}) {
+    MeasuredEmitter luminaire{skew_luminaire, {1.0, height, 2.0}};
+    if (height == 1.0) luminaire.opening = skew_luminaire->opening;
+    room.emitters.push_back({"luminaire", 1.0, luminaire});
+  }
   const Stream stream(5);
   for (std::size_t emitters = room.emitters.size(); emitters > 0; --emitters) {
     room.emitters.resize(emitters);
