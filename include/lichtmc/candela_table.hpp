@@ -22,6 +22,7 @@
 
 namespace lichtmc {
 
+class CandelaLookup;
 class CandelaSampler;
 
 // The axes of the two angles: photometric types of IES LM-63. EULUMDAT files are of type C.
@@ -72,6 +73,8 @@ class CandelaTable {
 
   // Intensity in cd in a direction (length 1) of the luminaire's frame.
   double candela(const glm::dvec3& direction) const;
+  // The same for n directions, given by arrays of their components; faster than one by one.
+  void candela(std::size_t n, const double* x, const double* y, const double* z, double* candela) const;
 
   // The integral over all directions, in lm: exact, cell by cell.
   double flux() const { return flux_; }
@@ -93,7 +96,6 @@ class CandelaTable {
   const CandelaSampler& sampler() const;
 
  private:
-  double at_angles(double horizontal, double vertical) const;
   void check() const;
   void find_peak();
   void find_extent();
@@ -104,6 +106,7 @@ class CandelaTable {
   double half_angle_ = 0.0;
   double width_ = 0.0;
   bool sharp_edge_ = false;
+  std::unique_ptr<CandelaLookup> lookup_;
   mutable std::once_flag sampler_once_;
   mutable std::unique_ptr<CandelaSampler> sampler_;
 };

@@ -18,6 +18,9 @@ namespace lichtmc {
 
 inline constexpr double radians_per_degree = std::numbers::pi / 180.0;
 
+// Degrees by which a direction may miss the edge of a table by rounding.
+inline constexpr double table_rounding_deg = 1e-9;
+
 // A direction of the luminaire's frame as polar vector, and back.
 inline glm::dvec3 to_polar(const CandelaTable::Grid& grid, const glm::dvec3& d) {
   const double hand = grid.flip_horizontal ? -1.0 : 1.0;

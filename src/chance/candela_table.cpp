@@ -8,6 +8,7 @@
 
 #include "base/message.hpp"
 #include "chance/candela_grid.hpp"
+#include "chance/candela_lookup.hpp"
 #include "chance/candela_sampler.hpp"
 #include "lichtmc/error.hpp"
 
@@ -16,27 +17,6 @@ namespace lichtmc {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-// Degrees by which a direction may miss the edge of a table by rounding.
-constexpr double rounding_deg = 1e-9;
-
-// Interval of `at` in ascending angles, and the position in it; at the last angle the end of the last interval.
-struct Position {
-  std::size_t interval = 0;
-  double fraction = 0.0;
-};
-Position position_in(const std::vector<double>& angles, double at) {
-  const auto above = std::upper_bound(angles.begin(), angles.end(), at);
-  const auto k =
-      std::clamp<std::ptrdiff_t>(above - angles.begin() - 1, 0, static_cast<std::ptrdiff_t>(angles.size()) - 2);
-  const auto interval = static_cast<std::size_t>(k);
-  const double fraction = (at - angles[interval]) / (angles[interval + 1] - angles[interval]);
-  return {interval, std::clamp(fraction, 0.0, 1.0)};
-}
-
-bool is_within(const std::vector<double>& angles, double at) {
-  return at >= angles.front() - rounding_deg && at <= angles.back() + rounding_deg;
-}
 
 // Calls add(plane, plane', row, Δφ in rad) for the cells between adjacent angles; a single plane turns all round.
 template <class Add>
@@ -115,6 +95,7 @@ CandelaTable::CandelaTable(Grid grid) : grid_(std::move(grid)) {
     refuse("its flux is " + to_text(flux_) + " lm (allowed: a finite number above 0).");
   find_peak();
   find_extent();
+  lookup_ = std::make_unique<CandelaLookup>(grid_);
 }
 
 CandelaTable::~CandelaTable() = default;
@@ -142,7 +123,7 @@ void CandelaTable::check() const {
   check_angles(grid_.vertical_deg, type_c ? 0.0 : -90.0, type_c ? 180.0 : 90.0, "vertical");
   check_angles(grid_.horizontal_deg, -360.0, 720.0, "horizontal");
   if (grid_.symmetry == PhotometricSymmetry::none && type_c &&
-      std::abs(grid_.horizontal_deg.back() - grid_.horizontal_deg.front() - 360.0) > rounding_deg)
+      std::abs(grid_.horizontal_deg.back() - grid_.horizontal_deg.front() - 360.0) > table_rounding_deg)
     refuse("its planes do not cover 360°.");
   for (const double candela : grid_.candela) {
     if (!(candela >= 0.0) || !std::isfinite(candela))
@@ -151,30 +132,11 @@ void CandelaTable::check() const {
 }
 
 double CandelaTable::candela(const glm::dvec3& direction) const {
-  const glm::dvec3 p = mirrors_of(grid_).into_table(to_polar(grid_, direction));
-  const double polar = std::atan2(std::hypot(p.x, p.y), p.z) / radians_per_degree;
-  const double vertical = polar - polar_offset_deg(grid_);
-  if (!is_within(grid_.vertical_deg, vertical)) return 0.0;
-  return at_angles(std::atan2(p.y, p.x) / radians_per_degree, vertical);
+  return lookup_->candela(direction);
 }
 
-double CandelaTable::at_angles(double horizontal, double vertical) const {
-  const Position row = position_in(grid_.vertical_deg, vertical);
-  const auto along = [&](std::size_t plane) {
-    const double first = value(grid_, plane, row.interval);
-    return first + row.fraction * (value(grid_, plane, row.interval + 1) - first);
-  };
-  if (grid_.symmetry == PhotometricSymmetry::rotational) return along(0);
-  const std::vector<double>& planes = grid_.horizontal_deg;
-  if (grid_.type == PhotometricType::c) {
-    if (horizontal < planes.front() - rounding_deg) horizontal += 360.0;
-    if (horizontal > planes.back() + rounding_deg) horizontal -= 360.0;
-  } else if (!is_within(planes, horizontal)) {
-    return 0.0;
-  }
-  const Position between = position_in(planes, horizontal);
-  const double first = along(between.interval);
-  return first + between.fraction * (along(between.interval + 1) - first);
+void CandelaTable::candela(std::size_t n, const double* x, const double* y, const double* z, double* candela) const {
+  lookup_->candela(n, x, y, z, candela);
 }
 
 double CandelaTable::flux_towards_aim() const {

@@ -113,6 +113,11 @@ std::optional<double> PointLight::uniform_intensity() const {
   return intensity(law_, flux_, {0.0, 0.0, 1.0});
 }
 
+const CandelaTable* PointLight::table() const {
+  const auto* law = std::get_if<MeasuredLaw>(&law_);
+  return law != nullptr ? law->table.get() : nullptr;
+}
+
 double PointLight::density(const glm::dvec3& away) const {
   const glm::dvec3 local(glm::dot(away, frame_.tangent), glm::dot(away, frame_.bitangent),
                          glm::dot(away, frame_.normal));

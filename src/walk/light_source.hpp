@@ -62,6 +62,9 @@ class PointLight {
   double flux() const { return flux_; }
   // The intensity, if it is the same in all directions.
   std::optional<double> uniform_intensity() const;
+  const Frame& frame() const { return frame_; }
+  // Of measured luminaires; null for others.
+  const CandelaTable* table() const;
   // Density of the directions of its light, 1/sr, in a direction (world, length 1).
   double density(const glm::dvec3& away) const;
 

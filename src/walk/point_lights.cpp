@@ -86,6 +86,26 @@ LICHTMC_LANES void look_back(std::size_t n, const Places& places, const PointLig
   }
 }
 
+// Directions in the frames of their sources.
+LICHTMC_LANES void turn_into_frames(std::size_t n, const glm::dmat3* LICHTMC_APART to_frames,
+                                    const std::uint32_t* LICHTMC_APART source, double* LICHTMC_APART x,
+                                    double* LICHTMC_APART y, double* LICHTMC_APART z) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const glm::dmat3& m = to_frames[source[i]];
+    const double wx = x[i];
+    const double wy = y[i];
+    const double wz = z[i];
+    x[i] = m[0].x * wx + m[1].x * wy + m[2].x * wz;
+    y[i] = m[0].y * wx + m[1].y * wy + m[2].y * wz;
+    z[i] = m[0].z * wx + m[1].z * wy + m[2].z * wz;
+  }
+}
+
+LICHTMC_LANES void multiply_lanes(std::size_t n, const double* LICHTMC_APART by, double factor,
+                                  double* LICHTMC_APART numbers) {
+  for (std::size_t i = 0; i < n; ++i) numbers[i] *= factor * by[i];
+}
+
 }  // namespace
 
 PointLights::PointLights(std::vector<const PointLight*> lights, const Tracer& tracer)
@@ -105,7 +125,22 @@ PointLights::PointLights(std::vector<const PointLight*> lights, const Tracer& tr
     }
   }
   if (all_isotropic_) return;
-  for (auto* numbers : {&away_x_, &away_y_, &away_z_}) numbers->resize(whole_lanes(batch_histories));
+  for (auto* numbers : {&away_x_, &away_y_, &away_z_, &candela_}) numbers->resize(whole_lanes(batch_histories));
+  find_common_table();
+}
+
+// Isotropic lights need no density: with them, photons are treated one by one.
+void PointLights::find_common_table() {
+  const bool some_isotropic =
+      std::any_of(lights_.begin(), lights_.end(), [](const PointLight* light) { return light == nullptr; });
+  if (some_isotropic) return;
+  const CandelaTable* table = lights_.front()->table();
+  for (const PointLight* light : lights_) {
+    if (light->table() != table) return;
+    const Frame& frame = light->frame();
+    to_frames_.push_back(glm::transpose(glm::dmat3(frame.tangent, frame.bitangent, frame.normal)));
+  }
+  table_ = table;
 }
 
 void PointLights::sample(const Rays& rays, LightSamples& samples) {
@@ -117,10 +152,20 @@ void PointLights::sample(const Rays& rays, LightSamples& samples) {
   if (all_isotropic_) return;
   look_back(n, places, sources_.data(), samples.source.data(), tracer_->to_world(), away_x_.data(), away_y_.data(),
             away_z_.data());
-  multiply_by_density(n, samples);
+  if (table_ != nullptr) {
+    multiply_by_table(n, samples);
+  } else {
+    multiply_by_density(n, samples);
+  }
 }
 
-void PointLights::multiply_by_density(std::size_t n, LightSamples& samples) const {
+void PointLights::multiply_by_table(std::size_t n, LightSamples& samples) {
+  turn_into_frames(n, to_frames_.data(), samples.source.data(), away_x_.data(), away_y_.data(), away_z_.data());
+  table_->candela(n, away_x_.data(), away_y_.data(), away_z_.data(), candela_.data());
+  multiply_lanes(n, candela_.data(), 1.0 / table_->flux(), samples.irradiance.data());
+}
+
+void PointLights::multiply_by_density(std::size_t n, LightSamples& samples) {
   for (std::size_t i = 0; i < n; ++i) {
     const PointLight* light = lights_[samples.source[i]];
     if (light != nullptr && samples.irradiance[i] > 0.0)

@@ -55,13 +55,19 @@ class PointLights {
   };
 
  private:
-  void multiply_by_density(std::size_t n, LightSamples& samples) const;
+  void multiply_by_density(std::size_t n, LightSamples& samples);
+  void multiply_by_table(std::size_t n, LightSamples& samples);
+  void find_common_table();
 
   const Tracer* tracer_;
   std::vector<const PointLight*> lights_;
   std::vector<Source> sources_;
   bool all_isotropic_ = true;
+  // If all sources are luminaires of one table: this.
+  const CandelaTable* table_ = nullptr;
+  std::vector<glm::dmat3> to_frames_;             // world → frame, of each source
   std::vector<double> away_x_, away_y_, away_z_;  // directions from the emitter, unless all are isotropic
+  std::vector<double> candela_;
 };
 
 }  // namespace lichtmc

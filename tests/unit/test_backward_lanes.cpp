@@ -9,6 +9,7 @@
 #include "chance/stream.hpp"
 #include "lichtmc/gltf.hpp"
 #include "support/catch.hpp"
+#include "support/luminaires.hpp"
 #include "support/rooms.hpp"
 #include "walk/backward.hpp"
 #include "walk/first_flights.hpp"
@@ -69,8 +70,9 @@ struct OnWalls {
 
 }  // namespace
 
-TEST_CASE("point lights in lanes have the irradiance and the segment of the same lights one by one") {
-  const Room room = room_with_all_laws();
+namespace {
+
+void check_lanes(const Room& room) {
   for (const Engine engine : {Engine::cuboid, Engine::embree}) {
     const OnWalls walls(room, engine);
     const Tracer& tracer = *walls.scene.tracer;
@@ -78,7 +80,6 @@ TEST_CASE("point lights in lanes have the irradiance and the segment of the same
     std::vector<const PointLight*> lights;
     for (std::size_t k = 0; k < light.sources(); ++k) lights.push_back(light.point_light(k));
     REQUIRE(lights.size() == 4);
-    REQUIRE(lights[2] == nullptr);
     PointLights points(lights, tracer);
     LightSamples samples(batch_histories);
     for (std::size_t i = 0; i < walls.wave.rays.size; ++i) samples.source[i] = static_cast<std::uint32_t>(i % 4);
@@ -100,6 +101,21 @@ TEST_CASE("point lights in lanes have the irradiance and the segment of the same
       REQUIRE(samples.dz[i] == Approx(segment->z).margin(1e-6));
     }
   }
+}
+
+}  // namespace
+
+TEST_CASE("point lights in lanes have the irradiance and the segment of the same lights one by one") {
+  Room room = room_with_all_laws();
+  check_lanes(room);
+  const auto skew = skew_luminaire();
+  room.emitters[1].shape = MeasuredEmitter{skew, {0.6, 1.9, 0.2}};
+  check_lanes(room);
+  // Luminaires of one table alone, one of them mirrored, one turned.
+  room.emitters[0].shape = MeasuredEmitter{skew, {0.3, 1.2, 0.4}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+  room.emitters[2].shape = MeasuredEmitter{skew, {0.5, 0.5, 0.5}, {0, 0, 1}, {1, 0, 0}, {0, -1, 0}};
+  room.emitters[3].shape = MeasuredEmitter{skew, {0.2, 0.1, 0.6}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  check_lanes(room);
 }
 
 TEST_CASE("shadow rays in packets are blocked as single ones are") {

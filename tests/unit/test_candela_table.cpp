@@ -12,6 +12,7 @@
 #include "chance/candela_sampler.hpp"
 #include "chance/stream.hpp"
 #include "lichtmc/candela_table.hpp"
+#include "lichtmc/emitter_law.hpp"
 #include "lichtmc/error.hpp"
 #include "support/catch.hpp"
 #include "support/statistics.hpp"
@@ -76,7 +77,11 @@ std::vector<Case> cases() {
   return all;
 }
 
-const Grid beam{PhotometricType::c, PhotometricSymmetry::rotational, {0}, {0, 0.3, 0.6, 0.9, 1.5, 3, 90}, {5e4, 4e4, 2e4, 1e4, 2e3, 10, 0}};
+const Grid beam{PhotometricType::c,
+                PhotometricSymmetry::rotational,
+                {0},
+                {0, 0.3, 0.6, 0.9, 1.5, 3, 90},
+                {5e4, 4e4, 2e4, 1e4, 2e3, 10, 0}};
 
 // A direction of the angles of a type, by the definition.
 glm::dvec3 direction(const Grid& grid, double horizontal_deg, double vertical_deg) {
@@ -233,6 +238,37 @@ TEST_CASE("a candela table has its values at its angles and the mean between the
                                              0.5 * (v + grid.vertical_deg[i + 1]));
         CHECK(std::abs(table.candela(between) - mean) < close);
       }
+    }
+  }
+}
+
+TEST_CASE("many directions have the intensities of each") {
+  const Stream stream(20);
+  constexpr std::size_t n = 1000;
+  std::vector<double> x(n), y(n), z(n), together(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Words w = stream.draw(i, 1, Purpose::emission);
+    const glm::dvec3 d = direction_at(2.0 * unit_open(w[0]), unit_open(w[1]));
+    x[i] = d.x;
+    y[i] = d.y;
+    z[i] = d.z;
+  }
+  // Poles and axes.
+  for (std::size_t k = 0; k < 6; ++k) {
+    x[k] = k / 2 == 0 ? 1.0 - 2.0 * static_cast<double>(k % 2) : 0.0;
+    y[k] = k / 2 == 1 ? 1.0 - 2.0 * static_cast<double>(k % 2) : 0.0;
+    z[k] = k / 2 == 2 ? 1.0 - 2.0 * static_cast<double>(k % 2) : 0.0;
+  }
+  std::vector<Case> all = cases();
+  all.push_back({"beam", beam});
+  all.push_back(
+      {"narrow", {PhotometricType::c, PhotometricSymmetry::rotational, {0}, {0, 1e-4, 60, 180}, {1, 2, 3, 4}}});
+  for (const Case& one : all) {
+    const CandelaTable table(one.grid);
+    table.candela(n, x.data(), y.data(), z.data(), together.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      INFO(one.name << ": " << x[i] << ", " << y[i] << ", " << z[i]);
+      REQUIRE(std::abs(together[i] - table.candela({x[i], y[i], z[i]})) <= 1e-12 * table.peak().candela);
     }
   }
 }

@@ -151,6 +151,22 @@ TEST_CASE("a density that is one percent off is rejected") {
   CHECK_FALSE(cosines_against_density(lambert, [](double c) { return c > 0.0 ? 0.5 / std::numbers::pi : 0.0; }).agrees);
 }
 
+TEST_CASE("angles in lanes are those of the C library") {
+  const Stream stream(14);
+  double worst = 0.0;
+  for (std::uint64_t i = 0; i < 200'000; ++i) {
+    const Words w = stream.draw(i, 1, Purpose::flight);
+    // All quadrants, and ratios from 10⁻⁹ to 10⁹.
+    const double y = (w[0] % 2 == 0 ? 1.0 : -1.0) * std::pow(10.0, 18.0 * unit_open(w[1]) - 9.0);
+    const double x = w[0] % 4 < 2 ? 1.0 : -1.0;
+    worst = std::max(worst, std::abs(lane_atan2(y, x) - std::atan2(y, x)));
+  }
+  CHECK(worst < 1e-15);
+  for (const double x : {0.0, -0.0, 1.0, -1.0}) {
+    for (const double y : {0.0, -0.0, 1.0, -1.0}) CHECK(lane_atan2(y, x) == std::atan2(y, x));
+  }
+}
+
 TEST_CASE("azimuths are uniform") {
   std::vector<double> counts(64);
   const Stream stream(12);
