@@ -76,7 +76,7 @@ struct Photometry {
 
   // Its flux in lm, or the radiant flux in the unit that follows from `intensity_unit`.
   double flux() const { return candela->flux(); }
-  // lm/W; none without watts.
+  // lm/W; none without watts, and if its intensity is not in cd.
   std::optional<double> efficacy() const;
 };
 
@@ -95,7 +95,9 @@ Photometry read_photometry(const std::filesystem::path& file, const PhotometryOp
 Photometry parse_photometry(std::string_view content, const std::string& source, const PhotometryOptions& options = {},
                             const std::optional<std::filesystem::path>& folder = std::nullopt);
 
-// The file in format LM-63-2002: read_photometry() returns the same table, opening, lamps and texts.
+// The file in format LM-63-2002: read_photometry() returns the same table, opening, lamps and texts. Type C within
+// −90 … 90° becomes 90 … 270°; TILT factors, which do not count, are left out. Texts of a EULUMDAT file become the
+// keywords of their meaning.
 std::string ies_text(const Photometry& photometry);
 
 // How a luminaire is mounted and what it is scaled to; at most one of lumens, scale and watts.

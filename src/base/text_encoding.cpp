@@ -9,13 +9,18 @@ namespace {
 
 using namespace std::string_view_literals;
 
-[[noreturn]] void refuse(const std::string& name, const std::string& what) {
-  throw InputError(name + " " + what +
-                   " (allowed: text as UTF-8, or as UTF-16 with a byte order mark). Save it as CSV in UTF-8.");
+struct Name {
+  const std::string& name;
+  const std::string& remedy;
+};
+
+[[noreturn]] void refuse(const Name& name, const std::string& what) {
+  throw InputError(name.name + " " + what + " (allowed: text as UTF-8, or as UTF-16 with a byte order mark). " +
+                   name.remedy);
 }
 
 // `bytes` are those after the byte order mark.
-std::string from_utf16(std::string_view bytes, bool big_endian, const std::string& name) {
+std::string from_utf16(std::string_view bytes, bool big_endian, const Name& name) {
   if (bytes.size() % 2 != 0) refuse(name, "is UTF-16 that ends with half a character");
   const auto unit = [bytes, big_endian](std::size_t k) -> char32_t {
     const auto first = static_cast<unsigned char>(bytes[k]);
@@ -40,7 +45,8 @@ std::string from_utf16(std::string_view bytes, bool big_endian, const std::strin
 
 }  // namespace
 
-std::string utf8_of(std::string_view bytes, const std::string& name) {
+std::string utf8_of(std::string_view bytes, const std::string& file, const std::string& remedy) {
+  const Name name{file, remedy};
   if (bytes.starts_with("\xEF\xBB\xBF")) return std::string(bytes.substr(3));
   if (bytes.starts_with("\xFF\xFE\0\0"sv) || bytes.starts_with("\0\0\xFE\xFF"sv)) refuse(name, "is text as UTF-32");
   if (bytes.starts_with("\xFF\xFE")) return from_utf16(bytes.substr(2), false, name);

@@ -31,6 +31,11 @@ Head read_head(NumberLines& lines, Photometry& photometry) {
     lines.origin().refuse(lines.line(), "symmetry " + to_text(symmetry) + "; known are 0-4. Correct it.");
   head.symmetry = static_cast<long>(symmetry);
   head.planes = static_cast<std::size_t>(lines.whole("number of C planes", 1, photometry_limits::angles));
+  const std::size_t divisor = head.symmetry < 2 ? 1 : (head.symmetry == 2 ? 2 : 4);
+  if (head.planes % divisor != 0)
+    lines.origin().refuse(lines.line(), "symmetry " + std::to_string(head.symmetry) +
+                                            " needs a number of C planes divisible by " + std::to_string(divisor) +
+                                            ", found " + std::to_string(head.planes) + ". Correct lines 3 and 4.");
   lines.number("distance of C planes");
   head.vertical = static_cast<std::size_t>(lines.whole("number of angles per plane", 2, photometry_limits::angles));
   lines.number("distance of angles");
@@ -46,7 +51,7 @@ double size_in_m(NumberLines& lines, std::string_view what) {
   constexpr double largest_m = 1e4;
   const double size = lines.number(what) / 1000.0;
   if (!(size >= 0.0 && size <= largest_m))
-    lines.origin().refuse(lines.line(), "the " + std::string(what) + " is " + to_text(size * 1000.0) +
+    lines.origin().refuse(lines.line(), "the " + std::string(what) + " is " + decimal(size * 1000.0, 3) +
                                             " mm. Allowed: 0 to " + decimal(largest_m * 1000.0, 0) +
                                             " mm. Correct it.");
   return size;
@@ -74,11 +79,11 @@ LuminousOpening read_opening(NumberLines& lines, std::vector<std::string>& warni
 
 // A share in %, or none if the number cannot be one.
 std::optional<double> read_share(NumberLines& lines, const std::string& what, double most,
-                                 std::vector<std::string>& warnings) {
+                                 std::vector<std::string>& notes) {
   const double share = lines.number(what);
   if (share >= 0.0 && share <= most) return share / 100.0;
-  warnings.push_back("Line " + std::to_string(lines.line()) + ": the " + what + " is " + to_text(share) +
-                     " %; it is taken as not stated.");
+  notes.push_back("Line " + std::to_string(lines.line()) + ": the " + what + " is " + to_text(share) +
+                  " %; it is taken as not stated.");
   return std::nullopt;
 }
 
@@ -118,11 +123,6 @@ void read_lamp_sets(NumberLines& lines, const PhotometryOptions& options, Photom
 std::vector<double> written_planes(const Origin& origin, const Head& head, const std::vector<double>& planes,
                                    std::vector<std::string>& warnings, PhotometricSymmetry& symmetry) {
   const std::size_t n = head.planes;
-  const auto require = [&](std::size_t divisor) {
-    if (n % divisor != 0)
-      origin.refuse("symmetry " + std::to_string(head.symmetry) + " needs a number of C planes divisible by " +
-                    std::to_string(divisor) + ", found " + std::to_string(n) + ". Correct lines 3 and 4.");
-  };
   const auto require_angles = [&](double first, double found_first, double last, double found_last) {
     if (first != found_first || last != found_last)
       origin.refuse("symmetry " + std::to_string(head.symmetry) + " needs planes from C" + to_text(first) + " to C" +
@@ -137,13 +137,11 @@ std::vector<double> written_planes(const Origin& origin, const Head& head, const
       symmetry = PhotometricSymmetry::rotational;
       return {0.0};
     case 2:
-      require(2);
       require_angles(0.0, planes[0], 180.0, planes[n / 2]);
       symmetry = PhotometricSymmetry::c0_c180;
       return upto(n / 2);
     case 3: {
       // From C270 through C0 to C90, as −90 … 90°.
-      require(4);
       require_angles(270.0, planes[3 * n / 4], 90.0, planes[n / 4]);
       symmetry = PhotometricSymmetry::c90_c270;
       std::vector<double> turned;
@@ -152,7 +150,6 @@ std::vector<double> written_planes(const Origin& origin, const Head& head, const
       return turned;
     }
     case 4:
-      require(4);
       require_angles(0.0, planes[0], 90.0, planes[n / 4]);
       symmetry = PhotometricSymmetry::quadrants;
       return upto(n / 4);
@@ -208,11 +205,11 @@ Photometry parse_eulumdat(std::string_view text, const Origin& origin, const Pho
   photometry.format = PhotometryFormat::eulumdat;
   photometry.version = "EULUMDAT";
   photometry.intensity_unit = "cd";
-  NumberLines lines(text, origin, photometry.warnings);
+  NumberLines lines(text, origin, photometry.notes);
   const Head head = read_head(lines, photometry);
   photometry.opening = read_opening(lines, photometry.warnings);
-  photometry.downward_share = read_share(lines, "downward flux fraction", 100.0, photometry.warnings);
-  photometry.output_ratio = read_share(lines, "light output ratio", 1000.0, photometry.warnings);
+  photometry.downward_share = read_share(lines, "downward flux fraction", 100.0, photometry.notes);
+  photometry.output_ratio = read_share(lines, "light output ratio", 1000.0, photometry.notes);
   photometry.conversion = lines.number("conversion factor");
   const std::size_t conversion_line = lines.line();
   lines.number("tilt of the luminaire during measurement");

@@ -32,6 +32,8 @@ std::string_view without_blanks(std::string_view text);
 bool begins_with(std::string_view text, std::string_view start);
 bool same_word(std::string_view a, std::string_view b);
 
+bool is_utf8(std::string_view text);
+
 // A text of the file as UTF-8: what is not UTF-8 is taken as Windows-1252, in which most programs for photometric files
 // write.
 std::string text_of(std::string_view bytes);

@@ -67,16 +67,16 @@ void read_tilt_file(const TiltLine& tilt, const Origin& origin, const std::optio
     origin.refuse(tilt.number,
                   "the tilt file " + in_double_quotes(name) + " cannot be read (" + content.fault + ")." + remedy);
   const Origin tilt_origin{place.path.string()};
-  NumberStream numbers(content.bytes, 1, tilt_origin, photometry.warnings);
+  NumberStream numbers(content.bytes, 1, tilt_origin, photometry.notes);
   read_tilt_factors(numbers, photometry);
 }
 
 void read_tilt(const TiltLine& tilt, const Origin& origin, const std::optional<std::filesystem::path>& folder,
                NumberStream& numbers, Photometry& photometry) {
   if (!tilt.line.starts_with("TILT="))
-    photometry.warnings.push_back("Line " + std::to_string(tilt.number) + " reads " +
-                                  in_double_quotes(without_blanks(tilt.line)) +
-                                  "; the standard writes TILT= in capitals, without blanks.");
+    photometry.notes.push_back("Line " + std::to_string(tilt.number) + " reads " +
+                               in_double_quotes(without_blanks(tilt.line)) +
+                               "; the standard writes TILT= in capitals, without blanks.");
   if (tilt.value.empty())
     origin.refuse(tilt.number, "TILT= has no value. Write TILT=NONE, TILT=INCLUDE or TILT= and the name of a file.");
   if (same_word(tilt.value, "NONE")) return;
@@ -109,7 +109,7 @@ double opening_size(NumberStream& numbers, std::string_view what, double unit_m)
   constexpr double largest_m = 1e4;
   const double size = numbers.number(what) * unit_m;
   if (!(std::abs(size) <= largest_m))
-    numbers.origin().refuse(numbers.line(), "the " + std::string(what) + " is " + to_text(size) +
+    numbers.origin().refuse(numbers.line(), "the " + std::string(what) + " is " + rounded(size, 4) +
                                                 " m. Allowed: up to " + decimal(largest_m, 0) +
                                                 " m. Correct it, or the units type.");
   return size;
@@ -154,8 +154,8 @@ void read_ballast(NumberStream& numbers, IesVersion version, Photometry& photome
   }
   photometry.watts = numbers.number("input watts");
   if (photometry.watts < 0.0) {
-    photometry.warnings.push_back("Line " + std::to_string(numbers.line()) + ": the input power is " +
-                                  to_text(photometry.watts) + " W; it is taken as not stated.");
+    photometry.notes.push_back("Line " + std::to_string(numbers.line()) + ": the input power is " +
+                               to_text(photometry.watts) + " W; it is taken as not stated.");
     photometry.watts = 0.0;
   }
 }
@@ -230,6 +230,8 @@ void set_lamps(const Head& head, Photometry& photometry) {
   lamps.lamps = static_cast<int>(head.lamps);
   lamps.type = text_of_keyword(photometry, "LAMP");
   if (lamps.type.empty()) lamps.type = text_of_keyword(photometry, "LAMPCAT");
+  lamps.colour = text_of_keyword(photometry, "_LAMPCOLOUR");
+  lamps.rendering_index = text_of_keyword(photometry, "_LAMPRENDERING");
   lamps.watts = photometry.watts;
   photometry.absolute = head.lumens_per_lamp < 0.0;
   const double lumens = std::abs(head.lumens_per_lamp) * static_cast<double>(head.lamps);
@@ -272,7 +274,7 @@ Photometry parse_ies(const TiltLine& tilt, const Origin& origin, const Photometr
     if (same_word(photometry.intensity_unit, candela)) photometry.intensity_unit = "cd";
   }
 
-  NumberStream numbers(tilt.rest, tilt.number + 1, origin, photometry.warnings);
+  NumberStream numbers(tilt.rest, tilt.number + 1, origin, photometry.notes);
   read_tilt(tilt, origin, folder, numbers, photometry);
   const Head head = read_head(numbers, photometry);
   photometry.opening = ies_opening(version, head.width_m, head.length_m, head.height_m, photometry.warnings);

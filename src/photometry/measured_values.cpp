@@ -59,12 +59,15 @@ void compare_stated_flux(Photometry& photometry, const std::string& origin_of_st
   constexpr double allowed = 0.05;
   if (!photometry.stated_lm) return;
   const double flux = photometry.flux();
+  const std::string& per_steradian = photometry.intensity_unit;
+  const std::size_t slash = per_steradian.find('/');
+  const std::string unit = per_steradian == "cd" || slash == std::string::npos ? "lm" : per_steradian.substr(0, slash);
   const double off = flux / *photometry.stated_lm - 1.0;
   if (std::abs(off) <= allowed) return;
-  photometry.warnings.push_back("The file states " + rounded(*photometry.stated_lm, 4) + " lm (" + origin_of_statement +
-                                "); the integral of its table is " + rounded(flux, 4) + " lm, " +
-                                percent(std::abs(off)) + (off > 0.0 ? " more" : " less") +
-                                ". The table counts: give the flux that is meant, in lm, if it is another.");
+  photometry.warnings.push_back("The file states " + rounded(*photometry.stated_lm, 4) + " " + unit + " (" +
+                                origin_of_statement + "); the integral of its table is " + rounded(flux, 4) + " " +
+                                unit + ", " + percent(std::abs(off)) + (off > 0.0 ? " more" : " less") +
+                                ". The table counts; scale the luminaire if the other is right.");
 }
 
 }  // namespace lichtmc

@@ -18,7 +18,7 @@ bool is_separator(char c) {
 
 // A count: `word` is how it is written, `value` its value.
 long whole_number(const Origin& origin, std::size_t line, std::string_view what, std::string_view word, double value,
-                  long low, long high, std::vector<std::string>& warnings) {
+                  long low, long high, std::vector<std::string>& notes) {
   if (value != std::floor(value))
     origin.refuse(line, "the " + std::string(what) + " is " + to_text(value) + ". Allowed: a whole number, " +
                             std::to_string(low) + " to " + std::to_string(high) + ".");
@@ -29,8 +29,8 @@ long whole_number(const Origin& origin, std::size_t line, std::string_view what,
     origin.refuse(line, "the " + std::string(what) + " is " + decimal(value, 0) + "; at least " + std::to_string(low) +
                             (low == 1 ? " is" : " are") + " needed. Correct the number.");
   if (word.find_first_of(".,eE") != std::string_view::npos)
-    warnings.push_back("Line " + std::to_string(line) + ": the " + std::string(what) + " is written " +
-                       in_double_quotes(word) + "; it is read as " + decimal(value, 0) + ".");
+    notes.push_back("Line " + std::to_string(line) + ": the " + std::string(what) + " is written " +
+                    in_double_quotes(word) + "; it is read as " + decimal(value, 0) + ".");
   return static_cast<long>(value);
 }
 
@@ -57,8 +57,8 @@ std::optional<double> number_of(std::string_view word) {
 }
 
 NumberStream::NumberStream(std::string_view text, std::size_t first_line, const Origin& origin,
-                           std::vector<std::string>& warnings)
-    : text_(text), line_(first_line), next_line_(first_line), origin_(&origin), warnings_(&warnings) {}
+                           std::vector<std::string>& notes)
+    : text_(text), line_(first_line), next_line_(first_line), origin_(&origin), notes_(&notes) {}
 
 void NumberStream::skip_separators() {
   while (at_ < text_.size() && is_separator(text_[at_])) {
@@ -104,13 +104,13 @@ long NumberStream::whole(std::string_view what, long low, long high) {
   if (!at_end()) {
     const std::size_t start = at_;
     const double value = number(what);
-    return whole_number(*origin_, line_, what, text_.substr(start, at_ - start), value, low, high, *warnings_);
+    return whole_number(*origin_, line_, what, text_.substr(start, at_ - start), value, low, high, *notes_);
   }
   return static_cast<long>(number(what));
 }
 
-NumberLines::NumberLines(std::string_view text, const Origin& origin, std::vector<std::string>& warnings)
-    : lines_(text), origin_(&origin), warnings_(&warnings) {}
+NumberLines::NumberLines(std::string_view text, const Origin& origin, std::vector<std::string>& notes)
+    : lines_(text), origin_(&origin), notes_(&notes) {}
 
 bool NumberLines::at_end() {
   std::string_view line;
@@ -165,7 +165,7 @@ long NumberLines::whole(std::string_view what, long low, long high) {
   const bool ended = at_end();
   const std::string_view word = ended ? std::string_view() : without_blanks(*ahead_);
   const double value = number(what);
-  return whole_number(*origin_, line_, what, word, value, low, high, *warnings_);
+  return whole_number(*origin_, line_, what, word, value, low, high, *notes_);
 }
 
 }  // namespace lichtmc

@@ -20,8 +20,8 @@ std::optional<double> number_of(std::string_view word);
 // The numbers of an IES file: words between blanks, commas and line ends.
 class NumberStream {
  public:
-  // warnings: where a count that is not written as a whole number ("4.0") is noted.
-  NumberStream(std::string_view text, std::size_t first_line, const Origin& origin, std::vector<std::string>& warnings);
+  // notes: where a count that is not written as a whole number ("4.0") is noted.
+  NumberStream(std::string_view text, std::size_t first_line, const Origin& origin, std::vector<std::string>& notes);
 
   // The next number. Refuses the file if it has ended, or the word is not a number; what: its meaning.
   double number(std::string_view what);
@@ -45,13 +45,13 @@ class NumberStream {
   std::size_t line_;
   std::size_t next_line_;
   const Origin* origin_;
-  std::vector<std::string>* warnings_;
+  std::vector<std::string>* notes_;
 };
 
 // The lines of a EULUMDAT file: each has one text or one number.
 class NumberLines {
  public:
-  NumberLines(std::string_view text, const Origin& origin, std::vector<std::string>& warnings);
+  NumberLines(std::string_view text, const Origin& origin, std::vector<std::string>& notes);
 
   std::string text(std::string_view what);
   double number(std::string_view what);
@@ -73,7 +73,7 @@ class NumberLines {
   std::optional<std::string_view> ahead_;
   bool skip_empty_ = false;
   const Origin* origin_;
-  std::vector<std::string>* warnings_;
+  std::vector<std::string>* notes_;
 };
 
 }  // namespace lichtmc

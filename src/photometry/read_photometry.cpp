@@ -4,6 +4,7 @@
 
 #include "base/read_file.hpp"
 #include "base/text_encoding.hpp"
+#include "lichtmc/visible_text.hpp"
 #include "photometry/file_lines.hpp"
 #include "photometry/ies.hpp"
 #include "photometry/measured_values.hpp"
@@ -58,7 +59,7 @@ Photometry parse_photometry(std::string_view content, const std::string& source,
     origin.refuse("the file has " + std::to_string(content.size()) + " bytes; at most " +
                   std::to_string(photometry_limits::bytes) + " are read. Use a file with a coarser grid.");
   refuse_other_formats(content, origin);
-  const std::string text = utf8_of(content, source);
+  const std::string text = utf8_of(content, visible_text(source), "Save it as plain text.");
   const std::optional<TiltLine> tilt = find_tilt(text);
   const bool eulumdat = !tilt && looks_like_eulumdat(text);
   if (tilt && has_suffix(source, ".ldt"))
@@ -69,8 +70,12 @@ Photometry parse_photometry(std::string_view content, const std::string& source,
     origin.refuse(
         "lines 2 to 7 say that this is a EULUMDAT file, its name that it is IES. Rename it to .ldt if it is the "
         "right one.");
-  if (tilt) return parse_ies(*tilt, origin, options, folder);
-  if (eulumdat || has_suffix(source, ".ldt")) return parse_eulumdat(text, origin, options);
+  if (tilt || eulumdat || has_suffix(source, ".ldt")) {
+    Photometry photometry = tilt ? parse_ies(*tilt, origin, options, folder) : parse_eulumdat(text, origin, options);
+    if (!is_utf8(tilt ? tilt->header : std::string_view(text)))
+      photometry.notes.emplace_back("Its texts are not UTF-8; they are read as Windows-1252.");
+    return photometry;
+  }
   origin.refuse(
       "no line starts with \"TILT=\", so this is not an IES LM-63 file; and lines 2 to 7 are not numbers, so it is not "
       "a EULUMDAT file. Give a photometric file of one of these formats.");
@@ -79,7 +84,7 @@ Photometry parse_photometry(std::string_view content, const std::string& source,
 Photometry read_photometry(const std::filesystem::path& file, const PhotometryOptions& options) {
   const std::string name = file.string();
   const std::string bytes =
-      require_regular_file(file, photometry_limits::bytes, Origin{name}.source, "Give an IES LM-63 or EULUMDAT file.");
+      require_regular_file(file, photometry_limits::bytes, visible_text(name), "Give an IES LM-63 or EULUMDAT file.");
   return parse_photometry(bytes, name, options, file.parent_path());
 }
 

@@ -7,7 +7,7 @@ MeasuredLaw MeasuredEmitter::law() const {
 }
 
 std::optional<double> Photometry::efficacy() const {
-  if (!(watts > 0.0)) return std::nullopt;
+  if (!(watts > 0.0) || intensity_unit != "cd") return std::nullopt;
   return flux() / watts;
 }
 
