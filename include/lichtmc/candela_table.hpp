@@ -89,6 +89,11 @@ class CandelaTable {
   // Whether the intensity falls to 0 at the half angle within less than 1/64 of it.
   bool has_sharp_edge() const { return sharp_edge_; }
 
+  // Within a radius (rad) of a direction: how finely the intensity may vary, as the least distance of adjacent angles of
+  // the table, in rad; and whether the intensity may fall to 0 at once, at an end of the table where it is above 0.
+  double step_near(const glm::dvec3& direction, double radius) const;
+  bool ends_near(const glm::dvec3& direction, double radius) const;
+
   // A direction with a density proportional to the intensity, by inversion: 0 < u < 1, 0 ≤ turns ≤ 1.
   glm::dvec3 sample(double u, double turns) const;
 
@@ -99,6 +104,7 @@ class CandelaTable {
   void check() const;
   void find_peak();
   void find_extent();
+  void find_ends();
 
   Grid grid_;
   double flux_ = 0.0;
@@ -106,6 +112,10 @@ class CandelaTable {
   double half_angle_ = 0.0;
   double width_ = 0.0;
   bool sharp_edge_ = false;
+  bool first_row_shines_ = false;  // the table ends there, above 0
+  bool last_row_shines_ = false;
+  bool first_plane_shines_ = false;
+  bool last_plane_shines_ = false;
   std::unique_ptr<CandelaLookup> lookup_;
   mutable std::once_flag sampler_once_;
   mutable std::unique_ptr<CandelaSampler> sampler_;

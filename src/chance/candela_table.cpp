@@ -95,6 +95,7 @@ CandelaTable::CandelaTable(Grid grid) : grid_(std::move(grid)) {
     refuse("its flux is " + to_text(flux_) + " lm (allowed: a finite number above 0).");
   find_peak();
   find_extent();
+  find_ends();
   lookup_ = std::make_unique<CandelaLookup>(grid_);
 }
 
@@ -228,6 +229,88 @@ void CandelaTable::find_extent() {
   const std::size_t rows = grid_.vertical_deg.size();
   for (std::size_t j = 0; j < grid_.horizontal_deg.size(); ++j)
     sharp_edge_ = sharp_edge_ || (half_angle_ < pi && value(grid_, j, rows - 1) > 0.0);
+}
+
+// At poles and where the table is mirrored or goes all round, it does not end.
+void CandelaTable::find_ends() {
+  const std::size_t rows = grid_.vertical_deg.size();
+  const std::size_t planes = grid_.horizontal_deg.size();
+  const auto row_shines = [&](std::size_t i) {
+    for (std::size_t j = 0; j < planes; ++j) {
+      if (value(grid_, j, i) > 0.0) return true;
+    }
+    return false;
+  };
+  const auto plane_shines = [&](std::size_t j) {
+    const auto begin = grid_.candela.begin() + static_cast<std::ptrdiff_t>(j * rows);
+    return std::any_of(begin, begin + static_cast<std::ptrdiff_t>(rows), [](double candela) { return candela > 0.0; });
+  };
+  const Mirrors mirrors = mirrors_of(grid_);
+  const double offset = polar_offset_deg(grid_);
+  first_row_shines_ = !mirrors.z && grid_.vertical_deg.front() + offset > 0.0 && row_shines(0);
+  last_row_shines_ = grid_.vertical_deg.back() + offset < 180.0 && row_shines(rows - 1);
+  if (grid_.type == PhotometricType::c) return;
+  const bool all_round = grid_.horizontal_deg.front() <= -180.0 && grid_.horizontal_deg.back() >= 180.0;
+  first_plane_shines_ = !all_round && !mirrors.y && plane_shines(0);
+  last_plane_shines_ = !all_round && !(mirrors.y && grid_.horizontal_deg.back() >= 180.0) && plane_shines(planes - 1);
+}
+
+namespace {
+
+// The angles of a table that a cone of directions may contain, in degrees.
+struct Around {
+  double vertical_from, vertical_to;
+  double horizontal_from, horizontal_to;
+  double sine;  // the greatest of ψ
+};
+Around around(const CandelaTable::Grid& grid, const glm::dvec3& direction, double radius) {
+  const glm::dvec3 p = mirrors_of(grid).into_table(to_polar(grid, direction));
+  const double across = std::hypot(p.x, p.y);
+  const double polar = std::atan2(across, p.z);
+  const double low = std::max(0.0, polar - radius);
+  const double high = std::min(pi, polar + radius);
+  const double offset = polar_offset_deg(grid);
+  const double sine = low <= 0.5 * pi && high >= 0.5 * pi ? 1.0 : std::max(std::sin(low), std::sin(high));
+  // A cone about a pole contains all φ; else sin Δφ = sin(radius)/sin ψ.
+  const double turn = std::atan2(p.y, p.x) / radians_per_degree;
+  const bool holds_pole = radius >= std::min(polar, pi - polar);
+  const double reach = holds_pole ? 360.0 : std::asin(std::min(1.0, std::sin(radius) / across)) / radians_per_degree;
+  return {low / radians_per_degree - offset, high / radians_per_degree - offset, turn - reach, turn + reach, sine};
+}
+
+// The least distance of adjacent angles, in degrees, of the intervals that meet a range.
+double least_step(const std::vector<double>& angles, double from, double to) {
+  double least = 360.0;
+  auto above = std::upper_bound(angles.begin(), angles.end(), from);
+  if (above == angles.begin()) ++above;
+  for (; above != angles.end() && *(above - 1) <= to; ++above) least = std::min(least, *above - *(above - 1));
+  return least;
+}
+
+}  // namespace
+
+double CandelaTable::step_near(const glm::dvec3& direction, double radius) const {
+  const Around range = around(grid_, direction, radius);
+  double step = least_step(grid_.vertical_deg, range.vertical_from, range.vertical_to);
+  if (grid_.horizontal_deg.size() > 1) {
+    // Of type C all planes: they go all round. Near a pole the distance of planes vanishes, and their differences with
+    // it: there vertical angles count.
+    const bool type_c = grid_.type == PhotometricType::c;
+    const double planes = type_c ? least_step(grid_.horizontal_deg, -1e3, 1e3)
+                                 : least_step(grid_.horizontal_deg, range.horizontal_from, range.horizontal_to);
+    step = std::min(step, std::max(0.5 * step, planes * range.sine));
+  }
+  return std::min(pi, step * radians_per_degree);
+}
+
+bool CandelaTable::ends_near(const glm::dvec3& direction, double radius) const {
+  if (!first_row_shines_ && !last_row_shines_ && !first_plane_shines_ && !last_plane_shines_) return false;
+  const Around range = around(grid_, direction, radius);
+  const auto meets = [](double end, double from, double to) { return from <= end && end <= to; };
+  return (first_row_shines_ && meets(grid_.vertical_deg.front(), range.vertical_from, range.vertical_to)) ||
+         (last_row_shines_ && meets(grid_.vertical_deg.back(), range.vertical_from, range.vertical_to)) ||
+         (first_plane_shines_ && meets(grid_.horizontal_deg.front(), range.horizontal_from, range.horizontal_to)) ||
+         (last_plane_shines_ && meets(grid_.horizontal_deg.back(), range.horizontal_from, range.horizontal_to));
 }
 
 const CandelaSampler& CandelaTable::sampler() const {

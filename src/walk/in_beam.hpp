@@ -52,6 +52,13 @@ struct InBeam {
     const double angle = angle_to_centre(t, half_size);
     constexpr double half = 0.5;
     constexpr int divisions_at_edge = 6;
+    // A table is bilinear between its angles, and may end where it is not dark.
+    if (const CandelaTable* table = source.table()) {
+      const glm::dvec3 segment = centroid_of(t) - source.position();
+      const glm::dvec3 away = source.in_frame(segment / std::max(glm::length(segment), 1e-300));
+      if (depth < divisions_at_edge && table->ends_near(away, half_size)) return true;
+      return half_size > half || half_size > half * table->step_near(away, half_size);
+    }
     const EmitterExtent& extent = source.extent();
     if (extent.sharp && depth < divisions_at_edge && std::abs(angle - extent.half_angle) < half_size) return true;
     return half_size > half || half_size > half * extent.width;

@@ -119,9 +119,7 @@ const CandelaTable* PointLight::table() const {
 }
 
 double PointLight::density(const glm::dvec3& away) const {
-  const glm::dvec3 local(glm::dot(away, frame_.tangent), glm::dot(away, frame_.bitangent),
-                         glm::dot(away, frame_.normal));
-  return intensity(law_, 1.0, local);
+  return intensity(law_, 1.0, in_frame(away));
 }
 
 AreaLight::AreaLight(const Room& room, const SurfaceEmitter& emitter, std::optional<SurfaceEmission> emission,

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "base/frame.hpp"
@@ -63,6 +64,11 @@ class PointLight {
   // The intensity, if it is the same in all directions.
   std::optional<double> uniform_intensity() const;
   const Frame& frame() const { return frame_; }
+  // A direction of the world in that frame.
+  glm::dvec3 in_frame(const glm::dvec3& direction) const {
+    return {glm::dot(direction, frame_.tangent), glm::dot(direction, frame_.bitangent),
+            glm::dot(direction, frame_.normal)};
+  }
   // Of measured luminaires; null for others.
   const CandelaTable* table() const;
   // Density of the directions of its light, 1/sr, in a direction (world, length 1).
