@@ -100,6 +100,9 @@ Photometry parse_photometry(std::string_view content, const std::string& source,
 // keywords of their meaning.
 std::string ies_text(const Photometry& photometry);
 
+// What is to be told about a file in a room that uses it: its warnings and notes, with its name.
+std::vector<Ignored> remarks_of(const Photometry& photometry);
+
 // How a luminaire is mounted and what it is scaled to; at most one of lumens, scale and watts.
 struct LuminaireOptions {
   std::optional<double> lumens = std::nullopt;  // its flux in lm

@@ -18,8 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 6> properties{"reflectance",      "power",    "unit",
-                                                     "lambert_exponent", "delay_ns", "receiver"};
+constexpr std::array<std::string_view, 7> properties{"reflectance", "power",    "unit", "lambert_exponent",
+                                                     "delay_ns",    "receiver", "ies"};
 
 struct Synonym {
   std::string_view word;  // in lower case, without spaces, hyphens and underscores
@@ -63,6 +63,14 @@ constexpr std::array synonyms{
     Synonym{"empfänger", "receiver"},
     Synonym{"receivers", "receiver"},
     Synonym{"sensor", "receiver"},
+    Synonym{"eulumdat", "ies"},
+    Synonym{"iesfile", "ies"},
+    Synonym{"iesprofile", "ies"},
+    Synonym{"ldt", "ies"},
+    Synonym{"ldtfile", "ies"},
+    Synonym{"lvk", "ies"},
+    Synonym{"photometricfile", "ies"},
+    Synonym{"photometry", "ies"},
 };
 
 // In lower case, without spaces, hyphens and underscores, and without the number that Blender appends (".001").
@@ -85,6 +93,8 @@ bool fits(std::string_view property, const Json& value) {
   const std::string text = value.is_string() ? plain(value.get<std::string>()) : "";
   if (property == "unit") return text == "w" || text == "lm" || text == "watt" || text == "lumen";
   if (property == "receiver") return value.is_object() || value.is_boolean() || value.is_number();
+  if (property == "ies")
+    return text.ends_with(".ies") || text.ends_with(".ldt") || (value.is_object() && value.contains("file"));
   return value.is_number() ||
          (!text.empty() && (std::isdigit(static_cast<unsigned char>(text[0])) != 0 || text[0] == '.'));
 }
@@ -105,8 +115,9 @@ bool has_extra(const Json& object, const char* name) {
 }
 
 bool has_light(const Json& node) {
+  if (has_extra(node, "ies")) return true;
   return node.contains("extensions") && node["extensions"].is_object() &&
-         node["extensions"].contains("KHR_lights_punctual");
+         (node["extensions"].contains("KHR_lights_punctual") || node["extensions"].contains("EXT_lights_ies"));
 }
 
 // Whether an object belongs to an emitter, so that a delay there means that of its light. Other programs have delays of
@@ -122,6 +133,7 @@ std::string right_place(std::string_view property, Place place, const Json& obje
   const bool at_node = place == Place::node;
   if (property == "reflectance") return place == Place::material ? "" : "the material";
   if (property == "receiver") return at_node ? "" : "a node (an empty)";
+  if (property == "ies") return at_node || place == Place::light ? "" : "a node or its light";
   if (property == "delay_ns" && at_node) return "";  // the reader of the room knows whether its mesh emits
   if (property == "lambert_exponent" && at_node) return "";
   if (place == Place::light) return "";
@@ -159,18 +171,32 @@ class Checker {
   // The parser drops null and empty objects.
   void check_value(const std::string& name, Json& value, const std::string& where) {
     if (value.is_null()) refuse(document_, "'" + name + "' of " + where + " has no value. Set this custom property.");
-    if (name != "receiver") return;
-    if (value.is_object() && value.empty()) {
+    if (name == "receiver" && value.is_object() && value.empty()) {
       value["area"] = 1.0;
       changed = true;
     }
-    for (const auto& [part, number] : value.items()) {
-      if (!value.is_object() || part == "area" || part == "fov" || part == "concentrator_index" ||
-          part == "filter_gain")
-        continue;
-      notes.push_back({"'" + part + "' in the custom property 'receiver' of " + where +
-                           " is not read (allowed: 'area' in m², 'fov', the half angle in degrees, "
-                           "'concentrator_index', 'filter_gain').",
+    // The same as none: the light is a point.
+    if (name == "ies" && value.is_object() && value.empty()) {
+      value["opening"] = "point";
+      changed = true;
+    }
+    if (name == "receiver") {
+      check_parts(name, value, {"area", "fov", "concentrator_index", "filter_gain"},
+                  "'area' in m², 'fov', the half angle in degrees, 'concentrator_index', 'filter_gain'", where);
+    } else if (name == "ies") {
+      check_parts(name, value, {"file", "lumens", "scale", "watts", "rotation", "lampset", "opening", "flipH"},
+                  "'file', 'lumens', 'scale', 'watts', 'rotation', 'lampset', 'opening', 'flipH'", where);
+    }
+  }
+
+  // Parts of an object that are not read.
+  void check_parts(const std::string& name, const Json& value, const std::set<std::string>& read, const char* allowed,
+                   const std::string& where) {
+    if (!value.is_object()) return;
+    for (const auto& [part, content] : value.items()) {
+      if (read.count(part) != 0) continue;
+      notes.push_back({"'" + part + "' in the custom property '" + name + "' of " + where +
+                           " is not read (allowed: " + allowed + ").",
                        Effect::figures, "Correct its name, or remove it."});
     }
   }
@@ -225,7 +251,8 @@ bool sounds_like_light(const std::string& name) {
 bool is_empty_node(const Json& node) {
   const auto holds = [&](const char* list) { return node.contains(list) && !node[list].empty(); };
   return !node.contains("mesh") && !node.contains("camera") && !holds("children") && !holds("extensions") &&
-         !has_extra(node, "power") && !has_extra(node, "lambert_exponent") && !has_extra(node, "receiver");
+         !has_extra(node, "power") && !has_extra(node, "lambert_exponent") && !has_extra(node, "receiver") &&
+         !has_extra(node, "ies");
 }
 
 void note_empty_lights(Json& json, std::vector<Ignored>& notes) {

@@ -19,7 +19,8 @@ std::string_view meant_property(std::string_view name);
 // like a property of lichtmc but have another name or are at an object where they are not read, and empty nodes that
 // are named like a light. Throws InputError naming the object if a property has the value null, or a receiver is not an
 // object.
-// Gives an empty object 'receiver' its default area, because the parser drops empty objects; sets `changed` then.
+// Gives an empty object 'receiver' its default area, and 'ies' its default opening, because the parser drops empty
+// objects; sets `changed` then.
 std::vector<Ignored> check_custom_properties(const Document& document, nlohmann::json& json, bool& changed);
 
 }  // namespace lichtmc

@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include "base/message.hpp"
+#include "base/wide.hpp"
 #include "lichtmc/error.hpp"
 
 namespace lichtmc {
-
-namespace {}  // namespace
 
 std::string label(const char* kind, const std::string& name, std::size_t index) {
   return std::string(kind) + " " + (name.empty() ? std::to_string(index) : in_quotes(name));
@@ -23,6 +22,17 @@ std::size_t checked_index(const Document& document, long long index, std::size_t
          what + " is number " + std::to_string(index) +
              (count == 0 ? ", but the file has none of them." : " (allowed: 0 to " + std::to_string(count - 1) + ").") +
              export_again);
+}
+
+std::string_view bytes_of_view(const Document& document, long long index, const std::string& what) {
+  const auto& model = document.model;
+  const auto& view =
+      model.bufferViews[checked_index(document, index, model.bufferViews.size(), "the buffer view of " + what)];
+  const auto& bytes =
+      model.buffers[checked_index(document, view.buffer, model.buffers.size(), "the buffer of " + what)].data;
+  if (static_cast<uint128>(view.byteOffset) + view.byteLength > bytes.size())
+    refuse(document, what + " reaches beyond its buffer." + export_again);
+  return {reinterpret_cast<const char*>(bytes.data()) + view.byteOffset, view.byteLength};
 }
 
 double number_in(const Document& document, const tinygltf::Value& object, const char* name, double otherwise,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <tiny_gltf.h>
@@ -46,6 +47,10 @@ inline constexpr const char* export_uncompressed = " Export the file again, or w
 
 // Returns an index of the file if it is below `count`; throws InputError otherwise.
 std::size_t checked_index(const Document& document, long long index, std::size_t count, const std::string& what);
+
+// The bytes of a buffer view. Throws InputError if it does not exist or reaches beyond its buffer. `what`: the view,
+// for messages.
+std::string_view bytes_of_view(const Document& document, long long view, const std::string& what);
 
 // A number in extras or an extension; `otherwise` if there is no entry of that name. Throws InputError if the entry is
 // not a number. `where`: what it belongs to, for messages.

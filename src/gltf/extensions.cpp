@@ -43,8 +43,9 @@ constexpr std::string_view gloss_textures = "it names textures of roughness and 
 // An extension belongs to the harmless ones only if no value of it can change a figure. Not among them, for example:
 // KHR_gaussian_splatting and EXT_primitive_voxels (bodies that are no triangles), CESIUM_RTC (moves the room),
 // KHR_techniques_webgl (replaces materials), MSFT_lod (other nodes in place of a node), MOZ_hubs_components (may add
-// lights), EXT_lights_image_based and EXT_lights_ies (light).
+// lights), EXT_lights_image_based (light).
 constexpr std::array known_extensions{
+    Known{"EXT_lights_ies", Role::read, ""},
     Known{"EXT_mesh_gpu_instancing", Role::read, ""},
     Known{"EXT_meshopt_compression", Role::read, ""},
     Known{"KHR_draco_mesh_compression", Role::read, ""},

@@ -79,16 +79,20 @@ bool simplify_data_uri(Json& uri) {
 
 }  // namespace
 
+ContainedPath locate_name(const Document& document, const std::string& name) {
+  const std::string scheme = scheme_of(name);
+  if (scheme.empty()) return path_within(document.folder, name, document.follow_links);
+  ContainedPath refused;
+  refused.fault = "it has the scheme '" + scheme + ":'";
+  refused.allowed = "a file beneath the folder of the file that names it, or data:";
+  refused.remedy = "Copy the file there, and write its name relative to that folder.";
+  return refused;
+}
+
 ContainedPath locate_uri(const Document& document, const std::string& uri) {
-  const std::string scheme = scheme_of(uri);
-  if (!scheme.empty()) {
-    ContainedPath refused;
-    refused.fault = "it has the scheme '" + scheme + ":'";
-    refused.allowed = "a file beneath the folder of the file that names it, or data:";
-    refused.remedy = "Copy the file there, and write its name relative to that folder.";
-    return refused;
-  }
-  return path_within(document.folder, percent_decoded(uri), document.follow_links);
+  // The scheme is looked for in the URI itself: "a%3Ab" is a name with a colon.
+  return scheme_of(uri).empty() ? path_within(document.folder, percent_decoded(uri), document.follow_links)
+                                : locate_name(document, uri);
 }
 
 bool ExternalFiles::take(Json& json, Document& document) {

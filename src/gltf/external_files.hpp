@@ -19,6 +19,9 @@ namespace lichtmc {
 // scheme ("http:", "file:").
 ContainedPath locate_uri(const Document& document, const std::string& uri);
 
+// The file of a name that is not encoded, as people write it into custom properties; the same faults.
+ContainedPath locate_name(const Document& document, const std::string& name);
+
 // The buffers of files, read before parsing, so that the parser opens no file itself.
 class ExternalFiles {
  public:

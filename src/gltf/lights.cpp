@@ -25,6 +25,8 @@ const tinygltf::Value& member(const tinygltf::Value& object, const char* name) {
   return object.IsObject() && object.Has(name) ? object.Get(name) : empty_object();
 }
 
+}  // namespace
+
 // The entry of the light in the file's list, read as JSON: the parser of Debian 12 does not assign lights to nodes.
 const tinygltf::Value* find_light(const Document& document, const tinygltf::Node& node, const std::string& where) {
   const auto on_node = node.extensions.find(lights_extension);
@@ -41,7 +43,6 @@ const tinygltf::Value* find_light(const Document& document, const tinygltf::Node
   return &lights.Get<tinygltf::Value::Array>()[static_cast<std::size_t>(index)];
 }
 
-// Luminance of the light's colour: the intensity in the file is per colour channel.
 double colour_of(const Document& document, const tinygltf::Value& light, const std::string& where) {
   const tinygltf::Value& colour = member(light, "color");
   if (!colour.IsArray()) return 1.0;
@@ -57,6 +58,10 @@ double colour_of(const Document& document, const tinygltf::Value& light, const s
   return luminance(rgb[0], rgb[1], rgb[2]);
 }
 
+const tinygltf::Value& extras_of(const tinygltf::Value* light) {
+  return light != nullptr ? member(*light, "extras") : empty_object();
+}
+
 glm::dvec3 axis_of(const Document& document, const PlacedNode& placed) {
   const glm::dvec3 forward = placed.forward();
   const double length = glm::length(forward);
@@ -66,6 +71,8 @@ glm::dvec3 axis_of(const Document& document, const PlacedNode& placed) {
              " has the scale 0 along Z, so that its light has no direction (allowed: a scale other than 0). Set "
              "its scale.");
 }
+
+namespace {
 
 SpotEmitter read_spot(const Document& document, const tinygltf::Value& light, const PlacedNode& placed) {
   SpotEmitter spot;
@@ -124,7 +131,7 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
                                       std::vector<Ignored>& ignored) {
   const tinygltf::Node& node = document.model.nodes[placed.index];
   const tinygltf::Value* light = find_light(document, node, placed.label);
-  const tinygltf::Value& of_light = light != nullptr ? member(*light, "extras") : empty_object();
+  const tinygltf::Value& of_light = extras_of(light);
   const std::string light_label = "the light of " + placed.label;
 
   // Extras of the node take precedence over those of the light, which several nodes may share.

@@ -10,7 +10,6 @@
 
 #include "base/message.hpp"
 #include "base/read_file.hpp"
-#include "base/wide.hpp"
 #include "gltf/custom_properties.hpp"
 #include "gltf/decompress.hpp"
 #include "gltf/extensions.hpp"
@@ -82,14 +81,8 @@ void store_images_in_buffers(Document& document) {
   for (std::size_t k = 0; k < model.images.size(); ++k) {
     if (model.images[k].bufferView < 0) continue;
     const std::string where = label("image", model.images[k].name, k);
-    const auto& view = model.bufferViews[checked_index(document, model.images[k].bufferView, model.bufferViews.size(),
-                                                       "the buffer view of " + where)];
-    const auto& bytes =
-        model.buffers[checked_index(document, view.buffer, model.buffers.size(), "the buffer of " + where)].data;
-    if (static_cast<uint128>(view.byteOffset) + view.byteLength > bytes.size())
-      refuse(document, where + " reaches beyond its buffer." + export_again);
-    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
-    document.images[k].assign(begin, begin + static_cast<std::ptrdiff_t>(view.byteLength));
+    const std::string_view bytes = bytes_of_view(document, model.images[k].bufferView, where);
+    document.images[k].assign(bytes.begin(), bytes.end());
   }
 }
 

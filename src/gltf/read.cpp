@@ -16,6 +16,7 @@
 #include "gltf/left_out.hpp"
 #include "gltf/lights.hpp"
 #include "gltf/load_document.hpp"
+#include "gltf/luminaires.hpp"
 #include "gltf/materials.hpp"
 #include "gltf/node_names.hpp"
 #include "gltf/nodes.hpp"
@@ -63,6 +64,7 @@ class RoomReader {
         names_of_scene_(name_scene(document, nodes_)),
         skins_(document, nodes_),
         left_out_(document, nodes_, options.without),
+        luminaires_(document),
         reflectance_maps_(document, reflectance_role),
         emission_maps_(document, emission_role),
         material_uses_(document.model.materials.size()) {
@@ -94,7 +96,9 @@ class RoomReader {
     const PlacedNode& placed = nodes_[k];
     const std::size_t first_emitter = room_.emitters.size();
     read_mesh(k);
-    if (auto light = read_light(*document_, placed, room_.ignored)) {
+    auto light = luminaires_.read(placed, room_.ignored);
+    if (!light) light = read_light(*document_, placed, room_.ignored);
+    if (light) {
       light->emitter.name = names_of_scene_.nodes[k];
       add_emitter(std::move(*light));
     }
@@ -376,6 +380,7 @@ class RoomReader {
   SceneNames names_of_scene_;
   Skins skins_;
   LeftOut left_out_;
+  Luminaires luminaires_;
   std::vector<SurfaceChoice> numbered_;
   Room room_;
   TextureMaps reflectance_maps_;

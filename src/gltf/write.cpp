@@ -16,6 +16,7 @@
 #include "base/message.hpp"
 #include "gltf/builder.hpp"
 #include "gltf/texture_image.hpp"
+#include "gltf/write_luminaires.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/gltf.hpp"
 #include "room/bounds.hpp"
@@ -36,7 +37,14 @@ class Writer {
     for (std::size_t k = 0; k < room.surfaces.size(); ++k) add_surface(k);
     for (const Emitter& emitter : room.emitters) {
       visit_shape(
-          emitter, [&](const auto& point) { add_point_emitter(emitter, point); },
+          emitter,
+          [&](const auto& point) {
+            if constexpr (requires { point.photometry; }) {
+              add_luminaire(emitter, point);
+            } else {
+              add_point_emitter(emitter, point);
+            }
+          },
           [](const auto& /*area_light*/) {});  // part of its material
     }
     for (const Receiver& receiver : room.receivers) add_receiver(receiver);
@@ -50,11 +58,14 @@ class Writer {
   void add_surface(std::size_t k);
   template <PointShape Shape>
   void add_point_emitter(const Emitter& emitter, const Shape& shape);
+  void add_luminaire(const Emitter& emitter, const MeasuredEmitter& shape);
+  void add_power(const Emitter& emitter, Json& node) const;
   void add_receiver(const Receiver& receiver);
   std::size_t material_of(std::size_t surface);
 
   const Room* room_;
   GltfBuilder document_;
+  LuminaireWriter luminaires_{document_};
   std::vector<std::size_t> textures_;             // of the room's reflectance maps
   std::vector<std::size_t> emission_textures_;    // of its emission maps
   std::map<std::string, std::size_t> materials_;  // by their JSON text
@@ -214,8 +225,10 @@ PunctualLight punctual(const SpotEmitter& shape, double power) {
        {"spot", {{"innerConeAngle", shape.inner}, {"outerConeAngle", std::min(shape.outer, std::numbers::pi / 2.0)}}}}};
 }
 
-PunctualLight punctual(const MeasuredEmitter& /*shape*/, double /*power*/) {
-  throw InputError("Luminaires cannot be written yet.");
+void Writer::add_power(const Emitter& emitter, Json& node) const {
+  node["extras"]["power"] = emitter.power;
+  node["extras"]["unit"] = unit_of(*room_);
+  write_delay(emitter, node["extras"]);
 }
 
 template <PointShape Shape>
@@ -224,13 +237,18 @@ void Writer::add_point_emitter(const Emitter& emitter, const Shape& shape) {
   if constexpr (requires { shape.axis; }) node["rotation"] = looking_along(shape.axis);
   PunctualLight written = punctual(shape, emitter.power);
   node["extras"] = std::move(written.node_extras);
-  node["extras"]["power"] = emitter.power;
-  node["extras"]["unit"] = unit_of(*room_);
-  write_delay(emitter, node["extras"]);
+  add_power(emitter, node);
   Json& lights = document_.json["extensions"]["KHR_lights_punctual"]["lights"];
   node["extensions"]["KHR_lights_punctual"] = {{"light", lights.size()}};
   lights.push_back(std::move(written.light));
   document_.use_extension("KHR_lights_punctual");
+  document_.add_node(std::move(node));
+}
+
+void Writer::add_luminaire(const Emitter& emitter, const MeasuredEmitter& shape) {
+  Json node = document_.placed_node(emitter.name, shape.position);
+  luminaires_.add(shape, emitter.power, room_->quantity, node);
+  add_power(emitter, node);
   document_.add_node(std::move(node));
 }
 

@@ -75,6 +75,18 @@ std::pair<double, double> sine_and_cosine(double degrees) {
 
 }  // namespace
 
+std::vector<Ignored> remarks_of(const Photometry& photometry) {
+  const std::string of =
+      "Photometric file " + in_quotes(std::filesystem::path(photometry.source).filename().string()) + ": ";
+  std::vector<Ignored> remarks;
+  for (const std::string& warning : photometry.warnings) {
+    remarks.push_back({of + warning, Effect::figures,
+                       "Compare the luminaire with the maker's data; 'lichtmc luminaire' shows what was read."});
+  }
+  for (const std::string& note : photometry.notes) remarks.push_back({of + note, Effect::none});
+  return remarks;
+}
+
 LuminaireAxes axes_towards(const glm::dvec3& aim) {
   const double largest = std::max({std::abs(aim.x), std::abs(aim.y), std::abs(aim.z)});
   if (!(largest > 0.0) || !std::isfinite(largest)) {
