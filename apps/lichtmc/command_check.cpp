@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -12,6 +13,7 @@
 
 #include "commands.hpp"
 #include "lichtmc/inspect.hpp"
+#include "lichtmc/photometry.hpp"
 #include "lichtmc/visible_text.hpp"
 #include "light_spec.hpp"
 #include "progress_line.hpp"
@@ -85,6 +87,16 @@ std::string delay_text(const Emitter& emitter) {
   return emitter.delay_s > 0.0 ? ", delay " + four_digits(1e9 * emitter.delay_s) + " ns" : std::string();
 }
 
+// The photometric file of a luminaire, and the input power that it states.
+std::string file_text(const Emitter& emitter) {
+  const auto* const luminaire = std::get_if<MeasuredEmitter>(&emitter.shape);
+  if (luminaire == nullptr) return "";
+  const Photometry& file = *luminaire->photometry;
+  std::string text = ", " + visible_text(std::filesystem::path(file.source).filename().string());
+  if (file.watts > 0.0) text += ", " + four_digits(file.watts) + " W";
+  return text;
+}
+
 void print_emitters(const Room& room) {
   constexpr std::size_t shown = 20;
   const std::string unit(power_unit(room.quantity));
@@ -92,7 +104,7 @@ void print_emitters(const Room& room) {
             << ")\n";
   for (std::size_t k = 0; k < std::min(shown, room.emitters.size()); ++k)
     std::cout << "  " << visible_text(room.emitters[k].name) << ": " << four_digits(room.emitters[k].power) << ' '
-              << unit << delay_text(room.emitters[k]) << '\n';
+              << unit << file_text(room.emitters[k]) << delay_text(room.emitters[k]) << '\n';
   if (room.emitters.size() > shown)
     std::cout << "  … and " << room.emitters.size() - shown << " more (--json lists all)\n";
 }

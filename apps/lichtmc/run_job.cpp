@@ -89,10 +89,24 @@ class ReleaseAtEnd {
   std::optional<FolderLock>* lock_;
 };
 
+// The photometric files, and along which side of their openings C0 lies: they are never turned.
+void print_luminaires(const Inspection& inspection) {
+  constexpr std::size_t shown = 3;
+  std::size_t count = 0;
+  for (const Finding& finding : inspection.findings) {
+    if (finding.topic != "luminaires" || ++count > shown) continue;
+    std::cerr << "Note: " << visible_text(finding.text) << '\n';
+  }
+  if (count > shown)
+    std::cerr << "Note: " << count - shown << " more photometric " << (count - shown == 1 ? "file" : "files")
+              << ": lichtmc check.\n";
+}
+
 // Before the run: what `lichtmc check` warns of. A room with a fault is refused with a message of its own, unless the
 // number of flights is limited: then light may be enclosed without absorption.
 std::vector<std::string> print_warnings_of_check(const RunJob& job, const Inspection& inspection) {
   if (inspection.count(Severity::fault) > 0 && !job.settings.max_bounces) return {};
+  if (!job.quiet) print_luminaires(inspection);
   std::vector<std::string> lines = warning_lines(job.room, inspection);
   for (const std::string& line : lines) std::cerr << "Warning: " << visible_text(line) << '\n';
   return lines;

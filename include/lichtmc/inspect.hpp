@@ -28,7 +28,7 @@ enum class Severity {
 
 // One finding. `topic` is a stable word for programs: "size", "up-axis", "emitters", "receivers",
 // "not-modelled", "open-edges", "openings", "behind", "one-plane", "zero-area", "reflectance", "texture-coordinates",
-// "tiles", "shape", "trapped-light", "emitter-light", "room".
+// "tiles", "shape", "trapped-light", "emitter-light", "luminaires", "luminaire-housing", "luminaire-size", "room".
 struct Finding {
   Severity severity = Severity::note;
   std::string topic;
@@ -84,6 +84,26 @@ struct EmitterFacts {
   std::string first_surface;     // the surface that most of it meets first; empty: none
 };
 
+// The luminaires of one photometric file. Shares are of some photons that are followed to where they land first.
+struct LuminaireFacts {
+  std::string file;  // its name, without folder
+  std::string version;
+  std::size_t count = 0;  // luminaires
+  double power = 0.0;     // of all, in lm or W
+  double watts = 0.0;     // input of one, as the file states; 0: it does not
+  LuminousOpening opening;
+  std::string housed;            // the luminaire of which most light ends within housing_m of its centre; empty: none
+  double housing_m = 0.0;        // half the diagonal of the opening and 0.02 m
+  double in_housing = 0.0;       // share of its light that ends there, on surfaces of small triangles
+  std::size_t as_points = 0;     // luminaires whose light starts at one point although the file states an opening
+  double limit_m = 0.0;          // five times the largest dimension of the opening
+  double near = 0.0;             // share of the light of these luminaires that lands nearer than that
+  double elsewhere = 0.0;        // part of that share that would land elsewhere if it started all over the opening
+  std::string nearest_receiver;  // that gets direct light of one of these luminaires nearer than limit_m; empty: none
+  double nearest_m = 0.0;        // its distance
+  double excess_there = 0.0;     // direct light of the point over that of the opening, without shadows, minus 1
+};
+
 struct Inspection {
   glm::dvec3 low{0.0};  // m, bounding box of all surfaces
   glm::dvec3 high{0.0};
@@ -103,8 +123,9 @@ struct Inspection {
                                // emitters of the room's own
   std::uint64_t flights = 0;
   std::uint64_t flights_that_left = 0;
-  std::vector<Opening> openings;       // in descending order of `share`
-  std::vector<EmitterFacts> emitters;  // those with at least 64 of the 32 768 photons; empty without own emitters
+  std::vector<Opening> openings;           // in descending order of `share`
+  std::vector<EmitterFacts> emitters;      // those with at least 64 of the 32 768 photons; empty without own emitters
+  std::vector<LuminaireFacts> luminaires;  // one for each photometric file; empty without own emitters
 
   std::uint64_t tiles = 0;       // 0 if they need more memory than there is: a fault
   double memory_bytes = 0.0;     // estimate for a run with two threads and its report, see memory_needed()

@@ -119,6 +119,7 @@ void trace_rays(const Room& room, const Tiling& tiling, bool own_emitters,
   facts.flights_that_left = result.left;
   facts.openings = result.openings;
   if (own_emitters) facts.emitters = result.emitters;
+  if (own_emitters) facts.luminaires = result.luminaires;
   for (std::size_t k = 0; k < facts.surfaces.size(); ++k) {
     facts.surfaces[k].impacts = result.impacts[k];
     if (result.impacts[k] == 0) continue;

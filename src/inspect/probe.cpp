@@ -11,6 +11,7 @@
 
 #include "chance/stream.hpp"
 #include "inspect/emitter_light.hpp"
+#include "inspect/luminaire_light.hpp"
 #include "walk/kernel.hpp"
 #include "walk/never_absorbed.hpp"
 
@@ -91,6 +92,7 @@ class ProbeGoal : public GoalBase {
         stream_(stream),
         escaped_(room, *scene.tracer, low, high),
         light_(room, scene, low, high),
+        luminaires_(room, scene),
         from_(batch_histories) {
     result_.impacts.resize(room.surfaces.size());
     result_.behind.resize(room.surfaces.size());
@@ -101,7 +103,9 @@ class ProbeGoal : public GoalBase {
     for (std::uint32_t i = 0; i < n; ++i) {
       scene_.launcher->launch(stream_, first_history_ + i, wave.rays, i);
       from_[i] = wave.rays.facet[i];
-      light_.start(i, scene_.launcher->emitter_of(stream_, first_history_ + i));
+      const std::size_t emitter = scene_.launcher->emitter_of(stream_, first_history_ + i);
+      light_.start(i, emitter);
+      luminaires_.start(i, emitter);
     }
   }
   void escape(const Wave& wave, std::size_t i) {
@@ -112,6 +116,7 @@ class ProbeGoal : public GoalBase {
   void land(const Wave& wave) {
     result_.flights += wave.rays.size;
     light_.land(wave);
+    luminaires_.land(wave);
     for (std::size_t i = 0; i < wave.rays.size; ++i) {
       const std::uint32_t facet = wave.rays.facet[i];
       const std::uint32_t surface = scene_.surface_of[facet];
@@ -131,6 +136,7 @@ class ProbeGoal : public GoalBase {
 
   ProbeResult result() {
     result_.emitters = light_.facts(room_);
+    result_.luminaires = luminaires_.facts();
     result_.undecided = traced().undecided;
     result_.openings = escaped_.openings(result_.left);
     return result_;
@@ -142,6 +148,7 @@ class ProbeGoal : public GoalBase {
   const Stream& stream_;
   EscapedFlights escaped_;
   EmitterLight light_;
+  LuminaireLight luminaires_;
   std::vector<std::uint32_t> from_;  // facet that a photon left last, or no_facet
   ProbeResult result_;
 };

@@ -17,9 +17,10 @@ struct ProbeResult {
   std::uint64_t left = 0;       // flights that met no surface
   std::uint64_t undecided = 0;  // flights that ended where no rule decides between faces in one plane
   std::vector<Opening> openings;
-  std::vector<std::uint64_t> impacts;  // per surface
-  std::vector<std::uint64_t> behind;   // per surface, those that came from behind
-  std::vector<EmitterFacts> emitters;  // as Inspection::emitters
+  std::vector<std::uint64_t> impacts;      // per surface
+  std::vector<std::uint64_t> behind;       // per surface, those that came from behind
+  std::vector<EmitterFacts> emitters;      // as Inspection::emitters
+  std::vector<LuminaireFacts> luminaires;  // as Inspection::luminaires
 };
 
 // Follows light from the scene's emitters over some reflections.

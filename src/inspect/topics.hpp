@@ -24,6 +24,9 @@ void find_area_lights(const Room& room, Inspection& facts);
 // findings_emitter_light.cpp: emitters whose light does not get into the room
 void find_emitter_light(const Room& room, Inspection& facts);
 
+// findings_luminaires.cpp: luminaires with photometric files
+void find_luminaires(const Room& room, Inspection& facts);
+
 // findings_file.cpp: contents of the file that are not modelled
 void find_not_modelled(const Room& room, Inspection& facts);
 

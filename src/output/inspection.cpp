@@ -81,6 +81,31 @@ Json findings_of(const Inspection& inspection) {
   return findings;
 }
 
+Json luminaires_of(const Inspection& inspection) {
+  Json luminaires = Json::array();
+  for (const LuminaireFacts& f : inspection.luminaires) {
+    Json entry{{"file", f.file},
+               {"version", f.version},
+               {"count", f.count},
+               {"power", number(f.power)},
+               {"watts", f.watts > 0.0 ? number(f.watts) : Json(nullptr)},
+               {"opening", std::string(name_of(f.opening.form))},
+               {"opening_size", point(f.opening.size_m)},
+               {"in_housing", number(f.in_housing)},
+               {"as_points", f.as_points},
+               {"limit", number(f.limit_m)},
+               {"near", number(f.near)},
+               {"elsewhere", number(f.elsewhere)}};
+    if (!f.nearest_receiver.empty()) {
+      entry["nearest_receiver"] = f.nearest_receiver;
+      entry["nearest"] = number(f.nearest_m);
+      entry["excess_there"] = number(f.excess_there);
+    }
+    luminaires.push_back(entry);
+  }
+  return luminaires;
+}
+
 Json points_of(const std::vector<glm::dvec3>& list) {
   Json points = Json::array();
   for (const glm::dvec3& p : list) points.push_back(point(p));
@@ -117,6 +142,7 @@ std::string inspection_json(const Room& room, const Inspection& inspection) {
                   {"memory_bytes", number(inspection.memory_bytes)},
                   {"surfaces", surfaces_of(inspection)},
                   {"emitters", emitters_of(room)},
+                  {"luminaires", luminaires_of(inspection)},
                   {"receivers", receivers_of(room)},
                   {"mended", room.overrides},
                   {"findings", findings_of(inspection)}};
