@@ -1,5 +1,6 @@
 // lichtmc cuboid: writes a cuboid room as glTF.
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "lichtmc/cuboid.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/gltf.hpp"
+#include "lichtmc/visible_text.hpp"
 #include "light_spec.hpp"
 #include "quantities.hpp"
 
@@ -47,6 +49,11 @@ void write_cuboid(const CuboidOptions& options) {
                      " does not exist. Create it, or choose another file with --output.");
   }
   write_gltf(room, options.output);
+  // What is to be said of photometric files: the room that is written has their light, and no more their texts.
+  for (const Ignored& remark : room.ignored) {
+    if (remark.effect == Effect::figures)
+      std::cerr << "Warning: " << visible_text(remark.what + " " + remark.advice) << '\n';
+  }
 }
 
 }  // namespace

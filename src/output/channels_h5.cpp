@@ -26,9 +26,9 @@ std::string without_slash(std::string group) {
   return group;
 }
 
-class Writer {
+class Hdf5Writer {
  public:
-  explicit Writer(std::uint64_t about) : file_(make_hdf5_in_memory(0, about)) {}
+  explicit Hdf5Writer(std::uint64_t about) : file_(make_hdf5_in_memory(0, about)) {}
 
   void make_group(const std::string& name) {
     const Hdf5Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "set up HDF5");
@@ -131,7 +131,7 @@ class Writer {
 
 // A setting as an attribute: a number, or the text of setting_text().
 template <class Value>
-void write_setting(Writer& writer, const std::string& name, const Value& value) {
+void write_setting(Hdf5Writer& writer, const std::string& name, const Value& value) {
   if constexpr (std::same_as<Value, bool>) {
     writer.attribute("/settings", name, std::uint64_t{value ? 1U : 0U});
   } else if constexpr (std::same_as<Value, double>) {
@@ -146,14 +146,14 @@ void write_setting(Writer& writer, const std::string& name, const Value& value) 
   }
 }
 template <class Value>
-void write_setting(Writer& writer, const std::string& name, const std::optional<Value>& value) {
+void write_setting(Hdf5Writer& writer, const std::string& name, const std::optional<Value>& value) {
   if (value)
     write_setting(writer, name, *value);
   else
     writer.attribute("/settings", name, setting_text(value));
 }
 
-void write_facts(const Result& result, Writer& writer) {
+void write_facts(const Result& result, Hdf5Writer& writer) {
   const ImpulseResponses& responses = *result.channels;
   writer.attribute("/", "title", "Impulse responses between the emitters and receivers of a room");
   writer.attribute("/", "program", "lichtmc");
@@ -185,7 +185,7 @@ void write_channels_h5(const Result& result, const Sink& sink) {
     const std::vector<ChannelArray> arrays = channel_arrays(result);
     std::uint64_t about = 0;
     for (const ChannelArray& array : arrays) about += array.values().size_bytes();
-    Writer writer(about);
+    Hdf5Writer writer(about);
     write_facts(result, writer);
     writer.names("emitter", "emitter", "names of the emitters; emitters of the same name share a channel",
                  responses.emitters);

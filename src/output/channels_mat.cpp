@@ -130,9 +130,9 @@ Variable derived_struct(const std::vector<ChannelArray>& arrays) {
   return group;
 }
 
-class Writer {
+class MatWriter {
  public:
-  explicit Writer(const std::string& file) {
+  explicit MatWriter(const std::string& file) {
     const std::string head = "MATLAB 5.0 MAT-file, written by lichtmc " + std::string(version());
     mat_.reset(Mat_CreateVer(file.c_str(), head.c_str(), MAT_FT_MAT5));
     if (!mat_) fail("the file cannot be made");
@@ -160,7 +160,7 @@ bool is_like_channel_models(const ImpulseResponses& responses) {
   return responses.channels.size() == 1 && std::abs(responses.bin_width_s / nanosecond - 1.0) < rounding;
 }
 
-void write_averun(const ImpulseResponses& responses, Writer& writer) {
+void write_averun(const ImpulseResponses& responses, MatWriter& writer) {
   std::vector<double> number;
   std::vector<double> gain;
   for (const double h : responses.h_all) {
@@ -187,7 +187,7 @@ std::string obstacle_to_channels_mat(const Result& result) {
 void write_channels_mat(const Result& result, const Sink& sink) {
   const ImpulseResponses& responses = *result.channels;
   const MemoryFile file;
-  Writer writer(file.name());
+  MatWriter writer(file.name());
   const std::vector<ChannelArray> arrays = channel_arrays(result);
   for (const ChannelArray& array : arrays) {
     if (!array.name.starts_with(derived_group))

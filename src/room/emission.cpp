@@ -14,9 +14,9 @@ namespace lichtmc {
 
 namespace {
 
-using Corners = std::array<glm::dvec2, 3>;
+using UvCorners = std::array<glm::dvec2, 3>;
 
-Corners corners_on_map(const std::vector<glm::dvec2>& uvs, const glm::uvec3& t) {
+UvCorners corners_on_map(const std::vector<glm::dvec2>& uvs, const glm::uvec3& t) {
   return {uvs[t.x], uvs[t.y], uvs[t.z]};
 }
 
@@ -27,7 +27,7 @@ double twice_area(const Surface& surface, const glm::uvec3& t) {
 
 // A triangle on the grid whose lines pass through the centres of the pixels.
 struct OnPixels {
-  OnPixels(const Corners& corner, const TextureMap& map) {
+  OnPixels(const UvCorners& corner, const TextureMap& map) {
     const glm::dvec2 size(map.columns, map.rows);
     for (std::size_t k = 0; k < 3; ++k) corners[k] = corner[k] * size - 0.5;
     const glm::dvec2 low = glm::floor(glm::min(corners[0], glm::min(corners[1], corners[2])));
@@ -37,13 +37,13 @@ struct OnPixels {
   }
   double cells() const { return span.x * span.y; }
 
-  Corners corners{};
+  UvCorners corners{};
   glm::dvec2 span{1.0};
 };
 
 // Between the centres of neighbouring pixels the value is the product of a linear function of u and one of v; the rule
 // of the three midpoints of the sides is exact for polynomials of degree 2.
-double exact_mean(const Corners& corner, const TextureMap& map, std::vector<CellTriangle>& parts) {
+double exact_mean(const UvCorners& corner, const TextureMap& map, std::vector<CellTriangle>& parts) {
   const OnPixels grid(corner, map);
   cut_into_triangles(grid.corners, static_cast<std::uint32_t>(grid.span.x), static_cast<std::uint32_t>(grid.span.y),
                      parts);
@@ -63,7 +63,7 @@ double exact_mean(const Corners& corner, const TextureMap& map, std::vector<Cell
 }
 
 // The mean over n × n congruent parts, each evaluated at its centroid.
-double mean_of_parts(const Corners& corner, const TextureMap& map, int n) {
+double mean_of_parts(const UvCorners& corner, const TextureMap& map, int n) {
   const glm::dvec2 a = (corner[1] - corner[0]) / static_cast<double>(n);
   const glm::dvec2 b = (corner[2] - corner[0]) / static_cast<double>(n);
   double sum = 0.0;
@@ -81,7 +81,7 @@ double mean_of_parts(const Corners& corner, const TextureMap& map, int n) {
 }
 
 // Whether one of some points of a triangle is not black.
-bool is_lit_somewhere(const Corners& corner, const TextureMap& map) {
+bool is_lit_somewhere(const UvCorners& corner, const TextureMap& map) {
   constexpr int n = 16;
   for (int i = 0; i <= n; ++i) {
     for (int j = 0; i + j <= n; ++j) {
@@ -108,7 +108,7 @@ double mean_emission(const Surface& surface, const EmissionMap& map, const std::
   double area = 0.0;
   std::vector<CellTriangle> parts;
   for (const glm::uvec3& t : surface.triangles) {
-    const Corners corner = corners_on_map(uvs, t);
+    const UvCorners corner = corners_on_map(uvs, t);
     const double own_cells = OnPixels(corner, map).cells();
     // Coordinates may be so large that these numbers are not finite: then one part.
     const double across = std::ceil(std::sqrt(per_cell * own_cells));
@@ -182,8 +182,8 @@ class SurfaceEmission::Division {
 
   void add(Piece piece, double area) {
     const glm::uvec3 t = surface_.triangles[piece.triangle];
-    const Corners corner = corners_on_map(uvs_, t);
-    Corners uv{};
+    const UvCorners corner = corners_on_map(uvs_, t);
+    UvCorners uv{};
     for (std::size_t k = 0; k < 3; ++k) {
       const glm::dvec2 at(piece.corners[k]);
       uv[k] = corner[0] + at.x * (corner[1] - corner[0]) + at.y * (corner[2] - corner[0]);
@@ -196,7 +196,7 @@ class SurfaceEmission::Division {
     const Weighed one{piece, area};
     lost_ += one.lost();
     proposed_ += area * double{range.high};
-    // Corners of smaller pieces would not be exact in float.
+    // UvCorners of smaller pieces would not be exact in float.
     constexpr float smallest = 0x1p-20F;
     const glm::vec2 side = piece.corners[1] - piece.corners[0];
     if (one.lost() > 0.0 && std::max(std::abs(side.x), std::abs(side.y)) > smallest) {

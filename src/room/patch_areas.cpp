@@ -24,9 +24,9 @@ struct End {
   std::uint32_t face = 0;
 };
 
-class Patches {
+class SurfacePatches {
  public:
-  Patches(const RoomFaces& faces, const BoxTree& tree)
+  SurfacePatches(const RoomFaces& faces, const BoxTree& tree)
       : faces_(faces),
         tree_(tree),
         links_(faces.room().surfaces.size()),
@@ -232,7 +232,7 @@ std::vector<std::uint32_t> classes(const std::vector<double>& areas, double tole
 
 std::unordered_map<std::uint32_t, PatchOrder> patch_orders(const RoomFaces& faces, const BoxTree& tree,
                                                            const std::vector<std::uint32_t>& of) {
-  Patches patches(faces, tree);
+  SurfacePatches patches(faces, tree);
   for (const std::uint32_t face : of) patches.grow_from(face);
   patches.add_up();
   std::vector<double> whole;

@@ -11,7 +11,7 @@ namespace lichtmc {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr double turn = 2.0 * std::numbers::pi;
 
 }  // namespace
@@ -32,11 +32,11 @@ DelayMoments DelayMoments::operator*(double factor) const {
 }
 
 double DelayMoments::mean_s() const {
-  return weight > 0.0 ? first / weight : nan;
+  return weight > 0.0 ? first / weight : not_known;
 }
 
 double DelayMoments::rms_spread_s() const {
-  if (!(weight > 0.0)) return nan;
+  if (!(weight > 0.0)) return not_known;
   const double mean = first / weight;
   return std::sqrt(std::max(0.0, second / weight - mean * mean));
 }
@@ -122,7 +122,7 @@ double frequency_of_level(const std::vector<std::complex<double>>& response, con
   const std::size_t n = response.size();
   std::size_t after = 0;
   while (after < n && std::abs(response[after]) >= level) ++after;
-  if (after == n || after == 0) return nan;
+  if (after == n || after == 0) return not_known;
   // Lagrange's polynomial through up to four neighbours; frequencies are evenly spaced.
   const std::size_t count = std::min<std::size_t>(4, n);
   const std::size_t first = std::min(after >= 2 ? after - 2 : 0, n - count);

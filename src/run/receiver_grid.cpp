@@ -60,7 +60,7 @@ Room lit_room(const Room& room, const Tiling& tiling, const Bounds& bounds) {
 }
 
 // What a point of a grid is.
-enum class Place { free, on_surface, in_furniture, in_wall, no_floor };
+enum class PointPlace { free, on_surface, in_furniture, in_wall, no_floor };
 
 // The grids of all rooms.
 class GridMaker {
@@ -188,18 +188,18 @@ class GridMaker {
     const bool floor_under = here->under || here->covered;
     double y = floor_height + height_;
     switch (place_of(line, room, floor_height, floor_under, y)) {
-      case Place::no_floor:
+      case PointPlace::no_floor:
         return false;
-      case Place::in_wall:
+      case PointPlace::in_wall:
         ++grid_.inside_walls;
         return true;
-      case Place::in_furniture:
+      case PointPlace::in_furniture:
         ++grid_.inside_furniture;
         return true;
-      case Place::on_surface:
+      case PointPlace::on_surface:
         ++grid_.on_surfaces;
         break;
-      case Place::free:
+      case PointPlace::free:
         break;
     }
     grid_.floors_m.push_back(floor_height);
@@ -208,21 +208,21 @@ class GridMaker {
   }
 
   // y: becomes the height of the surface if the point lies on one.
-  Place place_of(const Column& line, std::size_t room, double floor_height, bool floor_under, double& y) const {
+  PointPlace place_of(const Column& line, std::size_t room, double floor_height, bool floor_under, double& y) const {
     const double rounding = tracer_.rounding();
     const auto under = std::find_if(line.gaps.rbegin(), line.gaps.rend(),
                                     [&](const Gap& gap) { return y >= gap.low - rounding && y < gap.high - rounding; });
-    const Place closed = floor_under || lit_.is_between_floors(line.at, room) ? Place::in_furniture : Place::in_wall;
-    if (under == line.gaps.rend()) return line.gaps.empty() ? Place::no_floor : closed;
-    if (!lit_.is_lit(line, *under, room)) return under->open_above ? Place::no_floor : closed;
+    const PointPlace closed = floor_under || lit_.is_between_floors(line.at, room) ? PointPlace::in_furniture : PointPlace::in_wall;
+    if (under == line.gaps.rend()) return line.gaps.empty() ? PointPlace::no_floor : closed;
+    if (!lit_.is_lit(line, *under, room)) return under->open_above ? PointPlace::no_floor : closed;
     // Over a stairwell, the next surface below is that of another floor.
-    if (under->low < floor_height - lit_.step()) return Place::no_floor;
+    if (under->low < floor_height - lit_.step()) return PointPlace::no_floor;
     if (std::abs(y - under->low) <= rounding) {
       const bool on_floor = std::abs(under->low - floor_height) <= rounding;
       y = under->low;
-      return on_floor ? Place::free : Place::on_surface;
+      return on_floor ? PointPlace::free : PointPlace::on_surface;
     }
-    return tracer_.on_surface({line.at.x, y, line.at.y}) ? Place::in_wall : Place::free;
+    return tracer_.on_surface({line.at.x, y, line.at.y}) ? PointPlace::in_wall : PointPlace::free;
   }
 
   ColumnTracer& tracer_;

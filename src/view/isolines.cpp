@@ -53,7 +53,7 @@ struct Segment {
 
 class MarchingSquares {
  public:
-  MarchingSquares(const Field& field, double level) : field_(&field), level_(level) {
+  MarchingSquares(const IrradianceField& field, double level) : field_(&field), level_(level) {
     for (std::size_t y = 0; y + 1 < field.rows; ++y) {
       for (std::size_t x = 0; x + 1 < field.columns; ++x) cross_square(x, y);
     }
@@ -130,7 +130,7 @@ class MarchingSquares {
     return edge % 2 == 0 ? start + glm::dvec2(share, 0.0) : start + glm::dvec2(0.0, share);
   }
 
-  const Field* field_;
+  const IrradianceField* field_;
   double level_;
   std::vector<Segment> segments_;
   std::map<EdgeNumber, std::vector<std::size_t>> at_;  // segments that end on an edge
@@ -138,10 +138,10 @@ class MarchingSquares {
 
 }  // namespace
 
-Field smoothed(const Field& field, double radius) {
+IrradianceField smoothed(const IrradianceField& field, double radius) {
   std::vector<double> kernel;
   for (int k = 0; k <= std::max(1.0, 3.0 * radius); ++k) kernel.push_back(std::exp(-0.5 * k * k / (radius * radius)));
-  Field result = field;
+  IrradianceField result = field;
   for (std::size_t k = 0; k < field.values.size(); ++k)
     result.values[k] = field.weight[k] > 0.0 ? field.weight[k] * field.values[k] : 0.0;
   std::vector<double> weight = field.weight;
@@ -172,7 +172,7 @@ std::vector<double> round_levels(double low, double high, bool logarithmic) {
   return levels;
 }
 
-std::vector<Isoline> lines_of(const Field& field, double level) {
+std::vector<Isoline> lines_of(const IrradianceField& field, double level) {
   return MarchingSquares(field, level).lines();
 }
 

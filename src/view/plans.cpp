@@ -103,9 +103,9 @@ class PlanDrawer {
   void set_pixel(SurfacePlan& plan, std::size_t pixel, std::uint32_t tile);
   std::optional<TypicalTile> typical_tile() const;  // none if the picture contains no tile
   void add_isolines(SurfacePlan& plan) const;
-  std::optional<double> smoothing_radius(const SurfacePlan& plan, const Field& field, double step,
+  std::optional<double> smoothing_radius(const SurfacePlan& plan, const IrradianceField& field, double step,
                                          const TypicalTile& tile) const;
-  Field field_of(const SurfacePlan& plan, double step) const;
+  IrradianceField field_of(const SurfacePlan& plan, double step) const;
 
   const Room* room_;
   const Result* result_;
@@ -228,8 +228,8 @@ void PlanDrawer::draw_map(SurfacePlan& plan) {
 }
 
 // The irradiance of the tiles at points `step` pixels apart.
-Field PlanDrawer::field_of(const SurfacePlan& plan, double step) const {
-  Field field;
+IrradianceField PlanDrawer::field_of(const SurfacePlan& plan, double step) const {
+  IrradianceField field;
   field.columns = static_cast<std::size_t>(std::ceil(static_cast<double>(plan.picture.width) / step));
   field.rows = static_cast<std::size_t>(std::ceil(static_cast<double>(plan.picture.height) / step));
   const auto pixel_at = [&](std::size_t k, std::size_t most) {
@@ -253,7 +253,7 @@ struct Range {
   double high = 0.0;
 };
 
-Range range_of(const Field& field) {
+Range range_of(const IrradianceField& field) {
   std::vector<double> values;
   for (std::size_t k = 0; k < field.values.size(); ++k) {
     if (field.weight[k] > 0.0) values.push_back(field.values[k]);
@@ -285,7 +285,7 @@ std::optional<PlanDrawer::TypicalTile> PlanDrawer::typical_tile() const {
 
 // The radius in m of the Gaussian that makes the noise small compared with the step between isolines; none if no radius
 // does.
-std::optional<double> PlanDrawer::smoothing_radius(const SurfacePlan& plan, const Field& field, double step,
+std::optional<double> PlanDrawer::smoothing_radius(const SurfacePlan& plan, const IrradianceField& field, double step,
                                                    const TypicalTile& tile) const {
   const double metre = 1.0 / glm::length(plan.across);  // pixels
   const auto shorter = static_cast<double>(std::min(plan.picture.width, plan.picture.height));
@@ -312,7 +312,7 @@ void PlanDrawer::add_isolines(SurfacePlan& plan) const {
     plan.why_no_isolines = "No isolines: too few photons.";
     return;
   }
-  const Field field = field_of(plan, step);
+  const IrradianceField field = field_of(plan, step);
   const auto radius = smoothing_radius(plan, field, step, *tile);
   if (!radius) {
     plan.why_no_isolines = "No isolines: differences within the errors.";
@@ -320,7 +320,7 @@ void PlanDrawer::add_isolines(SurfacePlan& plan) const {
   }
   plan.smoothing_m = *radius;
   const double metre = 1.0 / glm::length(plan.across);  // pixels
-  const Field smooth = smoothed(field, std::max(0.5, *radius * metre / step));
+  const IrradianceField smooth = smoothed(field, std::max(0.5, *radius * metre / step));
   const Range range = range_of(smooth);
   // A small bright area on a dark wall would contain all levels of a linear scale.
   const bool logarithmic = range.high > 8.0 * range.middle;

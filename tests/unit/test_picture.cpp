@@ -211,7 +211,7 @@ TEST_CASE("plans: plane pieces are found across gaps, and a curved surface has n
 }
 
 TEST_CASE("isolines: those of a plane are straight, those of a cone are circles") {
-  Field field{41, 31, {}, {}};
+  IrradianceField field{41, 31, {}, {}};
   for (std::size_t y = 0; y < field.rows; ++y) {
     for (std::size_t x = 0; x < field.columns; ++x) {
       field.values.push_back(static_cast<double>(x) + 0.5 * static_cast<double>(y));
@@ -238,14 +238,14 @@ TEST_CASE("isolines: those of a plane are straight, those of a cone are circles"
 }
 
 TEST_CASE("isolines: a saddle is cut into two lines, and lines end where the surface does") {
-  Field field{2, 2, {1.0, 0.0, 0.0, 1.0}, {1.0, 1.0, 1.0, 1.0}};
+  IrradianceField field{2, 2, {1.0, 0.0, 0.0, 1.0}, {1.0, 1.0, 1.0, 1.0}};
   CHECK(lines_of(field, 0.5).size() == 2);
   field.weight[0] = 0.0;
   CHECK(lines_of(field, 0.5).empty());
 }
 
 TEST_CASE("isolines: smoothing keeps a constant field constant up to its boundary and reduces noise") {
-  Field field{30, 20, std::vector<double>(600, 7.0), std::vector<double>(600, 1.0)};
+  IrradianceField field{30, 20, std::vector<double>(600, 7.0), std::vector<double>(600, 1.0)};
   for (std::size_t k = 0; k < 600; k += 7) {
     field.weight[k] = 0.0;
     field.values[k] = 1e9;  // beside the surface: no meaning
