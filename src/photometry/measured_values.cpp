@@ -13,8 +13,8 @@ namespace {
 // Below −1 % of the maximum a negative value is no noise of the photometer.
 constexpr double noise = 0.01;
 // Of what any luminaire has, by far: below and above this a number has slipped.
-constexpr double least_candela = 1e-12;
-constexpr double most_candela = 1e15;
+constexpr double least_candela = 1e-9;
+constexpr double most_candela = 1e12;
 
 }  // namespace
 
