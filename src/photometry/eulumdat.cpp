@@ -165,18 +165,19 @@ std::vector<double> written_planes(const Origin& origin, const Head& head, const
   return planes;
 }
 
-// Without symmetry: repeats the first plane after a whole turn.
-void close_turn(const Origin& origin, std::vector<double>& planes, MeasuredValues& table, std::size_t vertical) {
-  const double end = planes.front() + 360.0;
-  if (planes.back() == end) return;
-  double widest = 0.0;
-  for (std::size_t k = 1; k < planes.size(); ++k) widest = std::max(widest, planes[k] - planes[k - 1]);
-  if (end - planes.back() > widest + least_step_deg || planes.back() > end)
-    origin.refuse("the C angles run from " + to_text(planes.front()) + " to " + to_text(planes.back()) +
+// Without symmetry: repeats the first plane after a whole turn, if the file does not.
+void close_turn(const Origin& origin, CandelaTable::Grid& grid, MeasuredValues& table,
+                std::vector<std::string>& warnings) {
+  const double first = grid.horizontal_deg.front();
+  const double last = grid.horizontal_deg.back();
+  if (last == first + 360.0) {
+    compare_seam(grid, table, warnings);
+    return;
+  }
+  if (first + 360.0 - last > widest_step(grid.horizontal_deg) + least_step_deg)
+    origin.refuse("the C angles run from " + to_text(first) + " to " + to_text(last) +
                   "°; symmetry 0 needs planes all round. Correct the C angles or the symmetry.");
-  planes.push_back(end);
-  table.values.insert(table.values.end(), table.values.begin(),
-                      table.values.begin() + static_cast<std::ptrdiff_t>(vertical));
+  repeat_first_plane(grid, table);
 }
 
 // Values behind the table: with symmetries some programs write all planes.
@@ -197,6 +198,22 @@ void note_more_values(const Origin& origin, const Head& head, std::size_t planes
                      ".");
 }
 
+// Lines 13 to the direct ratios: sizes, fluxes, lamps.
+void read_luminaire(NumberLines& lines, const PhotometryOptions& options, Photometry& photometry) {
+  photometry.opening = read_opening(lines, photometry.warnings);
+  photometry.downward_share = read_share(lines, "downward flux fraction", 100.0, photometry.notes);
+  photometry.output_ratio = read_share(lines, "light output ratio", 1000.0, photometry.notes);
+  photometry.conversion = lines.number("conversion factor");
+  const std::size_t conversion_line = lines.line();
+  lines.number("tilt of the luminaire during measurement");
+  read_lamp_sets(lines, options, photometry);
+  // Behind the lamps: if a line is missing above, their texts tell it.
+  if (!(photometry.conversion > 0.0))
+    lines.origin().refuse(conversion_line, "conversion factor " + to_text(photometry.conversion) +
+                                               " must be above 0. Write 1 if there is none.");
+  for (int k = 0; k < 10; ++k) lines.number("direct ratio");
+}
+
 }  // namespace
 
 Photometry parse_eulumdat(std::string_view text, const Origin& origin, const PhotometryOptions& options) {
@@ -207,18 +224,7 @@ Photometry parse_eulumdat(std::string_view text, const Origin& origin, const Pho
   photometry.intensity_unit = "cd";
   NumberLines lines(text, origin, photometry.notes);
   const Head head = read_head(lines, photometry);
-  photometry.opening = read_opening(lines, photometry.warnings);
-  photometry.downward_share = read_share(lines, "downward flux fraction", 100.0, photometry.notes);
-  photometry.output_ratio = read_share(lines, "light output ratio", 1000.0, photometry.notes);
-  photometry.conversion = lines.number("conversion factor");
-  const std::size_t conversion_line = lines.line();
-  lines.number("tilt of the luminaire during measurement");
-  read_lamp_sets(lines, options, photometry);
-  // Behind the lamps: if a line is missing above, their texts tell it.
-  if (!(photometry.conversion > 0.0))
-    origin.refuse(conversion_line, "conversion factor " + to_text(photometry.conversion) +
-                                       " must be above 0. Write 1 if there is none.");
-  for (int k = 0; k < 10; ++k) lines.number("direct ratio");
+  read_luminaire(lines, options, photometry);
 
   lines.skip_empty_lines();
   const std::vector<double> all_planes =
@@ -233,7 +239,7 @@ Photometry parse_eulumdat(std::string_view text, const Origin& origin, const Pho
   check_size(origin, 0, head.vertical, written);
   MeasuredValues table = read_values(lines, head.vertical, written, "C planes");
   note_more_values(origin, head, written, lines.skip_all(), photometry.warnings);
-  if (grid.symmetry == PhotometricSymmetry::none) close_turn(origin, grid.horizontal_deg, table, head.vertical);
+  if (grid.symmetry == PhotometricSymmetry::none) close_turn(origin, grid, table, photometry.warnings);
 
   const double flux = photometry.lamp_lm.value_or(0.0);
   if (flux > 0.0 && photometry.output_ratio.value_or(0.0) > 0.0) photometry.stated_lm = flux * *photometry.output_ratio;

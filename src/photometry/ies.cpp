@@ -160,71 +160,6 @@ void read_ballast(NumberStream& numbers, IesVersion version, Photometry& photome
   }
 }
 
-// Planes of type C: how they continue to all directions. May add the plane at 360°.
-void complete_planes(const Origin& origin, std::size_t line, std::vector<double>& planes, MeasuredValues& table,
-                     std::size_t vertical, std::vector<std::string>& warnings, PhotometricSymmetry& symmetry) {
-  const double first = planes.front();
-  const double last = planes.back();
-  if (planes.size() == 1) {
-    symmetry = PhotometricSymmetry::rotational;
-    if (first != 0.0)
-      warnings.push_back("The only horizontal angle is " + to_text(first) +
-                         "°, not 0; the luminaire is rotationally symmetric all the same.");
-    planes.front() = 0.0;
-    return;
-  }
-  symmetry = PhotometricSymmetry::none;
-  if (first == 90.0 && last == 270.0) {
-    symmetry = PhotometricSymmetry::c90_c270;
-    return;
-  }
-  double widest = 0.0;
-  for (std::size_t k = 1; k < planes.size(); ++k) widest = std::max(widest, planes[k] - planes[k - 1]);
-  if (first == 0.0 && last == 90.0) {
-    symmetry = PhotometricSymmetry::quadrants;
-  } else if (first == 0.0 && last == 180.0) {
-    symmetry = PhotometricSymmetry::c0_c180;
-  } else if (first == 0.0 && last < 360.0 && 360.0 - last <= widest + least_step_deg) {
-    planes.push_back(360.0);
-    table.values.insert(table.values.end(), table.values.begin(),
-                        table.values.begin() + static_cast<std::ptrdiff_t>(vertical));
-    warnings.push_back("The horizontal angles end at " + to_text(last) + "°; the plane at 0° is repeated at 360°.");
-  } else if (first != 0.0 || last != 360.0) {
-    origin.refuse(line, "horizontal angles run from " + to_text(first) + " to " + to_text(last) +
-                            "; type C allows 0, 0-90, 0-180, 90-270 or 0-360. Correct the angles.");
-  }
-}
-
-// Notes planes 0 and 360 that differ: the intensity then jumps there.
-void compare_seam(const std::vector<double>& planes, const MeasuredValues& table, std::size_t vertical,
-                  std::vector<std::string>& warnings) {
-  const std::size_t last = (planes.size() - 1) * vertical;
-  double most = 0.0;
-  for (std::size_t i = 0; i < vertical; ++i) most = std::max(most, std::abs(table.values[i] - table.values[last + i]));
-  if (most > 0.0)
-    warnings.push_back("The planes at 0° and 360° (C0 and C360) differ, by up to " + percent(most / table.highest) +
-                       " of the maximum; each counts on its side.");
-}
-
-PhotometricSymmetry symmetry_of_types_a_b(const Origin& origin, std::size_t line, PhotometricType type,
-                                          const std::vector<double>& vertical, const std::vector<double>& horizontal,
-                                          std::vector<std::string>& warnings) {
-  if (horizontal.size() < 2)
-    origin.refuse(line, "1 horizontal angle; type " + std::string(name_of(type)) +
-                            " needs 2 or more. Only type C has files with one plane.");
-  const bool mirror_h = horizontal.front() >= 0.0;
-  const bool mirror_v = type == PhotometricType::b && vertical.front() >= 0.0;
-  const auto note = [&warnings](const char* which, double first) {
-    if (first > 0.0)
-      warnings.push_back(std::string("The ") + which + " angles begin at " + to_text(first) +
-                         "° and are mirrored to those below 0; between them the intensity is 0.");
-  };
-  if (mirror_h) note("horizontal", horizontal.front());
-  if (mirror_v) note("vertical", vertical.front());
-  if (mirror_h) return mirror_v ? PhotometricSymmetry::both : PhotometricSymmetry::horizontal;
-  return mirror_v ? PhotometricSymmetry::vertical : PhotometricSymmetry::none;
-}
-
 void set_lamps(const Head& head, Photometry& photometry) {
   LampSet lamps;
   lamps.lamps = static_cast<int>(head.lamps);
@@ -258,6 +193,27 @@ void compare_flux(Photometry& photometry) {
   compare_stated_flux(photometry, where);
 }
 
+// Unit of the intensities: "cd" unless the file names another one.
+std::string intensity_unit(const Photometry& photometry) {
+  const std::string unit = text_of_keyword(photometry, "_INTENSITYUNITS");
+  for (const char* candela : {"", "cd", "candela", "candelas"}) {
+    if (same_word(unit, candela)) return "cd";
+  }
+  return unit;
+}
+
+CandelaTable::Grid read_angles_of(NumberStream& numbers, const Head& head) {
+  CandelaTable::Grid grid;
+  grid.type = head.type;
+  const bool type_c = head.type == PhotometricType::c;
+  const std::string hint = "(an IES file uses \".\" for decimals; \",\" separates values)";
+  grid.vertical_deg =
+      read_angles(numbers, head.vertical, "vertical", type_c ? 0.0 : -90.0, type_c ? 180.0 : 90.0, hint);
+  grid.horizontal_deg =
+      read_angles(numbers, head.horizontal, "horizontal", type_c ? 0.0 : -180.0, type_c ? 360.0 : 180.0, hint);
+  return grid;
+}
+
 }  // namespace
 
 Photometry parse_ies(const TiltLine& tilt, const Origin& origin, const PhotometryOptions& options,
@@ -269,10 +225,7 @@ Photometry parse_ies(const TiltLine& tilt, const Origin& origin, const Photometr
   photometry.source = origin.source;
   photometry.format = PhotometryFormat::ies;
   const IesVersion version = read_ies_keywords(tilt.header, photometry);
-  photometry.intensity_unit = text_of_keyword(photometry, "_INTENSITYUNITS");
-  for (const char* candela : {"", "cd", "candela", "candelas"}) {
-    if (same_word(photometry.intensity_unit, candela)) photometry.intensity_unit = "cd";
-  }
+  photometry.intensity_unit = intensity_unit(photometry);
 
   NumberStream numbers(tilt.rest, tilt.number + 1, origin, photometry.notes);
   read_tilt(tilt, origin, folder, numbers, photometry);
@@ -281,32 +234,15 @@ Photometry parse_ies(const TiltLine& tilt, const Origin& origin, const Photometr
   read_ballast(numbers, version, photometry);
   set_lamps(head, photometry);
 
-  CandelaTable::Grid grid;
-  grid.type = head.type;
-  const bool type_c = head.type == PhotometricType::c;
-  const std::string hint = "(an IES file uses \".\" for decimals; \",\" separates values)";
-  grid.vertical_deg =
-      read_angles(numbers, head.vertical, "vertical", type_c ? 0.0 : -90.0, type_c ? 180.0 : 90.0, hint);
-  grid.horizontal_deg =
-      read_angles(numbers, head.horizontal, "horizontal", type_c ? 0.0 : -180.0, type_c ? 360.0 : 180.0, hint);
+  CandelaTable::Grid grid = read_angles_of(numbers, head);
   const std::size_t angles_line = numbers.line();
-  // Before the values: a wrong range is told as such.
-  MeasuredValues table;
-  if (!type_c)
-    grid.symmetry = symmetry_of_types_a_b(origin, angles_line, head.type, grid.vertical_deg, grid.horizontal_deg,
-                                          photometry.warnings);
-  table = read_values(numbers, head.vertical, head.horizontal, "horizontal angles");
+  MeasuredValues table = read_values(numbers, head.vertical, head.horizontal, "horizontal angles");
   const std::size_t more = numbers.skip_all();
   if (more > 0)
     photometry.warnings.push_back(to_text(more, "value") + (more == 1 ? " follows" : " follow") +
                                   " after the candela table and " + (more == 1 ? "does" : "do") + " not count.");
-  if (type_c) {
-    complete_planes(origin, angles_line, grid.horizontal_deg, table, head.vertical, photometry.warnings, grid.symmetry);
-    if (grid.symmetry == PhotometricSymmetry::none)
-      compare_seam(grid.horizontal_deg, table, head.vertical, photometry.warnings);
-  } else {
-    grid.flip_horizontal = options.flip_horizontal;
-  }
+  set_ies_symmetry(origin, angles_line, grid, table, photometry.warnings);
+  grid.flip_horizontal = options.flip_horizontal && head.type != PhotometricType::c;
   set_candela(photometry, origin, std::move(grid), std::move(table),
               photometry.multiplier * photometry.ballast * photometry.ballast_lamp);
   compare_flux(photometry);

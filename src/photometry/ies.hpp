@@ -6,8 +6,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lichtmc/photometry.hpp"
+#include "photometry/measured_values.hpp"
 #include "photometry/origin.hpp"
 
 namespace lichtmc {
@@ -39,5 +41,9 @@ std::string text_of_keyword(const Photometry& photometry, std::string_view keywo
 // The opening from width, length and height in m, whose signs give the form. Notes unknown signs in `warnings`.
 LuminousOpening ies_opening(IesVersion version, double width_m, double length_m, double height_m,
                             std::vector<std::string>& warnings);
+
+// The symmetry of a table from its angles; repeats the plane at 0° at 360° if that is missing. line: of the angles.
+void set_ies_symmetry(const Origin& origin, std::size_t line, CandelaTable::Grid& grid, MeasuredValues& table,
+                      std::vector<std::string>& warnings);
 
 }  // namespace lichtmc

@@ -25,6 +25,28 @@ void check_size(const Origin& origin, std::size_t line, std::size_t vertical, st
                             std::to_string(photometry_limits::values) + " are read. Use a file with a coarser grid.");
 }
 
+double widest_step(const std::vector<double>& angles) {
+  double widest = 0.0;
+  for (std::size_t k = 1; k < angles.size(); ++k) widest = std::max(widest, angles[k] - angles[k - 1]);
+  return widest;
+}
+
+void repeat_first_plane(CandelaTable::Grid& grid, MeasuredValues& table) {
+  grid.horizontal_deg.push_back(grid.horizontal_deg.front() + 360.0);
+  const auto first = table.values.begin();
+  table.values.insert(table.values.end(), first, first + static_cast<std::ptrdiff_t>(grid.vertical_deg.size()));
+}
+
+void compare_seam(const CandelaTable::Grid& grid, const MeasuredValues& table, std::vector<std::string>& warnings) {
+  const std::size_t rows = grid.vertical_deg.size();
+  const std::size_t last = (grid.horizontal_deg.size() - 1) * rows;
+  double most = 0.0;
+  for (std::size_t i = 0; i < rows; ++i) most = std::max(most, std::abs(table.values[i] - table.values[last + i]));
+  if (most > 0.0)
+    warnings.push_back("The planes at 0° and 360° (C0 and C360) differ, by up to " + percent(most / table.highest) +
+                       " of the maximum; each counts on its side.");
+}
+
 void set_candela(Photometry& photometry, const Origin& origin, CandelaTable::Grid grid, MeasuredValues table,
                  double factor) {
   if (!(table.highest > 0.0))

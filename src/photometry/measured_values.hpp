@@ -75,6 +75,15 @@ MeasuredValues read_values(Numbers& numbers, std::size_t vertical, std::size_t h
   return table;
 }
 
+// The widest step between adjacent angles.
+double widest_step(const std::vector<double>& angles);
+
+// Appends the first plane after a whole turn.
+void repeat_first_plane(CandelaTable::Grid& grid, MeasuredValues& table);
+
+// Notes first and last planes of a turn that differ: the intensity then jumps there.
+void compare_seam(const CandelaTable::Grid& grid, const MeasuredValues& table, std::vector<std::string>& warnings);
+
 // Checks the values, multiplies them, and makes the table of the luminaire. grid: without its values.
 void set_candela(Photometry& photometry, const Origin& origin, CandelaTable::Grid grid, MeasuredValues table,
                  double factor);
