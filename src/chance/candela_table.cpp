@@ -141,10 +141,9 @@ void CandelaTable::candela(std::size_t n, const double* x, const double* y, cons
 }
 
 double CandelaTable::flux_towards_aim() const {
-  Grid half = grid_;
   // The part of the table on that side: of type C by γ, of the others by H.
   if (grid_.type == PhotometricType::c) {
-    if (half.vertical_deg.front() >= 90.0) return 0.0;
+    if (grid_.vertical_deg.front() >= 90.0) return 0.0;
     double sum = 0.0;
     for_each_cell(grid_, [&](std::size_t j, std::size_t next, std::size_t i, double width) {
       const double from = grid_.vertical_deg[i];

@@ -12,32 +12,29 @@ namespace {
 constexpr std::size_t most_header_lines = 10'000;
 constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
 
-struct KnownVersion {
-  std::string_view line;  // the first line begins with it
+// Editions by their year, as the first line names them: "IESNA91", "IESNA:LM-63-1995", "IES:LM-63-2019".
+struct Edition {
+  std::string_view year;
+  std::string_view short_year;
   IesVersion version;
-  std::string_view name;
 };
-constexpr std::array<KnownVersion, 9> versions{{
-    {"IESNA86", IesVersion::lm_63_1986, "LM-63-1986"},
-    {"IESNA:LM-63-1986", IesVersion::lm_63_1986, "LM-63-1986"},
-    {"IESNA91", IesVersion::lm_63_1991, "LM-63-1991"},
-    {"IESNA:LM-63-1991", IesVersion::lm_63_1991, "LM-63-1991"},
-    {"IESNA95", IesVersion::lm_63_1995, "LM-63-1995"},
-    {"IESNA:LM-63-1995", IesVersion::lm_63_1995, "LM-63-1995"},
-    {"IESNA:LM-63-2002", IesVersion::lm_63_2002, "LM-63-2002"},
-    {"IES:LM-63-2019", IesVersion::lm_63_2019, "LM-63-2019"},
-    {"IESNA:LM-63-2019", IesVersion::lm_63_2019, "LM-63-2019"},
+constexpr std::array<Edition, 5> editions{{
+    {"1986", "86", IesVersion::lm_63_1986},
+    {"1991", "91", IesVersion::lm_63_1991},
+    {"1995", "95", IesVersion::lm_63_1995},
+    {"2002", "02", IesVersion::lm_63_2002},
+    {"2019", "19", IesVersion::lm_63_2019},
 }};
 
 // Sets the version by the first line; false: the line does not name one.
 bool read_version(std::string_view line, Photometry& photometry, IesVersion& version) {
-  for (const KnownVersion& known : versions) {
-    if (!begins_with(line, known.line)) continue;
-    version = known.version;
-    photometry.version = known.name;
+  if (!begins_with(line, "IESNA") && !begins_with(line, "IES:")) return false;
+  for (const Edition& edition : editions) {
+    if (line.find(edition.year) == std::string_view::npos && !line.ends_with(edition.short_year)) continue;
+    version = edition.version;
+    photometry.version = "LM-63-" + std::string(edition.year);
     return true;
   }
-  if (!begins_with(line, "IESNA") && !begins_with(line, "IES:")) return false;
   version = IesVersion::lm_63_2019;
   photometry.version = "LM-63-2019";
   photometry.warnings.push_back("The version " + in_double_quotes(line) +

@@ -140,6 +140,7 @@ struct Plane {
   std::size_t first = 0;
   std::size_t second = 0;
   double share = 0.0;
+  bool dark = false;  // 0 at all angles
 };
 
 // Planes from h to h + 360 as 0 … 360: the one at 0 and 360 may be between two others.
@@ -147,7 +148,7 @@ std::vector<Plane> from_zero(const std::vector<double>& angles) {
   std::vector<Plane> planes;
   for (std::size_t k = 0; k + 1 < angles.size(); ++k) {
     const double turned = angles[k] - 360.0 * std::floor(angles[k] / 360.0);
-    planes.push_back({turned, k, k, 0.0});
+    planes.push_back({turned, k, k});
   }
   std::sort(planes.begin(), planes.end(), [](const Plane& a, const Plane& b) { return a.angle < b.angle; });
   if (planes.front().angle > 0.0) {
@@ -161,12 +162,22 @@ std::vector<Plane> from_zero(const std::vector<double>& angles) {
   return planes;
 }
 
+// Types A and B: H of 0 or more only would be read as mirrored. Dark planes end the table below 0: its first plane then
+// fades within 10⁻⁵°.
+void end_below_zero(std::vector<Plane>& planes) {
+  constexpr double edge_deg = 1e-5;
+  const double first = planes.front().angle;
+  if (first < 0.0) return;
+  planes.insert(planes.begin(), Plane{first - edge_deg, 0, 0, 0.0, true});
+  if (first >= edge_deg) planes.insert(planes.begin(), Plane{-1.0, 0, 0, 0.0, true});
+}
+
 std::vector<Plane> planes_of(const CandelaTable::Grid& grid) {
   const std::vector<double>& angles = grid.horizontal_deg;
   if (grid.type == PhotometricType::c && grid.symmetry == PhotometricSymmetry::none && angles.front() != 0.0)
     return from_zero(angles);
   std::vector<Plane> planes;
-  for (std::size_t k = 0; k < angles.size(); ++k) planes.push_back({angles[k], k, k, 0.0});
+  for (std::size_t k = 0; k < angles.size(); ++k) planes.push_back({angles[k], k, k});
   if (grid.symmetry == PhotometricSymmetry::rotational) planes.front().angle = 0.0;
   const bool half_in_front = grid.symmetry == PhotometricSymmetry::c90_c270 && angles.back() <= 180.0;
   // Where H is mirrored, its sense does not matter.
@@ -177,6 +188,7 @@ std::vector<Plane> planes_of(const CandelaTable::Grid& grid) {
     std::reverse(planes.begin(), planes.end());
     for (Plane& plane : planes) plane.angle = (half_in_front ? 180.0 : 0.0) - plane.angle;
   }
+  if (other_sense) end_below_zero(planes);
   return planes;
 }
 
@@ -189,7 +201,7 @@ void write_table(const CandelaTable::Grid& grid, const std::vector<Plane>& plane
   for (const Plane& plane : planes) {
     for (std::size_t i = 0; i < rows; ++i) {
       const double first = grid.candela[plane.first * rows + i];
-      writer.number(first + plane.share * (grid.candela[plane.second * rows + i] - first));
+      writer.number(plane.dark ? 0.0 : first + plane.share * (grid.candela[plane.second * rows + i] - first));
     }
     writer.end_numbers();
   }

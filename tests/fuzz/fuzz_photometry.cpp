@@ -78,13 +78,16 @@ void check_again(const lichtmc::Photometry& photometry) {
   const std::string text = lichtmc::ies_text(photometry);
   const lichtmc::CandelaTable::Grid& grid = photometry.candela->grid();
   const std::optional<lichtmc::Photometry> again = read(text);
-  // Planes that do not begin at 0° are completed by one there, which may be too near to the next.
-  const bool completed = grid.symmetry == lichtmc::PhotometricSymmetry::none &&
-                         grid.type == lichtmc::PhotometricType::c && grid.horizontal_deg.front() != 0.0;
-  if (!again && completed) return;
+  // Planes that do not begin at 0° are completed by one there, which may be too near to the next; H that is above 0
+  // when it counts the other way, by dark ones.
+  const bool type_c = grid.type == lichtmc::PhotometricType::c;
+  const bool whole = grid.symmetry == lichtmc::PhotometricSymmetry::none;
+  const bool completed =
+      type_c ? whole && grid.horizontal_deg.front() != 0.0 : grid.flip_horizontal && grid.horizontal_deg.back() <= 0.0;
+  if (completed) return;
   require(again.has_value());
   require(std::abs(again->flux() - photometry.flux()) <= 1e-9 * photometry.flux());
-  if (!completed) require(lichtmc::ies_text(*again) == text);
+  require(lichtmc::ies_text(*again) == text);
 }
 
 }  // namespace

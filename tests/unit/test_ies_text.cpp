@@ -85,6 +85,22 @@ TEST_CASE("H that counts the other way is written as it is meant") {
   }
 }
 
+TEST_CASE("H above 0 only is written so that it is not read as mirrored") {
+  for (const std::string planes : {"-90 -45", "-45 0"}) {
+    PhotometryOptions options;
+    options.flip_horizontal = true;
+    const Photometry photometry =
+        parse_photometry("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 2 2 2 0 0 0\n1 1 0\n-90 90\n" + planes + "\n1 2\n3 4\n",
+                         "lamp.ies", options);
+    const Photometry again = parse_photometry(ies_text(photometry), "again.ies");
+    CHECK(again.candela->grid().symmetry == PhotometricSymmetry::none);
+    CHECK(again.candela->grid().horizontal_deg.front() < 0.0);
+    // Half a plane of 10⁻⁵° beside 45°.
+    CHECK(again.flux() == Approx(photometry.flux()).epsilon(1e-6));
+    check_light(again, photometry);
+  }
+}
+
 TEST_CASE("openings of all forms come back") {
   Photometry photometry = *skew_luminaire();
   const std::vector<LuminousOpening> openings{

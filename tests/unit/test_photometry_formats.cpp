@@ -116,6 +116,14 @@ TEST_CASE("keywords, labels and continued lines of an IES file") {
   CHECK(unknown.version == "LM-63-2019");
   CHECK(unknown.warnings.size() == 1);
 
+  const std::vector<std::pair<std::string, std::string>> versions{
+      {"IESNA86", "1986"},          {"IESNA91", "1991"},
+      {"IESNA:LM-63-1991", "1991"}, {"iesna:lm-63-1995  ", "1995"},
+      {"IESNA:LM-63-2002", "2002"}, {"IESNA: LM-63-02", "2002"},
+      {"IESNA:LM-63-2019", "2019"}, {"IES:LM-63-2019", "2019"}};
+  for (const auto& [line, year] : versions)
+    CHECK(parse_photometry(line + "\n" + rest, "lamp").version == "LM-63-" + year);
+
   const Photometry ultraviolet = parse_photometry("IES:LM-63-2019\n[_INTENSITYUNITS] mW/sr\n" + rest, "lamp");
   CHECK(ultraviolet.intensity_unit == "mW/sr");
   CHECK(!ultraviolet.efficacy());
