@@ -12,14 +12,14 @@ namespace lichtmc {
 
 namespace {
 
-struct Head {
+struct EulumdatHead {
   long symmetry = 0;
   std::size_t planes = 0;  // of the whole turn
   std::size_t vertical = 0;
 };
 
-Head read_head(NumberLines& lines, Photometry& photometry) {
-  Head head;
+EulumdatHead read_eulumdat_head(NumberLines& lines, Photometry& photometry) {
+  EulumdatHead head;
   const auto keep = [&photometry](const char* name, const std::string& text) {
     photometry.texts.emplace_back(name, text);
     return text;
@@ -120,7 +120,7 @@ void read_lamp_sets(NumberLines& lines, const PhotometryOptions& options, Photom
 }
 
 // The planes of which a file has values, by its symmetry: angles in the order of the values.
-std::vector<double> written_planes(const Origin& origin, const Head& head, const std::vector<double>& planes,
+std::vector<double> written_planes(const Origin& origin, const EulumdatHead& head, const std::vector<double>& planes,
                                    std::vector<std::string>& warnings, PhotometricSymmetry& symmetry) {
   const std::size_t n = head.planes;
   const auto require_angles = [&](double first, double found_first, double last, double found_last) {
@@ -181,7 +181,7 @@ void close_turn(const Origin& origin, CandelaTable::Grid& grid, MeasuredValues& 
 }
 
 // Values behind the table: with symmetries some programs write all planes.
-void note_more_values(const Origin& origin, const Head& head, std::size_t planes, std::size_t more,
+void note_more_values(const Origin& origin, const EulumdatHead& head, std::size_t planes, std::size_t more,
                       std::vector<std::string>& warnings) {
   if (more == 0) return;
   const bool all_planes = head.symmetry > 0 && more == (head.planes - planes) * head.vertical;
@@ -223,7 +223,7 @@ Photometry parse_eulumdat(std::string_view text, const Origin& origin, const Pho
   photometry.version = "EULUMDAT";
   photometry.intensity_unit = "cd";
   NumberLines lines(text, origin, photometry.notes);
-  const Head head = read_head(lines, photometry);
+  const EulumdatHead head = read_eulumdat_head(lines, photometry);
   read_luminaire(lines, options, photometry);
 
   lines.skip_empty_lines();

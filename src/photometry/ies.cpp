@@ -94,7 +94,7 @@ double positive(NumberStream& numbers, std::string_view what) {
 }
 
 // The ten numbers behind TILT.
-struct Head {
+struct IesHead {
   double lumens_per_lamp = 0.0;
   long lamps = 0;
   std::size_t vertical = 0;
@@ -115,8 +115,8 @@ double opening_size(NumberStream& numbers, std::string_view what, double unit_m)
   return size;
 }
 
-Head read_head(NumberStream& numbers, Photometry& photometry) {
-  Head head;
+IesHead read_ies_head(NumberStream& numbers, Photometry& photometry) {
+  IesHead head;
   head.lamps = numbers.whole("number of lamps", 0, 1'000'000);
   head.lumens_per_lamp = numbers.number("lumens per lamp");
   photometry.multiplier = positive(numbers, "candela multiplier");
@@ -160,7 +160,7 @@ void read_ballast(NumberStream& numbers, IesVersion version, Photometry& photome
   }
 }
 
-void set_lamps(const Head& head, Photometry& photometry) {
+void set_lamps(const IesHead& head, Photometry& photometry) {
   LampSet lamps;
   lamps.lamps = static_cast<int>(head.lamps);
   lamps.type = text_of_keyword(photometry, "LAMP");
@@ -202,7 +202,7 @@ std::string intensity_unit(const Photometry& photometry) {
   return unit;
 }
 
-CandelaTable::Grid read_angles_of(NumberStream& numbers, const Head& head) {
+CandelaTable::Grid read_angles_of(NumberStream& numbers, const IesHead& head) {
   CandelaTable::Grid grid;
   grid.type = head.type;
   const bool type_c = head.type == PhotometricType::c;
@@ -229,7 +229,7 @@ Photometry parse_ies(const TiltLine& tilt, const Origin& origin, const Photometr
 
   NumberStream numbers(tilt.rest, tilt.number + 1, origin, photometry.notes);
   read_tilt(tilt, origin, folder, numbers, photometry);
-  const Head head = read_head(numbers, photometry);
+  const IesHead head = read_ies_head(numbers, photometry);
   photometry.opening = ies_opening(version, head.width_m, head.length_m, head.height_m, photometry.warnings);
   read_ballast(numbers, version, photometry);
   set_lamps(head, photometry);

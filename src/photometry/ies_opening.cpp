@@ -23,7 +23,7 @@ struct Signs {
 };
 
 // What all versions of the standard, or the only ones that use these signs, agree on.
-constexpr std::array<Signs, 17> common{{
+constexpr std::array<Signs, 17> common_signs{{
     {0, 0, 0, OpeningForm::point},
     {1, 1, 0, OpeningForm::rectangle},
     {1, 0, 0, OpeningForm::rectangle},  // a line
@@ -43,9 +43,9 @@ constexpr std::array<Signs, 17> common{{
     {0, -1, -1, OpeningForm::cylinder_c90},  // its end: an upright disc
 }};
 // LM-63-1986 and 1991.
-constexpr std::array<Signs, 1> early{{{-1, 1, 1, OpeningForm::ellipsoid}}};
+constexpr std::array<Signs, 1> early_signs{{{-1, 1, 1, OpeningForm::ellipsoid}}};
 // LM-63-1995 and before.
-constexpr std::array<Signs, 5> until_1995{{
+constexpr std::array<Signs, 5> signs_until_1995{{
     {-1, 1, 1, OpeningForm::cylinder},
     {1, -1, 1, OpeningForm::cylinder},
     {-1, 0, -1, OpeningForm::ellipsoid},
@@ -53,7 +53,7 @@ constexpr std::array<Signs, 5> until_1995{{
     {1, -1, -1, OpeningForm::ellipsoid},
 }};
 // LM-63-2002 and later.
-constexpr std::array<Signs, 5> since_2002{{
+constexpr std::array<Signs, 5> signs_since_2002{{
     {-1, 1, 1, OpeningForm::cylinder},  // as in 1995: no other meaning
     {1, -1, 1, OpeningForm::cylinder},
     {-1, 0, -1, OpeningForm::cylinder_c0},  // its end: an upright disc
@@ -62,7 +62,7 @@ constexpr std::array<Signs, 5> since_2002{{
 }};
 
 template <std::size_t count>
-const Signs* find(const std::array<Signs, count>& list, int width, int length, int height) {
+const Signs* find_signs(const std::array<Signs, count>& list, int width, int length, int height) {
   const auto found = std::find_if(list.begin(), list.end(), [&](const Signs& s) {
     return s.width == width && s.length == length && s.height == height;
   });
@@ -95,10 +95,11 @@ LuminousOpening ies_opening(IesVersion version, double width_m, double length_m,
   const int w = sign_of(width_m);
   const int l = sign_of(length_m);
   const int h = sign_of(height_m);
-  const Signs* signs = find(common, w, l, h);
-  if (signs == nullptr && version <= IesVersion::lm_63_1991) signs = find(early, w, l, h);
+  const Signs* signs = find_signs(common_signs, w, l, h);
+  if (signs == nullptr && version <= IesVersion::lm_63_1991) signs = find_signs(early_signs, w, l, h);
   if (signs == nullptr)
-    signs = version <= IesVersion::lm_63_1995 ? find(until_1995, w, l, h) : find(since_2002, w, l, h);
+    signs = version <= IesVersion::lm_63_1995 ? find_signs(signs_until_1995, w, l, h)
+                                              : find_signs(signs_since_2002, w, l, h);
   const double x = std::abs(length_m);
   const double y = std::abs(width_m);
   const double z = std::abs(height_m);

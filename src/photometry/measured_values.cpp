@@ -11,7 +11,7 @@ namespace lichtmc {
 namespace {
 
 // Below −1 % of the maximum a negative value is no noise of the photometer.
-constexpr double noise = 0.01;
+constexpr double largest_noise = 0.01;
 // Of what any luminaire has, by far: below and above this a number has slipped.
 constexpr double least_candela = 1e-9;
 constexpr double most_candela = 1e12;
@@ -53,7 +53,7 @@ void set_candela(Photometry& photometry, const Origin& origin, CandelaTable::Gri
     origin.refuse(table.negative > 0
                       ? "no candela value is above 0. Get a file of a measurement."
                       : "every candela value is 0, the luminaire gives no light. Get a file of a measurement.");
-  if (table.lowest < -noise * table.highest)
+  if (table.lowest < -largest_noise * table.highest)
     origin.refuse(table.lowest_line, "a candela value is " + to_text(table.lowest) +
                                          ". Allowed: 0 or more, and down to -1 % of the maximum (" +
                                          to_text(table.highest) + ") as noise of the measurement. Correct the value.");

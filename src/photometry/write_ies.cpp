@@ -81,8 +81,11 @@ std::string ies_keyword(const std::string& name) {
 void write_texts(const Photometry& photometry, const LampSet& lamps, Writer& writer) {
   std::vector<std::string> written;
   for (const auto& [name, text] : photometry.texts) {
-    const std::string keyword = photometry.format == PhotometryFormat::eulumdat ? ies_keyword(name) : name;
-    if (keyword.empty() && (text.empty() || find_tilt(text))) continue;
+    std::string keyword = photometry.format == PhotometryFormat::eulumdat ? ies_keyword(name) : name;
+    if (keyword.empty() && text.empty()) continue;
+    // Labels that would be read as something else.
+    const bool like_keyword = text.starts_with("[") && text.find(']') != std::string::npos;
+    if (keyword.empty() && (like_keyword || find_tilt(text))) keyword = "OTHER";
     writer.keyword(keyword, text);
     written.push_back(keyword);
   }

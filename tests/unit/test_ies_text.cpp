@@ -146,4 +146,9 @@ TEST_CASE("long texts are written in lines of at most 256 characters") {
     CHECK(end - start <= 254);
   const Photometry again = parse_photometry(written, "again.ies");
   CHECK(again.texts == decltype(again.texts){{"", "a label"}, {"OTHER", text}, {"_X", "Weiß tab"}, {"LUMCAT", ""}});
+
+  // Labels that look like something else, as by lines that continue.
+  photometry.texts = {{"", "[12.8 MORE] of it"}, {"", "TILT=NONE"}};
+  const Photometry labels = parse_photometry(ies_text(photometry), "again.ies");
+  CHECK(labels.texts == decltype(labels.texts){{"OTHER", "[12.8 MORE] of it"}, {"OTHER", "TILT=NONE"}});
 }

@@ -1,4 +1,5 @@
 // What photometric files may look like: encodings, line ends, ranges of angles, openings, texts.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -168,6 +169,25 @@ TEST_CASE("ranges of horizontal angles give the symmetry") {
   CHECK(with_planes(3, "0 90", {-90, 90}).candela->grid().symmetry == S::none);
   CHECK(with_planes(3, "0 90", {0, 90}).candela->grid().symmetry == S::horizontal);
   CHECK(with_planes(3, "0 90", {10, 90}).warnings.size() == 1);
+}
+
+TEST_CASE("a EULUMDAT file may have the plane at 360°") {
+  const auto file = [](const std::string& planes, const std::string& last) {
+    const auto number = static_cast<std::size_t>(std::count(planes.begin(), planes.end(), '\n'));
+    std::string text = "maker\n3\n0\n" + std::to_string(number) + "\n0\n2\n0\nreport\nname\nnumber\nfile\ndate\n";
+    text += "0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n1\n0\n1\n1\nLED\n1000\n\n\n20\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n" + planes;
+    text += "0\n90\n100\n50\n100\n30\n100\n40\n" + last;
+    return parse_photometry(text, "lamp.ldt");
+  };
+  const Photometry open = file("0\n120\n240\n", "");
+  const Photometry closed = file("0\n120\n240\n360\n", "100\n50\n");
+  const Photometry seam = file("0\n120\n240\n360\n", "100\n60\n");
+  CHECK(open.candela->grid().horizontal_deg == std::vector<double>{0, 120, 240, 360});
+  CHECK(closed.candela->grid().candela == open.candela->grid().candela);
+  CHECK(open.warnings.empty());
+  CHECK(closed.warnings.empty());
+  REQUIRE(seam.warnings.size() == 1);
+  CHECK(seam.warnings[0].find("differ, by up to 10 % of the maximum") != std::string::npos);
 }
 
 TEST_CASE("any range of vertical angles within that of the type is read") {
