@@ -12,6 +12,7 @@
 #include "lichtmc/folder_lock.hpp"
 #include "lichtmc/inspect.hpp"
 #include "lichtmc/paths.hpp"
+#include "lichtmc/photometry.hpp"
 #include "lichtmc/picture.hpp"
 #include "lichtmc/prepared_room.hpp"
 #include "lichtmc/result.hpp"
@@ -31,7 +32,7 @@ struct ResultFiles {
   bool tile_images = true;  // tiles/NAME.exr
 };
 
-// Writes summary.json into a folder; with results of tiles also tiles.csv, surfaces.csv and tiles/NAME.exr; with
+// Writes summary.json and emitters.csv into a folder; with results of tiles also tiles.csv, surfaces.csv and tiles/NAME.exr; with
 // results of receivers also receivers.csv; with impulse responses also impulse_response.csv, channels.csv, channels.h5
 // and channels.mat, except those that files_left_out() names.
 //
@@ -84,6 +85,16 @@ void write_study(const Study& study, const std::filesystem::path& folder);
 
 // The content of advice.txt: references, the settings with the lowest cost, and what was left out.
 std::string advice_text(const Study& study);
+
+// The figures of a luminaire as JSON, for programs.
+std::string luminaire_json(const Photometry& photometry);
+
+// The picture of a luminaire: its polar diagram and, if its intensity is not the same in all C planes, that of all
+// directions in false colour. A complete SVG.
+std::string luminaire_svg(const Photometry& photometry);
+
+// Writes it to a file, atomically. Throws RuntimeError if that fails.
+void write_luminaire_svg(const Photometry& photometry, const std::filesystem::path& file);
 
 // The content of summary.json.
 std::string summary_json(const Room& room, const Result& result, const ResultFiles& files = {});

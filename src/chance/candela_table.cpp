@@ -10,6 +10,7 @@
 #include "chance/candela_grid.hpp"
 #include "chance/candela_lookup.hpp"
 #include "chance/candela_sampler.hpp"
+#include "chance/candela_zones.hpp"
 #include "lichtmc/error.hpp"
 
 namespace lichtmc {
@@ -17,22 +18,6 @@ namespace lichtmc {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-// Calls add(plane, plane', row, Δφ in rad) for the cells between adjacent angles; a single plane turns all round.
-template <class Add>
-void for_each_cell(const CandelaTable::Grid& grid, const Add& add) {
-  const std::size_t planes = grid.horizontal_deg.size();
-  for (std::size_t j = 0; j + 1 < std::max<std::size_t>(planes, 2); ++j) {
-    const bool one = planes == 1;
-    const double width = one ? 360.0 : grid.horizontal_deg[j + 1] - grid.horizontal_deg[j];
-    for (std::size_t i = 0; i + 1 < grid.vertical_deg.size(); ++i)
-      add(j, one ? j : j + 1, i, width * radians_per_degree);
-  }
-}
-
-double value(const CandelaTable::Grid& grid, std::size_t plane, std::size_t row) {
-  return grid.candela[plane * grid.vertical_deg.size() + row];
-}
 
 // The flux of a cell, in lm.
 double cell_flux(const CandelaTable::Grid& grid, std::size_t j, std::size_t next, std::size_t i, double width) {
@@ -142,26 +127,7 @@ void CandelaTable::candela(std::size_t n, const double* x, const double* y, cons
 
 double CandelaTable::flux_towards_aim() const {
   // The part of the table on that side: of type C by γ, of the others by H.
-  if (grid_.type == PhotometricType::c) {
-    if (grid_.vertical_deg.front() >= 90.0) return 0.0;
-    double sum = 0.0;
-    for_each_cell(grid_, [&](std::size_t j, std::size_t next, std::size_t i, double width) {
-      const double from = grid_.vertical_deg[i];
-      const double to = grid_.vertical_deg[i + 1];
-      if (from >= 90.0) return;
-      if (to <= 90.0) {
-        sum += cell_flux(grid_, j, next, i, width);
-        return;
-      }
-      const double share = (90.0 - from) / (to - from);
-      const double first = 0.5 * (value(grid_, j, i) + value(grid_, next, i));
-      const double last = 0.5 * (value(grid_, j, i + 1) + value(grid_, next, i + 1));
-      const double middle = 0.5 * (from + 90.0) * radians_per_degree;
-      sum += width * weighted_interval(first, first + share * (last - first), std::sin(middle), std::cos(middle),
-                                       0.5 * (90.0 - from) * radians_per_degree);
-    });
-    return sum * mirrors_of(grid_).copies();
-  }
+  if (grid_.type == PhotometricType::c) return flux_between(grid_, 0.0, 90.0);
   double sum = 0.0;
   for_each_cell(grid_, [&](std::size_t j, std::size_t next, std::size_t i, double /*width*/) {
     // |H| ≤ 90° within the cell: the values at its ends, by the same interpolation.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/decimal_shift.hpp"
+#include "room/emitter_place.hpp"
 #include "room/emitter_shape.hpp"
 
 namespace lichtmc {
@@ -20,8 +21,10 @@ std::string_view kind_of(const Emitter& emitter) {
 Json emitters_of(const Room& room) {
   Json emitters = Json::array();
   for (const Emitter& emitter : room.emitters) {
+    const Photometry* photometry = photometry_of(emitter);
     emitters.push_back({{"name", emitter.name},
                         {"kind", std::string(kind_of(emitter))},
+                        {"file", photometry != nullptr ? Json(photometry->source) : Json(nullptr)},
                         {"power", number(emitter.power)},
                         {"delay_ns", number(shift_decimals(emitter.delay_s, 9))}});
   }

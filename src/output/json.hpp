@@ -15,10 +15,10 @@ using Json = nlohmann::ordered_json;
 // A number; null if it is not finite, because JSON cannot represent NaN and infinity.
 Json number(double value);
 
-// "isotropic", "lambert", "spot" or "surface".
+// "isotropic", "lambert", "spot", "measured" or "surface".
 std::string_view kind_of(const Emitter& emitter);
 
-// Name, kind and power of every emitter.
+// Name, kind, photometric file and power of every emitter.
 Json emitters_of(const Room& room);
 
 // The text of a file. Bytes of names that are not UTF-8 are replaced: an error at the end of a long run would lose the

@@ -84,7 +84,7 @@ glm::dvec2 pixel_of(const glm::dmat4& to_pixel, const glm::dvec3& place) {
   return {at.x / at.w, at.y / at.w};
 }
 
-std::string colour_legend(const ColourScale& scale, Quantity quantity, double x, double y, double height) {
+std::string colour_legend(const ColourScale& scale, std::string_view unit, double x, double y, double height) {
   constexpr std::size_t steps = 256;
   std::vector<std::uint8_t> pixels;
   for (std::size_t k = 0; k < steps; ++k) {
@@ -92,7 +92,7 @@ std::string colour_legend(const ColourScale& scale, Quantity quantity, double x,
     pixels.insert(pixels.end(), colour.begin(), colour.end());
   }
   x += legend_distance;
-  std::string svg = svg_text(x, y - 10.0, written_irradiance_unit(quantity));
+  std::string svg = svg_text(x, y - 10.0, unit);
   svg += svg_image(png_file(1, steps, 3, pixels), x, y, bar_width, height, false);
   svg += "<rect x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\" width=\"" + fixed(bar_width) + "\" height=\"" +
          fixed(height) + "\" class=\"frame\"/>\n";

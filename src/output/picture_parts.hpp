@@ -2,13 +2,13 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "lichtmc/picture.hpp"
-#include "lichtmc/units.hpp"
 
 namespace lichtmc {
 
@@ -30,7 +30,7 @@ std::string css(const Colour& colour);
 glm::dvec2 pixel_of(const glm::dmat4& to_pixel, const glm::dvec3& place);
 
 // A bar with all colours and their values, with its unit above it.
-std::string colour_legend(const ColourScale& scale, Quantity quantity, double x, double y, double height);
+std::string colour_legend(const ColourScale& scale, std::string_view unit, double x, double y, double height);
 
 // The width that the legend needs, with its distance from the picture and the margin.
 double legend_width(const ColourScale& scale, double height);

@@ -12,6 +12,7 @@
 
 #include "base/message.hpp"
 #include "base/png.hpp"
+#include "lichtmc/units.hpp"
 #include "lichtmc/version.hpp"
 #include "output/exr.hpp"
 #include "output/picture_marks.hpp"
@@ -133,7 +134,8 @@ std::string room_svg(const Room& room, const Result& result, const Picture& pict
   PictureMarks marks(picture, unit, {picture_side, picture_top});
   svg += marks.receivers(result, scale);
   svg += marks.emitters(room);
-  svg += colour_legend(scale, result.quantity, picture_side + width, picture_top + 20.0, legend_height);
+  svg += colour_legend(scale, written_irradiance_unit(result.quantity), picture_side + width, picture_top + 20.0,
+                       legend_height);
 
   std::string note = scale_words(scale) + "sides of surfaces without light are not drawn" +
                      (measures_all(room) ? "" : "; grey: surfaces that are not measured") + marks.left_out();
@@ -176,7 +178,7 @@ std::string plan_svg(const Result& result, const SurfacePlan& plan, const std::s
   }
   svg += svg_image(png, picture_side, y, width, height, true);
   svg += isolines_svg(plan, unit, picture_side, y);
-  svg += colour_legend(scale, result.quantity, picture_side + width, y + 10.0, legend_height);
+  svg += colour_legend(scale, written_irradiance_unit(result.quantity), picture_side + width, y + 10.0, legend_height);
   y += legend_height + 38.5;
   if (plan.flat) {
     double end = 0.0;

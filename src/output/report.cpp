@@ -13,6 +13,7 @@
 #include "output/readable.hpp"
 #include "output/report_channels.hpp"
 #include "output/report_figures.hpp"
+#include "output/report_luminaires.hpp"
 #include "output/report_origin.hpp"
 #include "output/svg.hpp"
 #include "room/measured_surfaces.hpp"
@@ -153,7 +154,7 @@ std::string report_html(const ReportContent& content) {
       text_element("h1",
                    (result.quantity == Quantity::photometric ? "Illuminance in " : "Irradiance in ") + result.room) +
       key_figures(room, result) + warnings_section(content) + pictures_section(content) + view_section(content) +
-      surfaces_section(content) + receivers_section(result) + channels_section(content) +
+      luminaires_section(content) + surfaces_section(content) + receivers_section(result) + channels_section(content) +
       balance_section(room, result) + convergence_section(result) +
       settings_section(room, result, content.tile_images) + left_out_section(result) +
       reproduction_section(result, content.command);

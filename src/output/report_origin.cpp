@@ -9,7 +9,9 @@
 #include "lichtmc/version.hpp"
 #include "output/html.hpp"
 #include "output/json.hpp"
+#include "output/luminaire_schedule.hpp"
 #include "output/readable.hpp"
+#include "room/emitter_place.hpp"
 #include "room/settings_fields.hpp"
 
 namespace lichtmc {
@@ -44,6 +46,21 @@ std::string settings_table(const Settings& settings) {
          element("table", table_head({"setting", "value", "option"}) + element("tbody", rows), " id=\"settings\"");
 }
 
+// Emitters without a photometric file: the others are in the luminaire schedule.
+std::string emitters_table(const Room& room) {
+  std::string rows;
+  for (const Emitter& e : room.emitters) {
+    if (photometry_of(e) != nullptr) continue;
+    rows += "<tr>" + text_cell(e.name) + text_cell(kind_of(e)) + number_cell(e.power) + "</tr>\n";
+  }
+  if (rows.empty()) return {};
+  return heading(luminaire_schedule(room).empty() ? "Emitters" : "Emitters without a photometric file") +
+         element("table",
+                 table_head({"emitter", "kind", "power, " + std::string(power_unit(room.quantity))}) +
+                     element("tbody", rows),
+                 " class=\"sortable\" id=\"emitters\"");
+}
+
 }  // namespace
 
 std::string settings_section(const Room& room, const Result& result, bool tile_images) {
@@ -71,17 +88,10 @@ std::string settings_section(const Room& room, const Result& result, bool tile_i
     row("ended by (receivers)", std::string(to_string(result.receiver_walk.stopped_by)));
   }
   row("threads", std::to_string(result.threads));
-  std::string emitters;
-  for (const Emitter& e : room.emitters)
-    emitters += "<tr>" + text_cell(e.name) + text_cell(kind_of(e)) + number_cell(e.power) + "</tr>\n";
   std::string html = heading("What was simulated") + element("table", rows) + settings_table(s);
   if (!result.choices.empty()) html += list_of(result.choices);
   if (!result.overrides.empty()) html += text_element("p", "Changed after reading:") + list_of(result.overrides);
-  return html + heading("Emitters") +
-         element("table",
-                 table_head({"emitter", "kind", "power, " + std::string(power_unit(result.quantity))}) +
-                     element("tbody", emitters),
-                 " class=\"sortable\" id=\"emitters\"");
+  return html + emitters_table(room);
 }
 
 std::string left_out_section(const Result& result) {

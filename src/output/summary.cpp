@@ -9,6 +9,7 @@
 #include "lichtmc/version.hpp"
 #include "output/channel_json.hpp"
 #include "output/json.hpp"
+#include "output/luminaire_schedule.hpp"
 #include "output/summary.hpp"
 #include "output/tile_image.hpp"
 #include "room/settings_fields.hpp"
@@ -103,6 +104,33 @@ Json texts_of(const std::vector<Ignored>& ignored) {
   return texts;
 }
 
+// The luminaire schedule; emitters: their numbers.
+Json luminaires_of(const Room& room) {
+  Json luminaires = Json::array();
+  for (const ScheduleRow& row : luminaire_schedule(room)) {
+    const Photometry& photometry = *row.photometry;
+    const std::optional<double> scale = row.scale(room.quantity);
+    const std::optional<double> efficacy = photometry.efficacy();
+    const bool watts = photometry.watts > 0.0;
+    luminaires.push_back({{"file", photometry.source},
+                          {"format", photometry.version},
+                          {"manufacturer", photometry.manufacturer},
+                          {"luminaire", photometry.luminaire},
+                          {"catalogue", photometry.catalogue},
+                          {"lamp_set", photometry.lamp_set + 1},
+                          {"count", row.emitters.size()},
+                          {"power", number(row.power)},
+                          {"scale", scale ? number(*scale) : Json(nullptr)},
+                          {"total_power", number(row.count() * row.power)},
+                          {"watts", watts ? number(photometry.watts) : Json(nullptr)},
+                          {"total_watts", watts ? number(row.count() * photometry.watts) : Json(nullptr)},
+                          {"efficacy", efficacy ? number(*efficacy) : Json(nullptr)},
+                          {"light_from", row.area ? "opening" : "point"},
+                          {"emitters", row.emitters}});
+  }
+  return luminaires;
+}
+
 // The unit of every figure in the summary and the tables.
 Json units_of(const Result& result) {
   const std::string power(power_unit(result.quantity));
@@ -142,7 +170,12 @@ Json units_of(const Result& result) {
           {"rms_relative_error_without_floor", "1"},
           {"error_floor", irradiance},
           {"reflectance", "1"},
-          {"behind_share", "1"}};
+          {"behind_share", "1"},
+          {"total_power", power},
+          {"watts", "W"},
+          {"total_watts", "W"},
+          {"efficacy", "lm/W"},
+          {"scale", "1"}};
 }
 
 // What was simulated, and how long it took.
@@ -231,6 +264,7 @@ void add_details(const Room& room, const Result& result, const ResultFiles& file
   for (const std::string& note : files_left_out(result)) summary["warnings"].push_back(note);
   summary["mended"] = result.overrides;
   summary["emitters"] = emitters_of(room);
+  summary["luminaires"] = luminaires_of(room);
   summary["tile_edge_m"] = result.settings.tile_edge_m;
   summary["tiles_count"] = result.tiles.size();
   summary["tiles_without_hits"] = result.tiles_without_hits;

@@ -16,6 +16,7 @@
 #include "output/channels_h5.hpp"
 #include "output/channels_mat.hpp"
 #include "output/folder.hpp"
+#include "output/luminaire_schedule.hpp"
 #include "output/summary.hpp"
 #include "output/tables.hpp"
 #include "output/tile_image.hpp"
@@ -100,6 +101,7 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
   if (!result.receiver_results.empty())
     staged.write("receivers.csv", [&](const Sink& sink) { write_receivers_csv(result, sink); });
   if (result.channels) write_channels(result, staged);
+  staged.write("emitters.csv", emitters_csv(room));
   staged.write("summary.json", [&](const Sink& sink) { write_summary(room, result, files, sink); });
   staged.flush();
 

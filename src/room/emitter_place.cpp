@@ -30,4 +30,35 @@ glm::dvec3 place_of(const Room& room, const Emitter& emitter) {
       [&](const auto& area_light) { return middle_of(room.surfaces[area_light.surface]); });
 }
 
+EmitterDirections directions_of(const Emitter& emitter) {
+  return visit_shape(
+      emitter,
+      [](const auto& point) {
+        EmitterDirections directions;
+        if constexpr (requires { point.axis; }) directions.aim = frame_of(point).normal;
+        if constexpr (requires { point.c0; }) directions.c0 = point.c0;
+        return directions;
+      },
+      [](const auto& /*area_light*/) { return EmitterDirections{}; });
+}
+
+const Photometry* photometry_of(const Emitter& emitter) {
+  return visit_shape(
+      emitter,
+      [](const auto& point) -> const Photometry* {
+        if constexpr (requires { point.photometry; }) {
+          return point.photometry.get();
+        } else {
+          return nullptr;
+        }
+      },
+      [](const auto& /*area_light*/) -> const Photometry* { return nullptr; });
+}
+
+const LuminousOpening* opening_of(const Emitter& emitter) {
+  return visit_shape(
+      emitter, [](const auto& point) { return opening_of(point); },
+      [](const auto& /*area_light*/) -> const LuminousOpening* { return nullptr; });
+}
+
 }  // namespace lichtmc
