@@ -44,7 +44,7 @@ class Run(ProgramTest):
         self.assertEqual(summary["seed"], 5)
         self.assertEqual(summary["engine"], "cuboid")
         self.assertEqual(summary["stopped_by"], "photons")
-        self.assertEqual(sorted(p.name for p in out.iterdir()), ["state.h5", "summary.json", "surfaces.csv", "tiles", "tiles.csv"])
+        self.assertEqual(sorted(p.name for p in out.iterdir()), ["emitters.csv", "state.h5", "summary.json", "surfaces.csv", "tiles", "tiles.csv"])
         self.assertEqual(len(list((out / "tiles").glob("*.exr"))), 6)
         # Sums of 600 rounded numbers.
         self.assertTrue(math.isclose(sum(float(t["power"]) for t in tiles), summary["incident"], rel_tol=1e-12))
@@ -130,7 +130,7 @@ class Run(ProgramTest):
     def test_only_tiles_or_receivers(self):
         done = lichtmc("run", CUBE, "-o", self.folder / "out", "--photons", "10k", "--grid", "0.5", "--only", "receivers", "--no-report")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()), ["receivers.csv", "state.h5", "summary.json"])
+        self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()), ["emitters.csv", "receivers.csv", "state.h5", "summary.json"])
         out, summary, _, _ = self.run_room("--photons", "10k", "--grid", "0.5", "--only", "tiles")
         self.assertFalse((out / "receivers.csv").exists())  # that of the run before is removed
         self.assertIsNone(summary["backward"])

@@ -167,7 +167,7 @@ class Disk(ProgramTest):
             calls = self.after_the_state(calls)
             first = next(k for k, (call, _) in enumerate(calls) if call == "rename")
             flushed = {pathlib.PurePath(path).name for call, path in calls[:first] if call == "fsync"}
-            self.assertLessEqual({path.name for path in out.rglob("*.exr")} | {"tiles.csv", "surfaces.csv", "summary.json"}, flushed)
+            self.assertLessEqual({path.name for path in out.rglob("*.exr")} | {"tiles.csv", "surfaces.csv", "emitters.csv", "summary.json"}, flushed)
 
     def test_a_disk_that_fails_while_files_are_flushed_leaves_the_old_results(self):
         out = self.folder / "out"

@@ -236,8 +236,8 @@ TEST_CASE("summary.json is valid JSON for names of any bytes and for the shortes
 
 TEST_CASE("the output folder contains exactly the files of this run") {
   const Folder folder;
-  const std::set<std::string> expected{"summary.json", "surfaces.csv", "tiles.csv", "tiles/a__b___c_d.exr",
-                                       "tiles/lamp.back.exr"};
+  const std::set<std::string> expected{"emitters.csv", "summary.json",         "surfaces.csv",
+                                       "tiles.csv",    "tiles/a__b___c_d.exr", "tiles/lamp.back.exr"};
   const fs::path out = folder.path() / "deep" / "out";
   {
     const FolderLock lock = prepare_output(out);
@@ -254,7 +254,8 @@ TEST_CASE("without images of the tile maps those of an earlier run are removed, 
   const Folder folder;
   write_results(make_room(), make_result(), folder.path());
   write_results(make_room(), make_result(), folder.path(), {.tile_images = false});
-  CHECK(files_below(folder.path()) == std::set<std::string>{"summary.json", "surfaces.csv", "tiles.csv"});
+  CHECK(files_below(folder.path()) ==
+        std::set<std::string>{"emitters.csv", "summary.json", "surfaces.csv", "tiles.csv"});
   CHECK_FALSE(fs::exists(folder.path() / "tiles"));
   const Json summary = Json::parse(content(folder.path() / "summary.json"));
   CHECK(summary["tile_images"] == false);
@@ -271,7 +272,7 @@ TEST_CASE("more files than are flushed one by one are written completely") {
     result.surfaces.push_back(one.surfaces[0]);
   }
   write_results(make_room(), result, folder.path());
-  CHECK(files_below(folder.path()).size() == 40 + 3);
+  CHECK(files_below(folder.path()).size() == 40 + 4);
   CHECK(content(folder.path() / "tiles" / "a__b___c_d_39.exr") == tile_image(result, 39));
 }
 
@@ -283,9 +284,10 @@ TEST_CASE("tile maps of an earlier run are removed and other files stay") {
   static_cast<void>(prepare_output(folder.path()));
   CHECK(fs::exists(folder.path() / "tiles" / "old.exr"));
   write_results(make_room(), make_result(), folder.path());
-  CHECK(files_below(folder.path()) == std::set<std::string>{"other.exr", "summary.json", "surfaces.csv", "tiles.csv",
-                                                            "tiles/a__b___c_d.exr", "tiles/folder.exr/inside.exr",
-                                                            "tiles/lamp.back.exr", "tiles/notes.txt"});
+  CHECK(files_below(folder.path()) == std::set<std::string>{"emitters.csv", "other.exr", "summary.json", "surfaces.csv",
+                                                            "tiles.csv", "tiles/a__b___c_d.exr",
+                                                            "tiles/folder.exr/inside.exr", "tiles/lamp.back.exr",
+                                                            "tiles/notes.txt"});
 }
 
 TEST_CASE("temporary files of killed runs are removed, and nothing else") {
@@ -306,8 +308,8 @@ TEST_CASE("temporary files of killed runs are removed, and nothing else") {
   write_results(make_room(), make_result(), folder.path());
   CHECK(files_below(folder.path()) ==
         std::set<std::string>{"backup.tmp2147483646/kept2147483646", "notes.tmp2147483646",
-                              "state.h5.tmp" + std::to_string(::getppid()), "summary.json", "surfaces.csv", "tiles.csv",
-                              "tiles/a__b___c_d.exr", "tiles/lamp.back.exr"});
+                              "state.h5.tmp" + std::to_string(::getppid()), "emitters.csv", "summary.json",
+                              "surfaces.csv", "tiles.csv", "tiles/a__b___c_d.exr", "tiles/lamp.back.exr"});
 }
 
 TEST_CASE("a run that cannot be written leaves no summary and no temporary file") {
