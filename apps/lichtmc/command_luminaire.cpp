@@ -35,31 +35,37 @@ void print_row(const char* name, const std::string& text) {
   std::cout << start << visible_text(text) << '\n';
 }
 
-std::string percent_text(double share) {
-  const double value = 100.0 * share;
-  if (value != 0.0 && std::abs(value) < 0.05) return value > 0.0 ? "less than 0.1 %" : "0 %";
+// "12.5", "12"
+std::string with_decimals(double value, int decimals) {
   char digits[32];
-  std::snprintf(digits, sizeof digits, "%.1f %%", value);
-  return digits;
+  std::snprintf(digits, sizeof digits, "%.*f", decimals, value);
+  std::string text = digits;
+  if (text.find('.') != std::string::npos) text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+std::string percent_text(double share) {
+  constexpr double rounding = 1e-9;
+  const double value = 100.0 * share;
+  if (value > rounding && value < 0.05) return "less than 0.1 %";
+  return with_decimals(value, 1) + " %";
 }
 
 std::string degrees(double angle) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.1f", angle);
-  std::string text = digits;
-  if (text.ends_with(".0")) text.resize(text.size() - 2);
-  return (text == "-0" ? "0" : text) + "°";
+  return with_decimals(angle, std::abs(angle) < 10.0 ? 2 : 1) + "°";
 }
 
 std::string count_text(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-// "37 vertical angles, 0° to 180° in steps of 5°"
-std::string angles_text(const AngleRange& range, const std::string& noun) {
+// "37 angles γ, 0° to 180° in steps of 5°"
+std::string angles_text(const AngleRange& range, const std::string& noun, const std::string& symbol) {
   const auto exact = [](double angle) { return four_digits(angle) + "°"; };
-  if (range.count == 1) return "1 " + noun + ", " + exact(range.from);
-  std::string text = count_text(range.count, noun) + ", " + exact(range.from) + " to " + exact(range.to);
+  const std::string count = count_text(range.count, noun) + " " + symbol + ", ";
+  if (range.count == 1) return count + exact(range.from);
+  std::string text = count + exact(range.from) + " to " + exact(range.to);
   if (range.count == 2) return text;
   return text + (range.is_even() ? " in steps of " + degrees(range.greatest_step)
                                  : " in steps of " + degrees(range.least_step) + " to " + degrees(range.greatest_step));
@@ -87,18 +93,23 @@ std::string symmetry_text(PhotometricSymmetry symmetry) {
   return {};
 }
 
-// What the file is, for people who have never seen one.
+// What the luminaire does, for people who have never seen such a file.
 std::string first_line(const Photometry& photometry, const LuminaireFigures& figures) {
   const double towards = figures.share_towards_aim;
-  constexpr double nearly_all = 0.995;
-  const std::string where = towards >= nearly_all         ? "all of it towards its aim"
-                            : towards <= 1.0 - nearly_all ? "all of it away from its aim"
-                                                          : percent_text(towards) + " of it towards its aim";
+  constexpr double nearly_all = 0.9995;
+  const std::string share = towards >= nearly_all ? "sends all of its light to the side it aims at"
+                            : towards <= 1.0 - nearly_all
+                                ? "sends all of its light away from the side it aims at"
+                                : "sends " + percent_text(towards) + " of its light to the side it aims at";
   const PeakIntensity& peak = photometry.candela->peak();
-  std::string text = luminaire_title(photometry) + ": " + four_digits(figures.flux) + " " + figures.flux_unit + ", " +
-                     where + "; brightest at " + direction_text(photometry, peak.horizontal_deg, peak.vertical_deg) +
-                     " with " + four_digits(peak.candela) + " " + photometry.intensity_unit + ".";
-  return text;
+  const double away = angle_to_aim(photometry, peak.horizontal_deg, peak.vertical_deg);
+  const std::string place = away < 1e-6 ? "along this aim"
+                                        : degrees(away) + " away from this aim (" +
+                                              direction_text(photometry, peak.horizontal_deg, peak.vertical_deg) + ")";
+  return std::filesystem::path(photometry.source).filename().string() + ": a luminaire of " +
+         four_digits(figures.flux) + " " + figures.flux_unit +
+         (photometry.watts > 0.0 ? " and " + four_digits(photometry.watts) + " W" : "") + ". It " + share +
+         " and is brightest " + place + ", with " + four_digits(peak.candela) + " " + photometry.intensity_unit + ".";
 }
 
 std::string factor_text(const Photometry& photometry) {
@@ -118,7 +129,7 @@ std::string factor_text(const Photometry& photometry) {
 std::string lamps_text(const LampSet& set) {
   std::string text = count_text(static_cast<std::size_t>(std::max(0, set.lamps)), "lamp");
   if (!set.type.empty()) text += " " + set.type;
-  if (set.flux_lm > 0.0) text += ", together " + four_digits(set.flux_lm) + " lm";
+  if (set.flux_lm > 0.0) text += (set.lamps > 1 ? ", together " : ", ") + four_digits(set.flux_lm) + " lm";
   if (!set.colour.empty()) text += ", " + set.colour;
   if (!set.rendering_index.empty()) text += ", colour rendering " + set.rendering_index;
   if (set.watts > 0.0) text += ", " + four_digits(set.watts) + " W";
@@ -134,7 +145,7 @@ std::string signed_percent(double share) {
 std::string flux_text(const Photometry& photometry, const LuminaireFigures& figures) {
   std::string text = four_digits(figures.flux) + " " + figures.flux_unit + ", the integral of the intensity";
   if (photometry.stated_lm) {
-    text += "; the file states " + four_digits(*photometry.stated_lm) + " lm";
+    text += "; the file states " + four_digits(*photometry.stated_lm) + " " + figures.flux_unit;
     if (figures.over_stated) text += " (difference " + signed_percent(*figures.over_stated) + ")";
   }
   return text;
@@ -163,20 +174,24 @@ std::string zones_text(const LuminaireFigures& figures) {
   return text;
 }
 
-// "24.4° (−12.2° to 12.2°)"
+// "24.4° (12.2° to either side)", "46.2° (15.6° to 61.8°)", "111.8° (106.2° over 180° to -142°)"
 std::string width_text(const BeamWidth& width) {
-  if (width.beams == 0) return "no light";
+  if (width.lobes == 0) return "no light";
   if (width.width_deg() >= 360.0) return "360° (all round)";
-  std::string text = degrees(width.width_deg()) + " (" + degrees(width.from_deg) + " to " + degrees(width.to_deg);
-  if (width.beams > 1) text += ", one of " + std::to_string(width.beams) + " beams";
-  return text + ")";
+  std::string range = degrees(width.from_deg) + " to " + degrees(width.to_deg);
+  if (std::abs(width.from_deg + width.to_deg) < 1e-3 * width.width_deg())
+    range = degrees(width.to_deg) + " to either side";
+  if (width.from_deg < -180.0) range = degrees(width.from_deg + 360.0) + " over 180° to " + degrees(width.to_deg);
+  if (width.to_deg > 180.0) range = degrees(width.from_deg) + " over 180° to " + degrees(width.to_deg - 360.0);
+  if (width.lobes > 1) range += ", one of " + std::to_string(width.lobes) + " lobes";
+  return degrees(width.width_deg()) + " (" + range + ")";
 }
 
 std::string widths_text(const LuminaireFigures& figures, BeamWidth LuminairePlane::*width, bool rotational) {
   if (rotational) return width_text(figures.planes[0].*width);
   std::string text;
   for (const LuminairePlane& plane : figures.planes)
-    text += (text.empty() ? "" : "; ") + plane.name + ": " + width_text(plane.*width);
+    text += (text.empty() ? "" : "; ") + plane.name + " " + width_text(plane.*width);
   return text;
 }
 
@@ -194,8 +209,8 @@ void print(const Photometry& photometry, const LuminaireFigures& figures) {
   print_row("Test", photometry.test);
   print_row("Type", std::string(name_of(grid.type)) + ", " + symmetry_text(grid.symmetry) +
                         (grid.flip_horizontal ? ", H counts the other way (--flip-h)" : ""));
-  print_row("Table", angles_text(figures.vertical, type_c ? "angle γ" : "angle V") + "; " +
-                         angles_text(figures.horizontal, type_c ? "plane C" : "angle H"));
+  print_row("Table", angles_text(figures.vertical, "angle", type_c ? "γ" : "V") + "; " +
+                         angles_text(figures.horizontal, type_c ? "plane" : "angle", type_c ? "C" : "H"));
   print_row("Factor", factor_text(photometry));
   for (std::size_t k = 0; k < photometry.lamp_sets.size(); ++k) {
     const std::string number = photometry.lamp_sets.size() > 1 ? "set " + std::to_string(k + 1) + ": " : "";
@@ -205,7 +220,7 @@ void print(const Photometry& photometry, const LuminaireFigures& figures) {
   print_row("Flux", flux_text(photometry, figures));
   print_row("Output ratio", ratio_text(photometry, figures));
   print_row("Directions", direction_shares(photometry, figures));
-  print_row("Zones of γ", zones_text(figures));
+  print_row("Zones", zones_text(figures));
   if (photometry.watts > 0.0) {
     const std::optional<double> efficacy = photometry.efficacy();
     const bool lumens = efficacy && figures.flux_unit == "lm";
@@ -215,13 +230,14 @@ void print(const Photometry& photometry, const LuminaireFigures& figures) {
   const PeakIntensity& peak = table.peak();
   print_row("Maximum", four_digits(peak.candela) + " " + photometry.intensity_unit + " at " +
                            direction_text(photometry, peak.horizontal_deg, peak.vertical_deg));
-  print_row("Beam angle", widths_text(figures, &LuminairePlane::beam, rotational) + ", at 50 % of the maximum there");
-  print_row("Field angle", widths_text(figures, &LuminairePlane::field, rotational) + ", at 10 %");
+  print_row("Beam angle", "at 50 %: " + widths_text(figures, &LuminairePlane::beam, rotational));
+  print_row("Field angle", "at 10 %: " + widths_text(figures, &LuminairePlane::field, rotational));
   const std::string along = along_c0(photometry.opening);
   print_row("Opening", opening_text(photometry.opening) + (along.empty() ? "" : ". " + along));
   if (photometry.intensity_unit != "cd")
     std::cout << "Note: intensities are in " << visible_text(photometry.intensity_unit)
               << ", not in cd. In a room the file gives the shape; give the radiant flux in W as W=…\n";
+  for (const std::string& note : photometry.notes) std::cout << "Note: " << visible_text(note) << '\n';
   for (const std::string& warning : photometry.warnings) std::cout << "Warning: " << visible_text(warning) << '\n';
 }
 

@@ -30,13 +30,13 @@ IntensityPoint highest_of(const IntensityCut& cut);
 struct BeamWidth {
   double from_deg = -180.0;  // −540 < from ≤ highest point ≤ to < 540: beyond ±180° where it passes the direction
   double to_deg = 180.0;     // opposite to the aim
-  std::size_t beams = 1;     // ranges of such angles in the whole cut: 2 if the light has two peaks with a dip between
+  std::size_t lobes = 1;     // ranges of such angles in the whole cut: 2 with two peaks and a dip between
 
   double width_deg() const { return to_deg - from_deg; }
 };
 
 // share: above 0, at most 1. Half of the highest point: the full width at half of the maximum, FWHM. A cut without
-// light has the width 0, and no beam.
+// light has the width 0, and no lobe.
 BeamWidth beam_width(const IntensityCut& cut, double share);
 
 }  // namespace lichtmc

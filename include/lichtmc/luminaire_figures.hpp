@@ -56,6 +56,9 @@ LuminaireFigures luminaire_figures(const Photometry& photometry);
 // "C 65°, γ 62.5°"; types A and B: "H 0°, V 10°".
 std::string direction_text(const Photometry& photometry, double horizontal_deg, double vertical_deg);
 
+// The angle between a direction of the file and the aim, in degrees.
+double angle_to_aim(const Photometry& photometry, double horizontal_deg, double vertical_deg);
+
 // Manufacturer and name, or the catalogue number, or the file without its folder: not empty.
 std::string luminaire_title(const Photometry& photometry);
 

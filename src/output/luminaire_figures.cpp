@@ -85,6 +85,12 @@ std::string direction_text(const Photometry& photometry, double horizontal_deg, 
          decimal(vertical_deg, 3) + "°";
 }
 
+double angle_to_aim(const Photometry& photometry, double horizontal_deg, double vertical_deg) {
+  if (photometry.candela->grid().type == PhotometricType::c) return vertical_deg;
+  const double cosine = std::cos(vertical_deg * radians_per_degree) * std::cos(horizontal_deg * radians_per_degree);
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) / radians_per_degree;
+}
+
 std::string luminaire_title(const Photometry& photometry) {
   std::string title = photometry.manufacturer;
   const std::string& name = photometry.luminaire.empty() ? photometry.catalogue : photometry.luminaire;
@@ -128,11 +134,13 @@ std::string opening_text(const LuminousOpening& opening) {
 std::string along_c0(const LuminousOpening& opening) {
   const double along = opening.size_m.x;
   const double across = opening.size_m.y;
-  if (opening.form == OpeningForm::point) return {};
+  const bool has_sides = opening.form == OpeningForm::rectangle || opening.form == OpeningForm::box ||
+                         opening.form == OpeningForm::ellipse || opening.form == OpeningForm::ellipsoid;
+  if (!has_sides) return {};
   if (std::abs(along - across) <= 1e-3 * std::max(along, across))
     return opening.form == OpeningForm::rectangle || opening.form == OpeningForm::box
                ? "C0 lies along one of its equal sides."
-               : "";
+               : std::string();
   return "C0 lies along its " + std::string(along > across ? "longer" : "shorter") + " side, " + length_text(along) +
          " m.";
 }

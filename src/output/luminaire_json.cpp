@@ -39,7 +39,7 @@ Json width_of(const BeamWidth& width) {
   return {{"width", number(width.width_deg())},
           {"from", number(width.from_deg)},
           {"to", number(width.to_deg)},
-          {"beams", width.beams}};
+          {"lobes", width.lobes}};
 }
 
 Json planes_of(const LuminaireFigures& figures) {
@@ -129,6 +129,7 @@ std::string luminaire_json(const Photometry& photometry) {
   json["opening"] = opening_of(photometry.opening);
   json["texts"] = Json::array();
   for (const auto& [name, text] : photometry.texts) json["texts"].push_back({{"name", name}, {"text", text}});
+  json["notes"] = photometry.notes;
   json["warnings"] = photometry.warnings;
   return json_text(json);
 }

@@ -206,19 +206,31 @@ std::string grid(const Polar& polar, const Rings& rings, Part part) {
     const glm::dvec2 end = polar.on_ring(angle, radius);
     svg += svg_line(polar.middle().x, polar.middle().y, end.x, end.y, "class=\"rule\"");
     const glm::dvec2 label = polar.on_ring(angle, radius + 17.0);
-    svg += svg_text(label.x, label.y + 4.0, std::to_string(std::abs(angle)) + "°",
+    // At the edge of a half beside the values of the rings, which lie on the other side of the line.
+    const double beside = part != Part::whole && std::abs(angle) == 90 ? (part == Part::below ? 8.0 : -5.0) : 0.0;
+    svg += svg_text(label.x, label.y + 4.0 + beside, std::to_string(std::abs(angle)) + "°",
                     " class=\"muted\" text-anchor=\"middle\" font-size=\"" + fixed(angle_size) + "\"");
   }
   return svg;
 }
 
+// The values of the rings, of every second one if they need more room.
 std::string values(const Polar& polar, const Rings& rings, double ray, Part part, const std::string& unit) {
   std::string svg;
-  for (int k = 1; k <= rings.count; ++k) {
-    glm::dvec2 at = polar.on_ring(ray, radius * k / rings.count);
+  const auto add = [&](double r, const std::string& text) {
+    glm::dvec2 at = polar.on_ring(ray, r);
     at.y += part == Part::below ? -5.0 : part == Part::above ? 14.0 : 4.0;
-    svg += plate(at.x, at.y, short_number(rings.step * k) + (k == rings.count ? " " + unit : ""));
+    svg += plate(at.x, at.y, text);
+  };
+  double widest = 0.0;
+  for (int k = 1; k <= rings.count; ++k)
+    widest = std::max(widest, text_width(short_number(rings.step * k), angle_size));
+  const int step = part == Part::whole || widest + 4.0 < radius / rings.count ? 1 : 2;
+  for (int k = rings.count; k > 0; k -= step) {
+    const bool with_unit = part == Part::whole && k == rings.count;
+    add(radius * k / rings.count, short_number(rings.step * k) + (with_unit ? " " + unit : ""));
   }
+  if (part != Part::whole) add(0.0, unit);
   return svg;
 }
 
@@ -277,7 +289,7 @@ PicturePanel beam_panel(const Photometry& photometry, const LuminaireFigures& fi
   const std::vector<Curve> curves = curves_of(photometry, figures);
   double edge = 0.0;
   for (const LuminairePlane& plane : figures.planes) {
-    if (plane.field.beams > 1) return {};
+    if (plane.field.lobes > 1) return {};
     edge = std::max({edge, std::abs(plane.field.from_deg), std::abs(plane.field.to_deg)});
   }
   if (!(edge > 0.0) || edge > widest) return {};

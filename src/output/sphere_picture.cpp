@@ -32,18 +32,15 @@ struct Extent {
 };
 
 // The greatest angle to the axis of a disc with visible light, in degrees; none: −1.
-double reach_of(const CandelaTable& table, bool behind) {
+double reach_of(const Photometry& photometry, bool behind) {
+  const CandelaTable& table = *photometry.candela;
   const CandelaTable::Grid& grid = table.grid();
   const double visible = visible_share * table.peak().candela;
   double reach = -1.0;
   for (std::size_t j = 0; j < grid.horizontal_deg.size(); ++j) {
     for (std::size_t i = 0; i < grid.vertical_deg.size(); ++i) {
       if (grid.candela[j * grid.vertical_deg.size() + i] < visible) continue;
-      constexpr double degree = std::numbers::pi / 180.0;
-      const double angle =
-          grid.type == PhotometricType::c
-              ? grid.vertical_deg[i]
-              : std::acos(std::cos(grid.vertical_deg[i] * degree) * std::cos(grid.horizontal_deg[j] * degree)) / degree;
+      const double angle = angle_to_aim(photometry, grid.horizontal_deg[j], grid.vertical_deg[i]);
       const double own = behind ? 180.0 - angle : angle;
       if (own < 90.0 || (own <= 90.0 && !behind)) reach = std::max(reach, own);
     }
@@ -128,7 +125,7 @@ PicturePanel sphere_panel(const Photometry& photometry, double x, double y) {
   scale.high = table.peak().candela;
   PicturePanel panel{{}, 0.0, 40.0 + 2.0 * radius + 24.0};
   for (const bool behind : {false, true}) {
-    const double reach = reach_of(table, behind);
+    const double reach = reach_of(photometry, behind);
     if (reach < 0.0) continue;
     panel.svg += disc(table, scale, behind, extent_of(reach), x + panel.width, y);
     panel.width += 2.0 * (radius + side);

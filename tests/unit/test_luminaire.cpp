@@ -123,7 +123,7 @@ TEST_CASE("beam width: Lambert's law has its half at 60 degrees, on either side,
     const BeamWidth beam = beam_width(cut, 0.5);
     CHECK(beam.from_deg == Approx(-60.0).epsilon(1e-10));
     CHECK(beam.to_deg == Approx(60.0).epsilon(1e-10));
-    CHECK(beam.beams == 1);
+    CHECK(beam.lobes == 1);
     const double low = lambert(80.0), next = lambert(85.0);
     CHECK(beam_width(cut, 0.1).width_deg() == Approx(2.0 * (80.0 + 5.0 * (low - 0.1) / (low - next))).epsilon(1e-10));
   }
@@ -132,7 +132,7 @@ TEST_CASE("beam width: Lambert's law has its half at 60 degrees, on either side,
 TEST_CASE("beam width: the same intensity everywhere has no edge; a table that ends above it has one there") {
   const auto ball = table_of(rotational(180.0, 90.0), [](double, double) { return 1.0; });
   CHECK(beam_width(intensity_cut(*ball, 0.0), 0.5).width_deg() == 360.0);
-  CHECK(beam_width(intensity_cut(*ball, 0.0), 1.0).beams == 1);
+  CHECK(beam_width(intensity_cut(*ball, 0.0), 1.0).lobes == 1);
   const auto half = table_of(rotational(90.0, 90.0), [](double, double) { return 1.0; });
   CHECK(beam_width(intensity_cut(*half, 0.0), 0.5).from_deg == -90.0);
   CHECK(beam_width(intensity_cut(*half, 0.0), 0.5).to_deg == 90.0);
@@ -152,11 +152,11 @@ TEST_CASE("beam width: two peaks with a dip between are two beams; the width is 
   const IntensityCut cut = intensity_cut(*wings, 0.0);
   CHECK(highest_of(cut).angle_deg == 45.0);
   const BeamWidth beam = beam_width(cut, 0.5);
-  CHECK(beam.beams == 2);
+  CHECK(beam.lobes == 2);
   CHECK(beam.from_deg == Approx(35.0).epsilon(1e-10));
   CHECK(beam.to_deg == Approx(55.0).epsilon(1e-10));
   // 10 % reaches from edge to edge: one beam.
-  CHECK(beam_width(cut, 0.1).beams == 1);
+  CHECK(beam_width(cut, 0.1).lobes == 1);
 }
 
 TEST_CASE("cuts of types B and A lie in their coordinate planes, mirrored angles and the other count of H included") {
