@@ -102,7 +102,9 @@ double distance_above(const IntensityCut& cut, std::size_t start, int step, doub
 BeamWidth beam_width(const IntensityCut& cut, double share) {
   const IntensityPoint highest = highest_of(cut);
   if (!(highest.candela > 0.0)) return {0.0, 0.0, 0};
-  const double level = share * highest.candela;
+  // Values that equal the level, on a plateau, are above it whatever their rounding.
+  constexpr double rounding = 1e-11;
+  const double level = share * highest.candela * (1.0 - rounding);
   std::size_t start = 0;
   for (std::size_t k = 0; k < cut.size(); ++k) {
     const bool here = cut[k].angle_deg == highest.angle_deg;
