@@ -14,6 +14,7 @@
 #include "lichtmc/paths.hpp"
 #include "output/channel_pictures.hpp"
 #include "output/folder.hpp"
+#include "output/luminaire_schedule.hpp"
 #include "output/picture_svg.hpp"
 #include "output/report.hpp"
 #include "output/tables.hpp"
@@ -40,6 +41,7 @@ class ReportWriter {
   }
 
   void write() {
+    draw_luminaires();
     if (result_->channels) draw_channels();
     if (!result_->tiles.empty()) {
       content_.scale = choose_scale(*result_, options_->scale);
@@ -115,7 +117,7 @@ class ReportWriter {
     announce("Writing pictures");
     // Surfaces do not get the names of other pictures.
     std::vector<std::string> stems{"paths"};
-    stems.insert(stems.end(), channel_files_.begin(), channel_files_.end());
+    stems.insert(stems.end(), taken_files_.begin(), taken_files_.end());
     const std::size_t first = stems.size();
     for (const Drawn& drawn : all) stems.push_back(drawn.name);
     stems = file_stems(stems);
@@ -124,6 +126,17 @@ class ReportWriter {
     for (std::size_t k = 0; k < all.size(); ++k) write_picture(stems[first + k], all[k]);
     content_.lit_room = lit_room_glb(*room_, *result_, painter.lit_sides(), content_.scale, paths);
     folder_.write("room_lit.glb", content_.lit_room);
+  }
+
+  // The picture of each photometric file.
+  void draw_luminaires() {
+    const std::vector<ScheduleRow> rows = luminaire_schedule(*room_);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (k > 0 && rows[k].file == rows[k - 1].file) continue;
+      const std::string name = "luminaire_" + std::to_string(rows[k].file + 1);
+      taken_files_.push_back(name);
+      folder_.write(fs::path("pictures") / (name + ".svg"), luminaire_svg(*rows[k].photometry));
+    }
   }
 
   // Pictures of the strongest and the weakest channel.
@@ -136,7 +149,7 @@ class ReportWriter {
       const ChannelPictures& drawn = content_.channels.back();
       const auto write = [&](const std::string& name, const std::string& picture) {
         if (picture.empty()) return;
-        channel_files_.push_back(name + suffix);
+        taken_files_.push_back(name + suffix);
         folder_.write(pictures / (name + suffix + ".svg"), picture);
       };
       write("impulse_response", drawn.response);
@@ -160,7 +173,7 @@ class ReportWriter {
   StagedFiles folder_;
   const ReportOptions* options_;
   ReportContent content_;
-  std::vector<std::string> channel_files_;  // names of pictures of channels, without .svg
+  std::vector<std::string> taken_files_;  // names of pictures of luminaires and channels, without .svg
 };
 
 }  // namespace

@@ -346,4 +346,7 @@ TEST_CASE("report: each luminaire has its polar diagram once, with number and su
   CHECK(count_of(page, diagram) == 1);
   CHECK(page.find("Maker &lt;&amp;&gt; Co, Panel") != std::string::npos);
   CHECK(page.find("Emitters without a photometric file") != std::string::npos);
+  CHECK(fs::exists(folder.path() / "pictures" / "luminaire_1.svg"));
+  CHECK(fs::exists(folder.path() / "pictures" / "luminaire_2.svg"));
+  CHECK_FALSE(fs::exists(folder.path() / "pictures" / "luminaire_3.svg"));
 }
