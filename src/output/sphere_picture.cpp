@@ -20,10 +20,10 @@ namespace lichtmc {
 
 namespace {
 
-constexpr double radius = 140.0;
-constexpr double side = 40.0;           // for the names of the planes
-constexpr std::size_t pixels = 560;     // across a disc
-constexpr double visible_share = 0.01;  // of the maximum
+constexpr double disc_radius = 140.0;
+constexpr double disc_side = 40.0;    // for the names of the planes
+constexpr std::size_t pixels = 560;   // across a disc
+constexpr double reach_share = 0.01;  // of the maximum
 
 // The inner angles that a disc shows, and the step of its rings, in degrees.
 struct Extent {
@@ -35,7 +35,7 @@ struct Extent {
 double reach_of(const Photometry& photometry, bool behind) {
   const CandelaTable& table = *photometry.candela;
   const CandelaTable::Grid& grid = table.grid();
-  const double visible = visible_share * table.peak().candela;
+  const double visible = reach_share * table.peak().candela;
   double reach = -1.0;
   for (std::size_t j = 0; j < grid.horizontal_deg.size(); ++j) {
     for (std::size_t i = 0; i < grid.vertical_deg.size(); ++i) {
@@ -93,15 +93,15 @@ std::array<std::string, 4> names_of_sides(const CandelaTable::Grid& grid) {
 
 std::string disc(const CandelaTable& table, const ColourScale& scale, bool behind, const Extent& extent, double x,
                  double y) {
-  const double cx = x + side + radius;
-  const double cy = y + 40.0 + radius;
+  const double cx = x + disc_side + disc_radius;
+  const double cy = y + 40.0 + disc_radius;
   std::string svg = svg_text(cx, y + 4.0, behind ? "behind: more than 90° from the aim" : "towards the aim",
                              " text-anchor=\"middle\"");
-  svg += svg_image(disc_png(table, scale, behind, extent.edge), cx - radius, cy - radius, 2.0 * radius, 2.0 * radius,
-                   false);
+  svg += svg_image(disc_png(table, scale, behind, extent.edge), cx - disc_radius, cy - disc_radius, 2.0 * disc_radius,
+                   2.0 * disc_radius, false);
   const std::string small = " font-size=\"" + fixed(note_size) + "\" text-anchor=\"";
   for (double angle = extent.step; angle <= extent.edge + 1e-9; angle += extent.step) {
-    const double r = radius * angle / extent.edge;
+    const double r = disc_radius * angle / extent.edge;
     const bool last = angle + 1e-9 >= extent.edge;
     svg += "<circle cx=\"" + fixed(cx) + "\" cy=\"" + fixed(cy) + "\" r=\"" + fixed(r) + "\" fill=\"none\" stroke=\"" +
            (last ? "#888\"" : "#fff\" stroke-opacity=\"0.5\" stroke-width=\"0.8\"") + "/>\n";
@@ -110,10 +110,10 @@ std::string disc(const CandelaTable& table, const ColourScale& scale, bool behin
                     " class=\"halo\"" + small + "middle\"");
   }
   const std::array<std::string, 4> names = names_of_sides(table.grid());
-  svg += svg_text(cx + radius + 5.0, cy + 4.5, names[0], small + "start\"");
-  svg += svg_text(cx, cy - radius - 6.0, names[1], small + "middle\"");
-  svg += svg_text(cx - radius - 5.0, cy + 4.5, names[2], small + "end\"");
-  svg += svg_text(cx, cy + radius + 15.0, names[3], small + "middle\"");
+  svg += svg_text(cx + disc_radius + 5.0, cy + 4.5, names[0], small + "start\"");
+  svg += svg_text(cx, cy - disc_radius - 6.0, names[1], small + "middle\"");
+  svg += svg_text(cx - disc_radius - 5.0, cy + 4.5, names[2], small + "end\"");
+  svg += svg_text(cx, cy + disc_radius + 15.0, names[3], small + "middle\"");
   return svg;
 }
 
@@ -123,14 +123,14 @@ PicturePanel sphere_panel(const Photometry& photometry, double x, double y) {
   const CandelaTable& table = *photometry.candela;
   ColourScale scale;
   scale.high = table.peak().candela;
-  PicturePanel panel{{}, 0.0, 40.0 + 2.0 * radius + 24.0};
+  PicturePanel panel{{}, 0.0, 40.0 + 2.0 * disc_radius + 24.0};
   for (const bool behind : {false, true}) {
     const double reach = reach_of(photometry, behind);
     if (reach < 0.0) continue;
     panel.svg += disc(table, scale, behind, extent_of(reach), x + panel.width, y);
-    panel.width += 2.0 * (radius + side);
+    panel.width += 2.0 * (disc_radius + disc_side);
   }
-  const double legend_height = 2.0 * radius - 20.0;
+  const double legend_height = 2.0 * disc_radius - 20.0;
   panel.svg += colour_legend(scale, photometry.intensity_unit, x + panel.width - 8.0, y + 54.0, legend_height);
   panel.width += legend_width(scale, legend_height);
   double note_y = y + panel.height + 8.0;
