@@ -88,27 +88,56 @@ def triangles_by_reflectance(parts):
     return {reflectance: np.concatenate(group) for reflectance, group in groups.items()}
 
 
-def write_without_emitters(source, target):
-    """Copies a room: what emitted light stays as a body and emits none; receivers are left out, too."""
+EMITTING = {"power", "unit", "lambert_exponent", "delay_ns", "ies"}  # custom properties
+LAMPS = {"KHR_lights_punctual", "EXT_lights_ies"}
+SHINING = {"KHR_materials_emissive_strength"}
+
+
+def without(item, key, names):
+    """Takes these names out of the dictionary or the list item[key], and that out of the item if it is empty then."""
+    if key in item:
+        left = [name for name in item[key] if name not in names]
+        item[key] = {name: item[key][name] for name in left} if isinstance(item[key], dict) else left
+        if not left:
+            del item[key]
+
+
+def write_without_emitters(source, target, keep_receivers=False):
+    """Copies a room: what emitted light stays as a body and emits none."""
     document, buffer = read_file(source)
-    for material in document["materials"]:
+    for material in document.get("materials", []):
         material.pop("emissiveFactor", None)
-        material.get("extensions", {}).pop("KHR_materials_emissive_strength", None)
-        for key in ("power", "unit", "lambert_exponent"):
-            material.get("extras", {}).pop(key, None)
-    document["nodes"] = [
-        node
-        for node in document["nodes"]
-        if "KHR_lights_punctual" not in node.get("extensions", {}) and "receiver" not in node.get("extras", {})
-    ]
-    document["scenes"] = [{"nodes": list(range(len(document["nodes"])))}]
-    document.get("extensions", {}).pop("KHR_lights_punctual", None)
-    document.pop("extensionsUsed", None)
-    for item in (document, *document["materials"]):
-        if not item.get("extensions", True):
-            del item["extensions"]
+        material.pop("emissiveTexture", None)
+        without(material, "extensions", SHINING)
+        without(material, "extras", EMITTING)
+    for node in document["nodes"]:
+        without(node, "extensions", LAMPS)
+        without(node, "extras", EMITTING if keep_receivers else EMITTING | {"receiver"})
+    without(document, "extensions", LAMPS)
+    for key in ("extensionsUsed", "extensionsRequired"):
+        without(document, key, LAMPS | SHINING)
+    write_glb(document, buffer, target)
+
+
+def write_glb(document, buffer, target):
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     header = struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(buffer))
     chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(buffer), b"BIN\0") + buffer
     target.write_bytes(header + chunks)
+
+
+def lit_triangles(path):
+    """{reflectance: triangles} of a room_lit.glb of lichtmc: the surfaces of a run where they stand, m."""
+    parts = read_parts(path)
+    told = {part.node: part.material["extras"]["lichtmc"]["reflectance"] for part in parts if is_lit(part)}
+    groups = {}
+    for part in parts:
+        # Triangles of a surface that no light reaches have a material of their own.
+        if is_lit(part) or part.node in told and part.material["name"] == "no light":
+            groups.setdefault(told[part.node], []).append(part.triangles)
+    return {reflectance: np.concatenate(group) for reflectance, group in groups.items()}
+
+
+def is_lit(part):
+    return "reflectance" in part.material.get("extras", {}).get("lichtmc", {})

@@ -31,6 +31,22 @@ def version():
     return pyradiance.rtrace(b"", "", version=True).decode().strip()
 
 
+def surface_lines(reflecting):
+    """Radiance's description of {reflectance: triangles}, which reflect by Lambert's law."""
+    lines = []
+    for k, (reflectance, triangles) in enumerate(reflecting.items()):
+        lines.append(f"void plastic material_{k} 0 0 5 {reflectance} {reflectance} {reflectance} 0 0")
+        for n, corners in enumerate(triangles):
+            lines.append(f"material_{k} polygon p_{k}_{n} 0 0 9 " + " ".join(f"{x:.9g}" for x in corners.ravel()))
+    return lines
+
+
+def trace(octree, rays, **options):
+    """The answer of rtrace to rays [..., (point, direction)], as text."""
+    text = "\n".join(" ".join(f"{x:.9g}" for x in ray) for ray in rays.reshape(-1, 6)) + "\n"
+    return pyradiance.rtrace(text.encode(), octree, header=False, **options)
+
+
 def scene_text(task, distribution):
     """Radiance's description of the room. A lamp that points downwards is a disc; one in all directions is a sphere."""
     lamp = task.lamp
@@ -50,11 +66,7 @@ def scene_text(task, distribution):
             f"lamp_distribution light lamp_light 0 0 3 {radiance} {radiance} {radiance}",
             "lamp_light ring lamp 0 0 8 {} {} {} 0 -1 0 0 {}".format(*lamp.position, RADIUS),
         ]
-    for k, (reflectance, triangles) in enumerate(task.reflecting.items()):
-        lines.append(f"void plastic material_{k} 0 0 5 {reflectance} {reflectance} {reflectance} 0 0")
-        for n, corners in enumerate(triangles):
-            lines.append(f"material_{k} polygon p_{k}_{n} 0 0 9 " + " ".join(f"{x:.9g}" for x in corners.ravel()))
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines + surface_lines(task.reflecting)) + "\n"
 
 
 class Radiance:
@@ -78,16 +90,12 @@ class Radiance:
         """Distance from each point along its normal to the next surface, m."""
         starts = self.rays.copy()
         starts[..., :3] += 1e-5 * starts[..., 3:]
-        return np.array(self._answer(starts, outspec="L").split(), float).reshape(self.rays.shape[:2])
-
-    def _answer(self, rays, **options):
-        text = "\n".join(" ".join(f"{x:.9g}" for x in ray) for ray in rays.reshape(-1, 6)) + "\n"
-        return pyradiance.rtrace(text.encode(), self.octree, header=False, **options)
+        return np.array(trace(self.octree, starts, outspec="L").split(), float).reshape(self.rays.shape[:2])
 
     def _irradiance(self, rays, parameters):
         """CPU time of rtrace, and the irradiance at these points."""
         before = child_seconds()
-        answer = self._answer(rays, irradiance=True, params=parameters)
+        answer = trace(self.octree, rays, irradiance=True, params=parameters)
         return child_seconds() - before, np.array(answer.split(), float).reshape(-1, 3)[:, 0]
 
     def turn(self, seed):
