@@ -34,8 +34,9 @@ struct ReadOptions {
 // Surfaces: every triangle primitive of the scene and every instance of it, in world coordinates; if a node mirrors
 // (determinant < 0), its winding is reversed. Meshes may be quantized, or compressed by Draco or meshopt.
 // Reflectance: material extras.reflectance, else the Rec. 709 luminance of the base colour factor times the base colour
-// texture, point by point. Emitters: KHR_lights_punctual point and spot; node or light extras lambert_exponent, power,
-// unit; emissive materials (radiant or luminous flux = exitance · area in m²). Receivers: nodes with extras.receiver.
+// texture, point by point. Emitters: KHR_lights_punctual point and spot; EXT_lights_ies, and node or light extras ies:
+// luminaires with photometric files (lichtmc/photometry.hpp); node or light extras lambert_exponent, power, unit;
+// emissive materials (radiant or luminous flux = exitance · area in m²). Receivers: nodes with extras.receiver.
 // Nodes that KHR_node_visibility hides are left out, with all below them.
 //
 // A surface has the name of its node, or of the mesh if the node has none ("node.material" if the mesh has several
@@ -53,7 +54,7 @@ struct ReadOptions {
 Room read_gltf(const std::filesystem::path& file, const ReadOptions& options = {});
 
 // Writes a room as a .glb (binary) or .gltf (JSON with embedded buffer) file; the extension of the name determines
-// which. read_gltf() returns the same room, except that coordinates are rounded to float and reflectance maps to grey
+// which; photometric files are embedded. read_gltf() returns the same room, except that coordinates are rounded to float and reflectance maps to grey
 // images of 8 bits (their coordinates are then also used for the tiles of a surface without coordinates of its own).
 // The file is replaced atomically. Throws InputError for another extension, RuntimeError if the file cannot be written.
 void write_gltf(const Room& room, const std::filesystem::path& file);

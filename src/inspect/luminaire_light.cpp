@@ -25,17 +25,17 @@ constexpr double frame_m = 0.02;
 constexpr double largest_in_housing = 3.0;
 // From five times the largest dimension on, a luminaire may be taken for a point: the illuminance below a Lambertian
 // disc of diameter D at the distance d is that of a point times 1/(1 + (D/2d)²), 1 % less at d = 5 D.
-constexpr double far = 5.0;
+constexpr double far_sizes = 5.0;
 // The mean over these places is known to some 5 %.
 constexpr std::size_t most_places = 400;
 constexpr int steps_at_places = 12;  // along each side of the opening
 constexpr int steps_at_receivers = 32;
 // With fewer of the probe's 32 768 photons, shares are not known.
-constexpr std::uint64_t enough_photons = 64;
+constexpr std::uint64_t enough_of_a_luminaire = 64;
 
 // Without shadows and without flux: I cos θ / r², I the candela of the table.
-double direct_light(const MeasuredEmitter& lamp, const glm::dvec3& start, const glm::dvec3& point,
-                    const glm::dvec3& normal) {
+double light_of_point(const MeasuredEmitter& lamp, const glm::dvec3& start, const glm::dvec3& point,
+                      const glm::dvec3& normal) {
   const glm::dvec3 way = point - start;
   const double square = glm::dot(way, way);
   const double cosine = -glm::dot(way, normal);
@@ -52,7 +52,7 @@ double light_of_opening(const MeasuredEmitter& lamp, const glm::dvec3& point, co
     for (int k = 0; k < steps; ++k) {
       const glm::dvec3 place = lamp.photometry->opening.place((j + 0.5) / steps, (k + 0.5) / steps);
       const glm::dvec3 start = lamp.position + place.x * lamp.c0 + place.y * lamp.c90 + place.z * lamp.axis;
-      sum += direct_light(lamp, start, point, normal);
+      sum += light_of_point(lamp, start, point, normal);
     }
   }
   return sum / (steps * steps);
@@ -75,7 +75,7 @@ std::vector<double> longest_edges(const Room& room) {
   return medians;
 }
 
-const MeasuredEmitter* measured(const Emitter& emitter) {
+const MeasuredEmitter* luminaire_shape(const Emitter& emitter) {
   return std::visit(
       [](const auto& shape) -> const MeasuredEmitter* {
         if constexpr (requires { shape.photometry; }) return &shape;
@@ -97,7 +97,7 @@ void LuminaireLight::list_files() {
   std::map<const Photometry*, std::size_t> files;
   std::vector<Lamp> lamps(room_.emitters.size());
   for (std::size_t e = 0; e < room_.emitters.size(); ++e) {
-    const MeasuredEmitter* const shape = measured(room_.emitters[e]);
+    const MeasuredEmitter* const shape = luminaire_shape(room_.emitters[e]);
     if (shape == nullptr) continue;
     const Photometry& file = *shape->photometry;
     const auto [entry, is_new] = files.try_emplace(&file, facts_.size());
@@ -107,7 +107,7 @@ void LuminaireLight::list_files() {
       facts.version = file.version;
       facts.watts = file.watts;
       facts.opening = file.opening;
-      facts.limit_m = far * file.opening.largest_m();
+      facts.limit_m = far_sizes * file.opening.largest_m();
     }
     LuminaireFacts& facts = facts_[entry->second];
     ++facts.count;
@@ -168,7 +168,7 @@ std::vector<LuminaireFacts> LuminaireLight::facts() const {
       photons[lamp.file] += lamp.photons;
       near[lamp.file] += lamp.near;
     }
-    if (lamp.photons < enough_photons) continue;
+    if (lamp.photons < enough_of_a_luminaire) continue;
     LuminaireFacts& facts = list[lamp.file];
     const double share = static_cast<double>(lamp.in_housing) / static_cast<double>(lamp.photons);
     if (share <= facts.in_housing) continue;
@@ -177,12 +177,13 @@ std::vector<LuminaireFacts> LuminaireLight::facts() const {
     facts.housed = room_.emitters[e].name;
   }
   for (std::size_t f = 0; f < list.size(); ++f) {
-    if (photons[f] >= enough_photons) list[f].near = static_cast<double>(near[f]) / static_cast<double>(photons[f]);
+    if (photons[f] >= enough_of_a_luminaire)
+      list[f].near = static_cast<double>(near[f]) / static_cast<double>(photons[f]);
     // Photons land with a density proportional to the illuminance: their mean is that of the light.
     double elsewhere = 0.0;
     for (const Place& place : places_[f]) {
       const MeasuredEmitter& lamp = *lamps_[place.emitter].shape;
-      const double as_point = direct_light(lamp, lamp.position, place.point, place.normal);
+      const double as_point = light_of_point(lamp, lamp.position, place.point, place.normal);
       const double as_area = light_of_opening(lamp, place.point, place.normal, steps_at_places);
       if (as_point > 0.0) elsewhere += std::abs(as_area / as_point - 1.0);
     }
@@ -201,7 +202,7 @@ void LuminaireLight::find_nearest_receivers(std::vector<LuminaireFacts>& list) c
       const glm::dvec3 way = receiver.position - lamp.shape->position;
       if (!(glm::dot(way, way) < limit * limit)) continue;
       const glm::dvec3 normal = glm::normalize(receiver.normal);
-      const double as_point = direct_light(*lamp.shape, lamp.shape->position, receiver.position, normal);
+      const double as_point = light_of_point(*lamp.shape, lamp.shape->position, receiver.position, normal);
       if (!(as_point > 0.0)) continue;
       const double as_area = light_of_opening(*lamp.shape, receiver.position, normal, steps_at_receivers);
       limit = glm::length(way);
