@@ -89,9 +89,14 @@ std::string delay_text(const Emitter& emitter) {
 
 // The photometric file of a luminaire, and the input power that it states.
 std::string file_text(const Emitter& emitter) {
-  const auto* const luminaire = std::get_if<MeasuredEmitter>(&emitter.shape);
-  if (luminaire == nullptr) return "";
-  const Photometry& file = *luminaire->photometry;
+  const Photometry* const photometry = std::visit(
+      [](const auto& shape) -> const Photometry* {
+        if constexpr (requires { shape.photometry; }) return shape.photometry.get();
+        return nullptr;
+      },
+      emitter.shape);
+  if (photometry == nullptr) return "";
+  const Photometry& file = *photometry;
   std::string text = ", " + visible_text(std::filesystem::path(file.source).filename().string());
   if (file.watts > 0.0) text += ", " + four_digits(file.watts) + " W";
   return text;

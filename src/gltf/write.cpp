@@ -247,7 +247,8 @@ void Writer::add_point_emitter(const Emitter& emitter, const Shape& shape) {
 
 void Writer::add_luminaire(const Emitter& emitter, const MeasuredEmitter& shape) {
   Json node = document_.placed_node(emitter.name, shape.position);
-  luminaires_.add(shape, emitter.power, room_->quantity, node);
+  luminaires_.add(*shape.photometry, {shape.axis, shape.c0, shape.c90}, shape.opening, emitter.power, room_->quantity,
+                  node);
   add_power(emitter, node);
   document_.add_node(std::move(node));
 }

@@ -18,16 +18,15 @@ bool same_opening(const LuminousOpening& a, const LuminousOpening& b) {
 
 }  // namespace
 
-std::size_t LuminaireWriter::light_of(const MeasuredEmitter& luminaire) {
-  const Photometry& file = *luminaire.photometry;
-  const bool own_opening = luminaire.opening && !same_opening(*luminaire.opening, file.opening);
+std::size_t LuminaireWriter::light_of(const Photometry& file, const std::optional<LuminousOpening>& opening) {
+  const bool own_opening = opening && !same_opening(*opening, file.opening);
   if (!own_opening) {
     if (const auto found = known_.find(&file); found != known_.end()) return found->second;
   }
   std::string text;
   if (own_opening) {
     Photometry changed = file;
-    changed.opening = *luminaire.opening;
+    changed.opening = *opening;
     text = ies_text(changed);
   } else {
     text = ies_text(file);
@@ -47,21 +46,23 @@ std::size_t LuminaireWriter::light_of(const MeasuredEmitter& luminaire) {
   return entry->second;
 }
 
-void LuminaireWriter::add(const MeasuredEmitter& luminaire, double power, Quantity quantity, GltfBuilder::Json& node) {
+void LuminaireWriter::add(const Photometry& file, const LuminaireAxes& axes_of_light,
+                          const std::optional<LuminousOpening>& opening, double power, Quantity quantity,
+                          GltfBuilder::Json& node) {
   // The node looks along −Z, C0 lies towards +X, C90 towards +Y.
-  glm::dmat3 axes(luminaire.c0, luminaire.c90, -luminaire.axis);
+  glm::dmat3 axes(axes_of_light.c0, axes_of_light.c90, -axes_of_light.aim);
   if (glm::determinant(axes) < 0.0) {
     axes[1] = -axes[1];
     node["scale"] = {1.0, -1.0, 1.0};
   }
   const glm::dquat rotation = glm::normalize(glm::quat_cast(axes));
   node["rotation"] = {rotation.x, rotation.y, rotation.z, rotation.w};
-  GltfBuilder::Json extension{{"light", light_of(luminaire)}};
+  GltfBuilder::Json extension{{"light", light_of(file, opening)}};
   // For other programs: the custom property 'power' gives the same flux.
-  const double multiplier = power / luminaire.photometry->flux();
+  const double multiplier = power / file.flux();
   if (quantity == Quantity::photometric && multiplier != 1.0) extension["multiplier"] = multiplier;
   node["extensions"]["EXT_lights_ies"] = std::move(extension);
-  if (luminaire.opening) node["extras"]["ies"] = {{"opening", "area"}};
+  if (opening) node["extras"]["ies"] = {{"opening", "area"}};
 }
 
 }  // namespace lichtmc

@@ -3,10 +3,11 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "gltf/builder.hpp"
-#include "lichtmc/room.hpp"
+#include "lichtmc/photometry.hpp"
 
 namespace lichtmc {
 
@@ -15,11 +16,12 @@ class LuminaireWriter {
   explicit LuminaireWriter(GltfBuilder& document) : document_(&document) {}
 
   // Adds rotation, extension and properties to the node of a luminaire. The file is embedded, once for all luminaires
-  // that share it. The caller adds position, power and unit.
-  void add(const MeasuredEmitter& luminaire, double power, Quantity quantity, GltfBuilder::Json& node);
+  // that share it. The caller adds position, power and unit. opening: all over which its light starts, if it does.
+  void add(const Photometry& file, const LuminaireAxes& axes, const std::optional<LuminousOpening>& opening,
+           double power, Quantity quantity, GltfBuilder::Json& node);
 
  private:
-  std::size_t light_of(const MeasuredEmitter& luminaire);
+  std::size_t light_of(const Photometry& file, const std::optional<LuminousOpening>& opening);
 
   GltfBuilder* document_;
   std::map<std::string, std::size_t> lights_;  // by the text of the file

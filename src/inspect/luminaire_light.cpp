@@ -33,31 +33,6 @@ constexpr int steps_at_receivers = 32;
 // With fewer of the probe's 32 768 photons, shares are not known.
 constexpr std::uint64_t enough_of_a_luminaire = 64;
 
-// Without shadows and without flux: I cos θ / r², I the candela of the table.
-double light_of_point(const MeasuredEmitter& lamp, const glm::dvec3& start, const glm::dvec3& point,
-                      const glm::dvec3& normal) {
-  const glm::dvec3 way = point - start;
-  const double square = glm::dot(way, way);
-  const double cosine = -glm::dot(way, normal);
-  if (!(cosine > 0.0) || !(square > 0.0)) return 0.0;
-  const glm::dvec3 to = way / std::sqrt(square);
-  const glm::dvec3 local(glm::dot(to, lamp.c0), glm::dot(to, lamp.c90), glm::dot(to, lamp.axis));
-  return lamp.photometry->candela->candela(local) * cosine / (square * std::sqrt(square));
-}
-
-// Its mean over starts all over the opening, by the midpoints of equal parts.
-double light_of_opening(const MeasuredEmitter& lamp, const glm::dvec3& point, const glm::dvec3& normal, int steps) {
-  double sum = 0.0;
-  for (int j = 0; j < steps; ++j) {
-    for (int k = 0; k < steps; ++k) {
-      const glm::dvec3 place = lamp.photometry->opening.place((j + 0.5) / steps, (k + 0.5) / steps);
-      const glm::dvec3 start = lamp.position + place.x * lamp.c0 + place.y * lamp.c90 + place.z * lamp.axis;
-      sum += light_of_point(lamp, start, point, normal);
-    }
-  }
-  return sum / (steps * steps);
-}
-
 std::vector<double> longest_edges(const Room& room) {
   std::vector<double> medians;
   for (const Surface& surface : room.surfaces) {
@@ -75,16 +50,32 @@ std::vector<double> longest_edges(const Room& room) {
   return medians;
 }
 
-const MeasuredEmitter* luminaire_shape(const Emitter& emitter) {
-  return std::visit(
-      [](const auto& shape) -> const MeasuredEmitter* {
-        if constexpr (requires { shape.photometry; }) return &shape;
-        return nullptr;
-      },
-      emitter.shape);
+}  // namespace
+
+double LuminaireLight::light_of_point(const Lamp& lamp, const glm::dvec3& start, const glm::dvec3& point,
+                                      const glm::dvec3& normal) {
+  const glm::dvec3 way = point - start;
+  const double square = glm::dot(way, way);
+  const double cosine = -glm::dot(way, normal);
+  if (!(cosine > 0.0) || !(square > 0.0)) return 0.0;
+  const glm::dvec3 to = way / std::sqrt(square);
+  const glm::dvec3 local(glm::dot(to, lamp.axes.c0), glm::dot(to, lamp.axes.c90), glm::dot(to, lamp.axes.aim));
+  return lamp.photometry->candela->candela(local) * cosine / (square * std::sqrt(square));
 }
 
-}  // namespace
+double LuminaireLight::light_of_opening(const Lamp& lamp, const glm::dvec3& point, const glm::dvec3& normal,
+                                        int steps) {
+  double sum = 0.0;
+  for (int j = 0; j < steps; ++j) {
+    for (int k = 0; k < steps; ++k) {
+      const glm::dvec3 place = lamp.photometry->opening.place((j + 0.5) / steps, (k + 0.5) / steps);
+      const glm::dvec3 start =
+          lamp.position + place.x * lamp.axes.c0 + place.y * lamp.axes.c90 + place.z * lamp.axes.aim;
+      sum += light_of_point(lamp, start, point, normal);
+    }
+  }
+  return sum / (steps * steps);
+}
 
 LuminaireLight::LuminaireLight(const Room& room, const Scene& scene) : room_(room), scene_(scene) {
   list_files();
@@ -97,9 +88,20 @@ void LuminaireLight::list_files() {
   std::map<const Photometry*, std::size_t> files;
   std::vector<Lamp> lamps(room_.emitters.size());
   for (std::size_t e = 0; e < room_.emitters.size(); ++e) {
-    const MeasuredEmitter* const shape = luminaire_shape(room_.emitters[e]);
-    if (shape == nullptr) continue;
-    const Photometry& file = *shape->photometry;
+    Lamp& lamp = lamps[e];
+    bool all_over = false;
+    std::visit(
+        [&](const auto& shape) {
+          if constexpr (requires { shape.photometry; }) {
+            lamp.photometry = shape.photometry.get();
+            lamp.position = shape.position;
+            lamp.axes = {shape.axis, shape.c0, shape.c90};
+            all_over = shape.opening.has_value();
+          }
+        },
+        room_.emitters[e].shape);
+    if (lamp.photometry == nullptr) continue;
+    const Photometry& file = *lamp.photometry;
     const auto [entry, is_new] = files.try_emplace(&file, facts_.size());
     if (is_new) {
       LuminaireFacts& facts = facts_.emplace_back();
@@ -112,11 +114,9 @@ void LuminaireLight::list_files() {
     LuminaireFacts& facts = facts_[entry->second];
     ++facts.count;
     facts.power += room_.emitters[e].power;
-    Lamp& lamp = lamps[e];
-    lamp.shape = shape;
     lamp.file = entry->second;
     lamp.housing_m = file.opening.half_diagonal_m() + frame_m;
-    lamp.sizeless = !shape->opening && file.opening.form != OpeningForm::point;
+    lamp.sizeless = !all_over && file.opening.form != OpeningForm::point;
     if (lamp.sizeless) ++facts.as_points;
   }
   if (facts_.empty()) return;
@@ -126,7 +126,7 @@ void LuminaireLight::list_files() {
 
 void LuminaireLight::start(std::uint32_t photon, std::size_t emitter) {
   if (lamps_.empty()) return;
-  const bool counts = lamps_[emitter].shape != nullptr;
+  const bool counts = lamps_[emitter].photometry != nullptr;
   emitter_of_[photon] = counts ? static_cast<std::uint32_t>(emitter) : no_emitter;
   if (counts) ++lamps_[emitter].photons;
 }
@@ -140,7 +140,7 @@ void LuminaireLight::land(const Wave& wave) {
     Lamp& lamp = lamps_[emitter];
     const glm::dvec3 start(rays.start(i));
     const glm::dvec3 end = scene_.tracer->world_point(start + double{rays.length[i]} * glm::dvec3(rays.direction(i)));
-    const double distance = glm::length(end - lamp.shape->position);
+    const double distance = glm::length(end - lamp.position);
     const std::uint32_t facet = rays.facet[i];
     if (distance <= lamp.housing_m && longest_edge_[scene_.surface_of[facet]] <= largest_in_housing * lamp.housing_m)
       ++lamp.in_housing;
@@ -163,7 +163,7 @@ std::vector<LuminaireFacts> LuminaireLight::facts() const {
   std::vector<std::uint64_t> near(list.size());
   for (std::size_t e = 0; e < lamps_.size(); ++e) {
     const Lamp& lamp = lamps_[e];
-    if (lamp.shape == nullptr) continue;
+    if (lamp.photometry == nullptr) continue;
     if (lamp.sizeless) {
       photons[lamp.file] += lamp.photons;
       near[lamp.file] += lamp.near;
@@ -182,7 +182,7 @@ std::vector<LuminaireFacts> LuminaireLight::facts() const {
     // Photons land with a density proportional to the illuminance: their mean is that of the light.
     double elsewhere = 0.0;
     for (const Place& place : places_[f]) {
-      const MeasuredEmitter& lamp = *lamps_[place.emitter].shape;
+      const Lamp& lamp = lamps_[place.emitter];
       const double as_point = light_of_point(lamp, lamp.position, place.point, place.normal);
       const double as_area = light_of_opening(lamp, place.point, place.normal, steps_at_places);
       if (as_point > 0.0) elsewhere += std::abs(as_area / as_point - 1.0);
@@ -195,16 +195,16 @@ std::vector<LuminaireFacts> LuminaireLight::facts() const {
 
 void LuminaireLight::find_nearest_receivers(std::vector<LuminaireFacts>& list) const {
   for (const Lamp& lamp : lamps_) {
-    if (lamp.shape == nullptr || !lamp.sizeless) continue;
+    if (lamp.photometry == nullptr || !lamp.sizeless) continue;
     LuminaireFacts& facts = list[lamp.file];
     double limit = facts.nearest_receiver.empty() ? facts.limit_m : facts.nearest_m;
     for (const Receiver& receiver : room_.receivers) {
-      const glm::dvec3 way = receiver.position - lamp.shape->position;
+      const glm::dvec3 way = receiver.position - lamp.position;
       if (!(glm::dot(way, way) < limit * limit)) continue;
       const glm::dvec3 normal = glm::normalize(receiver.normal);
-      const double as_point = light_of_point(*lamp.shape, lamp.shape->position, receiver.position, normal);
+      const double as_point = light_of_point(lamp, lamp.position, receiver.position, normal);
       if (!(as_point > 0.0)) continue;
-      const double as_area = light_of_opening(*lamp.shape, receiver.position, normal, steps_at_receivers);
+      const double as_area = light_of_opening(lamp, receiver.position, normal, steps_at_receivers);
       limit = glm::length(way);
       facts.nearest_m = limit;
       facts.nearest_receiver = receiver.name;

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "lichtmc/inspect.hpp"
+#include "lichtmc/photometry.hpp"
 #include "lichtmc/room.hpp"
 #include "walk/scene.hpp"
 #include "walk/wave.hpp"
@@ -31,7 +32,9 @@ class LuminaireLight {
  private:
   // A luminaire whose first flights count.
   struct Lamp {
-    const MeasuredEmitter* shape = nullptr;
+    const Photometry* photometry = nullptr;  // null: the emitter is none
+    glm::dvec3 position{0.0};
+    LuminaireAxes axes;
     std::size_t file = 0;    // index into facts_
     double housing_m = 0.0;  // what is no farther from its centre may be its housing
     bool sizeless = false;   // a point, although the file states its opening
@@ -45,6 +48,12 @@ class LuminaireLight {
     glm::dvec3 point{0.0};
     glm::dvec3 normal{0.0};
   };
+
+  // Without shadows and without flux: I cos θ / r², I the candela of the table; the mean over starts all over the
+  // opening, by the midpoints of equal parts.
+  static double light_of_point(const Lamp& lamp, const glm::dvec3& start, const glm::dvec3& point,
+                               const glm::dvec3& normal);
+  static double light_of_opening(const Lamp& lamp, const glm::dvec3& point, const glm::dvec3& normal, int steps);
 
   void list_files();
   void find_nearest_receivers(std::vector<LuminaireFacts>& facts) const;
