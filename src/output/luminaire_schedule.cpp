@@ -26,7 +26,8 @@ bool is_same_file(const Photometry& a, const Photometry& b) {
 
 std::string vector_fields(const std::optional<glm::dvec3>& vector) {
   if (!vector) return ",,";
-  return to_text(vector->x) + ',' + to_text(vector->y) + ',' + to_text(vector->z);
+  const auto text = [](double value) { return to_text(value + 0.0); };  // no "-0"
+  return text(vector->x) + ',' + text(vector->y) + ',' + text(vector->z);
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ std::string luminaires_section(const ReportContent& content) {
              figure_cell(row.count() * row.power) + figure_cell(row.count() * watts);
     body += "<tr>" + cells + "</tr>\n";
   }
-  const std::string flux = photometric ? "luminous flux, lm" : "radiant flux, W";
+  const std::string flux = photometric ? "luminous flux" : "radiant flux";
   return heading("Luminaires") +
          text_element("p",
                       "Intensity by the photometric file of each. The flux is that of the simulation; input power and "
@@ -97,11 +97,12 @@ std::string luminaires_section(const ReportContent& content) {
                       " class=\"muted\"") +
          element(
              "div",
-             element("table",
-                     table_head({"intensity", "luminaire", "number", flux + " of each", "input power of each, W",
-                                 "efficacy, lm/W", flux + ", together", "input power, W, together"}) +
-                         element("tbody", body) + (rows.size() > 1 || rows[0].emitters.size() > 1 ? sum_row(rows) : ""),
-                     " id=\"luminaires\""),
+             element(
+                 "table",
+                 table_head({"intensity", "luminaire", "number", flux + " of each, " + unit, "input power of each, W",
+                             "efficacy, lm/W", flux + " together, " + unit, "input power together, W"}) +
+                     element("tbody", body) + (rows.size() > 1 || rows[0].emitters.size() > 1 ? sum_row(rows) : ""),
+                 " id=\"luminaires\""),
              " class=\"scroll\"");
 }
 
