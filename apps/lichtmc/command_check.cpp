@@ -98,7 +98,7 @@ std::string file_text(const Emitter& emitter) {
   if (photometry == nullptr) return "";
   const Photometry& file = *photometry;
   std::string text = ", " + visible_text(std::filesystem::path(file.source).filename().string());
-  if (file.watts > 0.0) text += ", " + four_digits(file.watts) + " W";
+  if (file.watts > 0.0) text += ", input " + four_digits(file.watts) + " W";
   return text;
 }
 

@@ -64,7 +64,7 @@ class Luminaires(ProgramTest):
         self.assertEqual(powers[2], 1500)
         self.assertEqual([(one["count"], one["as_points"]) for one in facts["luminaires"]], [(2, 1), (1, 1)])
         text = lichtmc("check", room).stdout
-        self.assertIn("c_skew: 2774 lm, c_skew.ies, 50 W", text)
+        self.assertIn("c_skew: 2774 lm, c_skew.ies, input 50 W", text)
         self.assertNotIn("not known", text)
         self.assertIn("The luminaire with the photometric file 'c_skew.ies' is taken for a point", text)
         _, messages = self.direct(room)
