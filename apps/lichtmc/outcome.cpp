@@ -155,7 +155,8 @@ void print_outcome(const Result& result, const std::filesystem::path& folder, bo
             << (result.tiles.empty() || !with_images ? "" : "tiles/*.exr, ")
             << (result.receiver_results.empty() ? "" : "receivers.csv, ")
             << (result.channels ? "channels.csv, impulse_response.csv, channels.h5, " : "")
-            << (result.channels && files_left_out(result).empty() ? "channels.mat, " : "") << "summary.json.\n";
+            << (result.channels && files_left_out(result).empty() ? "channels.mat, " : "")
+            << "emitters.csv, summary.json.\n";
   if (!with_report) return;
   std::cerr << "Open " << visible_text((folder / "report.html").string()) << " in a browser"
             << (result.tiles.empty() ? "" : ", room_lit.glb in any glTF viewer") << ".\n";

@@ -1,6 +1,8 @@
 #include "lichtmc/overrides.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -168,6 +170,18 @@ void set_delay(Room& room, const std::string& name, double delay_s) {
                            ": delay set to " + to_text(shift_decimals(delay_s, 9)) + " ns.");
 }
 
+namespace {
+
+// The flux of a photometric file is an integral; nobody has given its 16 digits.
+double nine_digits(double value) {
+  std::array<char, 32> text{};
+  const char* end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, 8).ptr;
+  std::from_chars(text.data(), end, value);
+  return value;
+}
+
+}  // namespace
+
 void add_emitter(Room& room, Emitter emitter, Quantity quantity) {
   if (room.emitters.empty()) room.quantity = quantity;
   if (room.quantity != quantity) {
@@ -175,8 +189,8 @@ void add_emitter(Room& room, Emitter emitter, Quantity quantity) {
                      ", the emitters of " + room.source + " are in " + std::string(power_unit(room.quantity)) +
                      " (allowed: one unit for all). Give its power in " + std::string(power_unit(room.quantity)) + ".");
   }
-  room.overrides.push_back("Emitter " + in_quotes(emitter.name) + " added: " + to_text(emitter.power) + " " +
-                           std::string(power_unit(quantity)) + ".");
+  room.overrides.push_back("Emitter " + in_quotes(emitter.name) + " added: " + to_text(nine_digits(emitter.power)) +
+                           " " + std::string(power_unit(quantity)) + ".");
   room.emitters.push_back(std::move(emitter));
 }
 
