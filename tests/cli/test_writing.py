@@ -148,7 +148,7 @@ class Disk(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         calls = self.after_the_state(calls)
         names = [path for call, path in calls if call == "rename"]
-        self.assertEqual(len(names), self.SURFACES + 3)
+        self.assertEqual(len(names), self.SURFACES + 4)  # with tables of surfaces, tiles and emitters, and summary.json
         self.assertEqual(names[-1], "summary.json")
         first = next(k for k, (call, _) in enumerate(calls) if call == "rename")
         self.assertEqual(sum(call == "syncfs" for call, _ in calls), 1)
