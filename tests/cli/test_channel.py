@@ -161,7 +161,7 @@ class Results(ProgramTest):
 
     def test_files_and_gains(self):
         out = self.run_room("--orders", "2", "--squared-weights")
-        self.assertEqual(sorted(p.name for p in out.iterdir()), sorted((*FILES, "receivers.csv", "state.h5", "summary.json")))
+        self.assertEqual(sorted(p.name for p in out.iterdir()), sorted((*FILES, "emitters.csv", "receivers.csv", "state.h5", "summary.json")))
         rows = table(out / "impulse_response.csv")
         self.assertEqual(list(rows[0]), ["emitter", "receiver", "order", "time_s", "h", "standard_error"])
         found = self.responses(out)
@@ -194,7 +194,7 @@ class Results(ProgramTest):
         self.assertTrue(all((out / name).exists() for name in FILES))
         done = lichtmc("run", self.room, "-o", out, "--receivers", self.points, "--only", "receivers", *FEW)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(sorted(p.name for p in out.iterdir()), ["receivers.csv", "state.h5", "summary.json"])
+        self.assertEqual(sorted(p.name for p in out.iterdir()), ["emitters.csv", "receivers.csv", "state.h5", "summary.json"])
         self.assertFalse(json.loads((out / "summary.json").read_text()).get("channels"))
 
     def test_estimator(self):
