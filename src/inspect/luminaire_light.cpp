@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -77,6 +78,19 @@ double LuminaireLight::light_of_opening(const Lamp& lamp, const glm::dvec3& poin
   return sum / (steps * steps);
 }
 
+// Walls beside a long luminaire may be nearer to its middle than its ends. A housing is nearer to the opening than half
+// of its width, or than the depth of a shade.
+bool LuminaireLight::is_beside_opening(const glm::dvec3& point, const Lamp& lamp, const LuminousOpening& opening) {
+  constexpr double shade_m = 0.15;
+  const glm::dvec3 way = point - lamp.position;
+  const glm::dvec3 local(glm::dot(way, lamp.axes.c0), glm::dot(way, lamp.axes.c90), glm::dot(way, lamp.axes.aim));
+  const glm::dvec3 half = 0.5 * opening.size_m;
+  const double low = std::min({half.x, half.y, half.z});
+  const double high = std::max({half.x, half.y, half.z});
+  const double middle = half.x + half.y + half.z - low - high;
+  return glm::length(glm::max(glm::abs(local) - half, glm::dvec3(0.0))) <= std::max(shade_m, middle) + frame_m;
+}
+
 LuminaireLight::LuminaireLight(const Room& room, const Scene& scene) : room_(room), scene_(scene) {
   list_files();
   if (lamps_.empty()) return;
@@ -142,7 +156,8 @@ void LuminaireLight::land(const Wave& wave) {
     const glm::dvec3 end = scene_.tracer->world_point(start + double{rays.length[i]} * glm::dvec3(rays.direction(i)));
     const double distance = glm::length(end - lamp.position);
     const std::uint32_t facet = rays.facet[i];
-    if (distance <= lamp.housing_m && longest_edge_[scene_.surface_of[facet]] <= largest_in_housing * lamp.housing_m)
+    if (distance <= lamp.housing_m && is_beside_opening(end, lamp, facts_[lamp.file].opening) &&
+        longest_edge_[scene_.surface_of[facet]] <= largest_in_housing * lamp.housing_m)
       ++lamp.in_housing;
     if (lamp.sizeless && distance < facts_[lamp.file].limit_m) {
       ++lamp.near;

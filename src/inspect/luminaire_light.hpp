@@ -55,6 +55,7 @@ class LuminaireLight {
                                const glm::dvec3& normal);
   static double light_of_opening(const Lamp& lamp, const glm::dvec3& point, const glm::dvec3& normal, int steps);
 
+  static bool is_beside_opening(const glm::dvec3& point, const Lamp& lamp, const LuminousOpening& opening);
   void list_files();
   void find_nearest_receivers(std::vector<LuminaireFacts>& facts) const;
 

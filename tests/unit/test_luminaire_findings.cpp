@@ -142,6 +142,10 @@ TEST_CASE("a luminaire whose light ends in its housing is a warning") {
   Room room = office_with(lambert_luminaire(disc), 2.5, true);
   add_plate(room, 2.2, 0.2);
   CHECK(find(inspect(room), "luminaire-housing", Severity::warning) == nullptr);
+  // A shelf half a metre below a luminaire of 1.8 m is nearer to its middle than its ends, and no housing.
+  Room shelf = office_with(lambert_luminaire({OpeningForm::rectangle, {1.8, 0.06, 0.0}}), 2.5, true);
+  add_plate(shelf, 2.0, 1.0);
+  CHECK(find(inspect(shelf), "luminaire-housing", Severity::warning) == nullptr);
   // The ceiling close above a pendant that shines upwards is no housing.
   const Inspection pendant = inspect(office_with(lambert_luminaire(disc, 100.0), 2.6, true));
   CHECK(find(pendant, "luminaire-housing", Severity::warning) == nullptr);
