@@ -56,7 +56,6 @@ CandelaLookup::Angles::Angles(const std::vector<double>& angles)
   }
   const double bins = std::min(most_bins, std::ceil((last - first) / narrowest * 1.000001));
   bins_per_degree = bins / (last - first);
-  last_bin = bins;
   one_step = bins < most_bins;
   guide.clear();
   std::uint32_t k = 0;

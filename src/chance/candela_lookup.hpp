@@ -35,7 +35,6 @@ class CandelaLookup {
     double first = 0.0;
     double last = 0.0;
     double bins_per_degree = 0.0;
-    double last_bin = 0.0;
     std::vector<std::uint32_t> guide;  // intervals
     std::vector<double> from;          // of each interval; and the last angle
     std::vector<double> per_degree;    // 1 divided by its width

@@ -26,6 +26,19 @@ Real invert_linear(Real c0, Real c1, Real v) {
 
 }  // namespace
 
+double CandelaSampler::Row::sine_at(double s) const {
+  return sine * std::cos(width * s) + cosine * std::sin(width * s);
+}
+
+double CandelaSampler::Row::cosine_at(double s) const {
+  return cosine * std::cos(width * s) - sine * std::sin(width * s);
+}
+
+double CandelaSampler::Row::integral(double first, double last, double s) const {
+  if (!(s > 0.0)) return 0.0;
+  return std::abs(weighted_interval(first, last, sine_at(0.5 * s), cosine_at(0.5 * s), 0.5 * (width * s)));
+}
+
 CandelaSampler::CandelaSampler(const CandelaTable::Grid& grid) : grid_(&grid), mirrors_(mirrors_of(grid)) {
   set_rows();
   set_cells();
@@ -77,25 +90,22 @@ void CandelaSampler::set_rows() {
 void CandelaSampler::set_cells() {
   const std::vector<double>& angles = grid_->horizontal_deg;
   const bool one = angles.size() == 1;
-  planes_ = one ? 1 : angles.size() - 1;
-  for (std::size_t j = 0; j < planes_; ++j) {
+  const std::size_t planes = one ? 1 : angles.size() - 1;
+  for (std::size_t j = 0; j < planes; ++j) {
     const double turn = one ? 0.0 : angles[j] / 360.0;
     from_turn_.push_back(static_cast<float>(turn - std::floor(turn)));
     turns_.push_back(one ? 1.0F : static_cast<float>((angles[j + 1] - angles[j]) / 360.0));
   }
   double sum = 0.0;
   std::vector<double> fluxes;
-  for (std::size_t j = 0; j < planes_; ++j) {
+  for (std::size_t j = 0; j < planes; ++j) {
     const float* low = &values_[j * boundaries_];
     const float* high = one ? low : low + boundaries_;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const Row& row = rows_[r];
       const double first = 0.5 * (double{low[row.begin]} + high[row.begin]);
       const double last = 0.5 * (double{low[row.end]} + high[row.end]);
-      const double half = 0.5 * row.width;
-      const double sine = row.sine * std::cos(half) + row.cosine * std::sin(half);
-      const double cosine = row.cosine * std::cos(half) - row.sine * std::sin(half);
-      const double flux = turns_[j] * std::abs(weighted_interval(first, last, sine, cosine, half));
+      const double flux = turns_[j] * row.integral(first, last, 1.0);
       if (!(flux > 0.0)) continue;
       fluxes.push_back(flux);
       cells_.push_back({sum, 0.0F, static_cast<std::uint16_t>(j), static_cast<std::uint16_t>(r)});
@@ -116,8 +126,8 @@ void CandelaSampler::set_cells() {
   }
 }
 
-const CandelaSampler::Cell& CandelaSampler::choose(double u) const {
-  std::size_t k = guide_[static_cast<std::uint32_t>(u * 0x1p32) >> guide_shift_];
+const CandelaSampler::Cell& CandelaSampler::choose(double u, std::uint32_t first_bits) const {
+  std::size_t k = guide_[first_bits >> guide_shift_];
   while (cells_[k + 1].from <= u) ++k;
   return cells_[k];
 }
@@ -125,7 +135,7 @@ const CandelaSampler::Cell& CandelaSampler::choose(double u) const {
 // G(s) = ∫ (a + b t)(q0 + q1 t + q2 t² + …) dt over 0 … s, the sine by Taylor's series; solved for G(s) = v G(1) by
 // Newton's method, kept between two bounds.
 glm::dvec3 CandelaSampler::sample(double u, double turns) const {
-  const Cell& cell = choose(u);
+  const Cell& cell = choose(u, static_cast<std::uint32_t>(u * 0x1p32));
   const Row& row = rows_[cell.row];
   const float* low = &values_[cell.plane * boundaries_];
   const float* high = grid_->horizontal_deg.size() == 1 ? low : low + boundaries_;
@@ -133,22 +143,15 @@ glm::dvec3 CandelaSampler::sample(double u, double turns) const {
   const double v = row.width > 0.0 ? share : 1.0 - share;
   const double a = 0.5 * (double{low[row.begin]} + high[row.begin]);
   const double b = 0.5 * (double{low[row.end]} + high[row.end]) - a;
-  const auto polar = [&](double s) { return row.width * s; };
-  const auto sine_at = [&](double s) { return row.sine * std::cos(polar(s)) + row.cosine * std::sin(polar(s)); };
-  const auto integral = [&](double s) {
-    const double half = 0.5 * polar(s);
-    const double sine = row.sine * std::cos(half) + row.cosine * std::sin(half);
-    const double cosine = row.cosine * std::cos(half) - row.sine * std::sin(half);
-    return s > 0.0 ? std::abs(weighted_interval(a, a + b * s, sine, cosine, half)) : 0.0;
-  };
+  const auto integral = [&](double s) { return row.integral(a, a + b * s, s); };
   const double wanted = v * integral(1.0);
   double least = 0.0;
   double most = 1.0;
-  double s = invert_linear(a * row.sine, (a + b) * sine_at(1.0), v);
+  double s = invert_linear(a * row.sine, (a + b) * row.sine_at(1.0), v);
   for (int k = 0; k < 60 && most - least > 1e-15; ++k) {
     const double excess = integral(s) - wanted;
     (excess > 0.0 ? most : least) = s;
-    const double next = s - excess / std::max(1e-300, (a + b * s) * sine_at(s) * std::abs(row.width));
+    const double next = s - excess / std::max(1e-300, (a + b * s) * row.sine_at(s) * std::abs(row.width));
     const double before = s;
     s = next > least && next < most ? next : 0.5 * (least + most);
     if (std::abs(s - before) < 1e-15) break;
@@ -162,9 +165,8 @@ glm::dvec3 CandelaSampler::sample(double u, double turns) const {
   };
   const double f = invert_linear(at(low), at(high), w);
   const double azimuth = 2.0 * std::numbers::pi * (from_turn_[cell.plane] + f * turns_[cell.plane]);
-  const double sine = sine_at(s);
-  glm::dvec3 p(sine * std::cos(azimuth), sine * std::sin(azimuth),
-               row.cosine * std::cos(polar(s)) - row.sine * std::sin(polar(s)));
+  const double sine = row.sine_at(s);
+  glm::dvec3 p(sine * std::cos(azimuth), sine * std::sin(azimuth), row.cosine_at(s));
   int bit = copy;
   for (const auto& [mirrored, component] : {std::pair{mirrors_.x, &p.x}, {mirrors_.y, &p.y}, {mirrors_.z, &p.z}}) {
     if (!mirrored) continue;
@@ -192,9 +194,7 @@ void CandelaSampler::gather(std::size_t n, const std::uint32_t* polar, Gathered&
   const std::size_t next = grid_->horizontal_deg.size() == 1 ? 0 : boundaries_;
   for (std::size_t i = 0; i < n; ++i) {
     const double u = (polar[i] + 0.5) * 0x1p-32;
-    std::size_t k = guide_[polar[i] >> guide_shift_];
-    while (cells_[k + 1].from <= u) ++k;
-    const Cell& cell = cells_[k];
+    const Cell& cell = choose(u, polar[i]);
     const Row& row = rows_[cell.row];
     const auto share = static_cast<float>((u - cell.from) * cell.per_flux);
     cells.share[i] = row.width > 0.0 ? share : 1.0F - share;

@@ -7,7 +7,6 @@
 // Numbers that increase give cells in their order, so that evenly spread numbers give evenly spread directions.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -39,6 +38,11 @@ class CandelaSampler {
     double width = 0.0;       // to the other end, in rad; below 0 if that has the smaller ψ
     std::uint32_t begin = 0;  // boundary of the first end, in values_
     std::uint32_t end = 0;    // of the other
+
+    double sine_at(double s) const;  // of ψ at the part s of the width
+    double cosine_at(double s) const;
+    // ∫ I sin ψ dψ from the first end to there, I linear from `first` to `last`.
+    double integral(double first, double last, double s) const;
   };
   // A cell with a flux above 0. The last one is an end mark.
   struct Cell {
@@ -51,12 +55,11 @@ class CandelaSampler {
 
   void set_rows();
   void set_cells();
-  const Cell& choose(double u) const;
+  const Cell& choose(double u, std::uint32_t first_bits) const;  // those of u
   void gather(std::size_t n, const std::uint32_t* polar, Gathered& cells) const;
 
   const CandelaTable::Grid* grid_;
   Mirrors mirrors_;
-  std::size_t planes_ = 1;      // intervals of φ
   std::size_t boundaries_ = 0;  // of rows
   std::vector<Row> rows_;
   std::vector<float> values_;     // intensity at the boundaries, plane by plane

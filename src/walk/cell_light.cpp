@@ -45,6 +45,10 @@ DirectIrradiance cell_irradiance(const DirectLight& light, const Tracer& tracer,
                                  TraceCount& count) {
   DirectIrradiance sum = by_points(light, tracer, cell, stream, number, accuracy, count);
   double variance = sum.standard_error * sum.standard_error;
+  const auto add = [&](const DirectIrradiance& part) {
+    sum.value += part.value;
+    variance += part.standard_error * part.standard_error;
+  };
   // Random points of the cell for the samples of an extended light.
   const auto anywhere_by = [&](std::uint64_t own) {
     return [&, own](std::uint32_t sample) {
@@ -55,17 +59,12 @@ DirectIrradiance cell_irradiance(const DirectLight& light, const Tracer& tracer,
   for (std::size_t k = 0; k < light.openings().size(); ++k) {
     // Other words than those of area lights.
     const std::uint64_t own = (number * light.openings().size() + k) | std::uint64_t{1} << 63;
-    const DirectIrradiance part =
-        sample_opening(light.openings()[k], tracer, anywhere_by(own), stream, own, accuracy, count);
-    sum.value += part.value;
-    variance += part.standard_error * part.standard_error;
+    add(sample_opening(light.openings()[k], tracer, anywhere_by(own), stream, own, accuracy, count));
   }
   for (std::size_t k = 0; k < light.areas().size() && !cell.way_out; ++k) {
     const std::uint64_t own = number * light.areas().size() + k;
     const auto anywhere = anywhere_by(own);
-    const DirectIrradiance part = sample_area_light(light.areas()[k], tracer, anywhere, stream, own, accuracy, count);
-    sum.value += part.value;
-    variance += part.standard_error * part.standard_error;
+    add(sample_area_light(light.areas()[k], tracer, anywhere, stream, own, accuracy, count));
   }
   sum.standard_error = std::sqrt(variance);
   return sum;

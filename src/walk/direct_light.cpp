@@ -84,11 +84,12 @@ DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, con
   double variance = 0.0;
   sum.value = irradiance_by_points(reference, count);
   const auto same_point = [&reference](std::uint32_t) { return reference; };
-  for (std::size_t k = 0; k < openings_.size(); ++k) {
-    const DirectIrradiance part =
-        sample_opening(openings_[k], *tracer_, same_point, stream, number * openings_.size() + k, accuracy, count);
+  const auto add = [&](const DirectIrradiance& part) {
     sum.value += part.value;
     variance += part.standard_error * part.standard_error;
+  };
+  for (std::size_t k = 0; k < openings_.size(); ++k) {
+    add(sample_opening(openings_[k], *tracer_, same_point, stream, number * openings_.size() + k, accuracy, count));
   }
   sum.standard_error = std::sqrt(variance);
   if (reference.way_out) return sum;  // the walls lie between area lights, which are walls, and points outside
@@ -98,16 +99,10 @@ DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, con
       continue;
     }
     if (is_near(areas_[k], reference)) {
-      const DirectIrradiance part =
-          sample_near_light(areas_[k], *tracer_, reference, stream, number * areas_.size() + k, accuracy, count);
-      sum.value += part.value;
-      variance += part.standard_error * part.standard_error;
+      add(sample_near_light(areas_[k], *tracer_, reference, stream, number * areas_.size() + k, accuracy, count));
       continue;
     }
-    const DirectIrradiance part =
-        sample_area_light(areas_[k], *tracer_, same_point, stream, number * areas_.size() + k, accuracy, count);
-    sum.value += part.value;
-    variance += part.standard_error * part.standard_error;
+    add(sample_area_light(areas_[k], *tracer_, same_point, stream, number * areas_.size() + k, accuracy, count));
   }
   sum.standard_error = std::sqrt(variance);
   return sum;

@@ -18,6 +18,9 @@ constexpr double pi = std::numbers::pi;
 // A light with more triangles is not integrated, and not intersected by flights: that would cost more than samples.
 constexpr std::size_t most_triangles = 64;
 
+// Places on the face and on the light, divided into strata by turns.
+constexpr std::array<std::uint8_t, 4> face_and_light{0, 2, 1, 3};
+
 }  // namespace
 
 std::span<const std::uint8_t> PointOnFace::dimensions() const {
@@ -42,8 +45,7 @@ bool OpeningOnFace::is_dark() const {
 }
 
 std::span<const std::uint8_t> OpeningOnFace::dimensions() const {
-  static constexpr std::array<std::uint8_t, 4> of_both{0, 2, 1, 3};
-  return of_both;
+  return face_and_light;
 }
 
 void OpeningOnFace::sample(const UnitPoint& at, std::vector<Connection>& found) {
@@ -64,8 +66,7 @@ AreaOnFace::AreaOnFace(const FaceTriangles& face, const AreaLight& source) : fac
 }
 
 std::span<const std::uint8_t> AreaOnFace::dimensions() const {
-  static constexpr std::array<std::uint8_t, 4> of_both{0, 2, 1, 3};
-  return of_both;
+  return face_and_light;
 }
 
 void AreaOnFace::sample(const UnitPoint& at, std::vector<Connection>& found) {
