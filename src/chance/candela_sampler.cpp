@@ -1,6 +1,7 @@
 #include "chance/candela_sampler.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
