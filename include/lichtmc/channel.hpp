@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "lichtmc/figure.hpp"
+
 namespace lichtmc {
 
 inline constexpr double speed_of_light = 299'792'458.0;  // m/s, in vacuum
@@ -45,12 +47,6 @@ struct ChannelSettings {
   FrequencyRange frequencies;    // at which the frequency response is accumulated
 
   bool wanted() const { return bin_width_s.has_value(); }
-};
-
-// A figure and its standard error.
-struct Figure {
-  double value = std::numeric_limits<double>::quiet_NaN();           // NaN: it does not exist
-  double standard_error = std::numeric_limits<double>::quiet_NaN();  // NaN: unknown; 0: exact
 };
 
 // The channel from one group of emitters to one receiver. Gains are of power: in dB, 10 log₁₀. Delays count from the

@@ -1,6 +1,7 @@
 // All headers of lichtmc.
 #pragma once
 
+#include "lichtmc/area.hpp"               // IWYU pragma: export
 #include "lichtmc/candela_table.hpp"      // IWYU pragma: export
 #include "lichtmc/communicator.hpp"       // IWYU pragma: export
 #include "lichtmc/compare.hpp"            // IWYU pragma: export
@@ -9,11 +10,13 @@
 #include "lichtmc/cuboid.hpp"             // IWYU pragma: export
 #include "lichtmc/emitter_law.hpp"        // IWYU pragma: export
 #include "lichtmc/error.hpp"              // IWYU pragma: export
+#include "lichtmc/figure.hpp"             // IWYU pragma: export
 #include "lichtmc/fingerprint.hpp"        // IWYU pragma: export
 #include "lichtmc/folder_lock.hpp"        // IWYU pragma: export
 #include "lichtmc/gltf.hpp"               // IWYU pragma: export
 #include "lichtmc/inspect.hpp"            // IWYU pragma: export
 #include "lichtmc/intensity_cut.hpp"      // IWYU pragma: export
+#include "lichtmc/lay_areas.hpp"          // IWYU pragma: export
 #include "lichtmc/lit_room.hpp"           // IWYU pragma: export
 #include "lichtmc/luminaire_figures.hpp"  // IWYU pragma: export
 #include "lichtmc/luminous_opening.hpp"   // IWYU pragma: export

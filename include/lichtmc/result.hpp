@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lichtmc/area.hpp"
 #include "lichtmc/channel.hpp"
 #include "lichtmc/cover.hpp"
 #include "lichtmc/room.hpp"
@@ -151,6 +152,7 @@ struct Result {
   Tiling tiling;
   std::vector<Receiver> receivers;               // the room's
   std::vector<ReceiverResult> receiver_results;  // of each; empty if only tiles were measured
+  std::vector<AreaResult> areas;                 // as Room::areas; empty if only tiles were measured
   std::optional<ImpulseResponses> channels;      // if Settings::channel asks for them
   std::vector<Ignored> ignored;                  // Room::ignored, and parts of the room that this run did not use
   std::vector<std::string> overrides;            // Room::overrides

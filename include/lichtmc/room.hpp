@@ -16,6 +16,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "lichtmc/area.hpp"
 #include "lichtmc/emitter_law.hpp"
 #include "lichtmc/luminous_opening.hpp"
 #include "lichtmc/units.hpp"
@@ -124,15 +125,15 @@ struct SurfaceEmitter {
 
 struct Photometry;
 
-// A luminaire with a photometric file (lichtmc/photometry.hpp): its intensity is the file's in shape, Φ is its flux. Its
-// light starts at its position or, with an opening, all over that, with the same intensity everywhere.
+// A luminaire with a photometric file (lichtmc/photometry.hpp): its intensity is the file's in shape, Φ is its flux.
+// Its light starts at its position or, with an opening, all over that, with the same intensity everywhere.
 struct MeasuredEmitter {
   std::shared_ptr<const Photometry> photometry;
   glm::dvec3 position{0.0};  // m
   // Unit vectors, perpendicular to each other, of either handedness: a mirrored luminaire has mirrored light.
-  glm::dvec3 axis{0.0, -1.0, 0.0};  // its aim
-  glm::dvec3 c0{1.0, 0.0, 0.0};     // towards the plane C0
-  glm::dvec3 c90{0.0, 0.0, -1.0};   // towards the plane C90
+  glm::dvec3 axis{0.0, -1.0, 0.0};           // its aim
+  glm::dvec3 c0{1.0, 0.0, 0.0};              // towards the plane C0
+  glm::dvec3 c90{0.0, 0.0, -1.0};            // towards the plane C90
   std::optional<LuminousOpening> opening{};  // that light leaves; none: the position alone
 
   MeasuredLaw law() const;
@@ -140,15 +141,24 @@ struct MeasuredEmitter {
 
 struct Emitter {
   std::string name;    // for messages and tables
-  double power = 1.0;  // Φ: radiant flux in W or luminous flux in lm, ≥ 0
+  double power = 1.0;  // Φ: radiant flux in W or luminous flux in lm, ≥ 0; the maintained one
   std::variant<IsotropicEmitter, LambertEmitter, SpotEmitter, SurfaceEmitter, MeasuredEmitter> shape;
   double delay_s = 0.0;  // s, ≥ 0: of its light behind the signal, for impulse responses
+  // Share of the power of a new emitter, above 0 and up to 1, that `power` is: light sources age, and dust gathers.
+  double maintenance_factor = 1.0;
 };
 
 // The directional law of an emitter.
 inline EmitterLaw law_of(const Emitter& emitter) {
   return std::visit([](const auto& shape) -> EmitterLaw { return shape.law(); }, emitter.shape);
 }
+
+// How a receiver weighs the radiance L that comes from a direction ω; E = ∫ L w(ω) dω.
+enum class ReceiverLaw {
+  planar,           // w = cos θ, θ the angle to the normal, 0 behind: irradiance
+  cylindrical,      // w = sin ε/π, ε the angle to the normal, which is the axis of a small cylinder
+  semicylindrical,  // w = sin ε (1 + cos α)/π, α the angle about the axis, from the direction that it faces
+};
 
 // A point at which irradiance is computed.
 struct Receiver {
@@ -165,6 +175,10 @@ struct Receiver {
   // position. Both 0: the irradiance at the position.
   glm::dvec3 cell_u{0.0};
   glm::dvec3 cell_v{0.0};
+
+  // Other laws than `planar` have the whole sphere as their field of view, and no cells.
+  ReceiverLaw law = ReceiverLaw::planar;
+  glm::dvec3 facing{1.0, 0.0, 0.0};  // of a half cylinder; its part at right angles to the normal counts
 
   bool is_cell() const { return cell_u != glm::dvec3(0.0) || cell_v != glm::dvec3(0.0); }
   // g·T: received power over incident power; 1 without concentrator and filter, 0 with an empty field of view and a
@@ -188,6 +202,8 @@ struct Room {
   std::vector<Surface> surfaces;
   std::vector<Emitter> emitters;
   std::vector<Receiver> receivers;
+  std::vector<Area> areas;                 // whose points are some of the receivers
+  std::vector<AreaRequest> area_requests;  // areas without a grid: lay_areas() gives them one
   std::vector<ReflectanceMap> reflectance_maps;
   std::vector<EmissionMap> emission_maps;
   std::vector<Ignored> ignored;        // parts of the source that are not modelled

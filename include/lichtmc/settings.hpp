@@ -85,7 +85,10 @@ struct Settings {
   double tile_edge_m = 0.1;  // m, > 0
   std::uint64_t seed = 1;
   ChannelSettings channel;  // impulse responses at the receivers
-  unsigned threads = 0;     // 0: one per processor
+  // Keeps the part of each emitter (of those of the same name together) in the irradiance of receivers and areas, see
+  // lichtmc/emitter_parts.hpp. Not with impulse responses, which keep emitters apart by ChannelSettings::per_emitter.
+  bool per_emitter = false;
+  unsigned threads = 0;  // 0: one per processor
   Engine engine = Engine::automatic;
 };
 

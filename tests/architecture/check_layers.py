@@ -27,7 +27,7 @@ BELOW = {
 # Public headers by the layer that provides them: a layer may use its own headers and those of the layers below it.
 PUBLIC = {
     "error": "base", "walk_direction": "base", "emitter_law": "chance", "candela_table": "chance", "intensity_cut": "chance", "luminous_opening": "chance", "units": "base", "version": "base", "visible_text": "base",
-    "room": "room", "photometry": "room", "cover": "room", "cuboid": "room", "overrides": "room", "tiles": "room", "receiver_table": "room",
+    "room": "room", "area": "room", "figure": "room", "photometry": "room", "cover": "room", "cuboid": "room", "overrides": "room", "tiles": "room", "receiver_table": "room",
     "settings": "room", "channel": "room", "fingerprint": "room",  # plain data that every layer may read
     "communicator": "run", "control": "run", "progress": "run", "state": "run", "mpi": "mpi",
     "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
