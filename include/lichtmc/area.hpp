@@ -57,7 +57,8 @@ struct AreaLeftOut {
   std::uint64_t points = 0;
 };
 
-// An area with its grid. Cell (column, row) has its centre at corner + (column + ½) u + (row + ½) v.
+// An area with its grid. Cell (column, row) has its centre at corner + (column + ½) u + (row + ½) v. Seen from the side
+// of the normal, u points to the right and v down: u × v = −|u × v| normal.
 struct Area {
   AreaProperties properties;  // as asked for
   AreaQuantity quantity = AreaQuantity::horizontal;
@@ -75,6 +76,7 @@ struct Area {
   double margin_m = 0.0;                           // as used
   std::optional<double> above_floor_m;             // its height, if it is level and has one
   std::vector<std::array<glm::dvec3, 2>> outline;  // m, the lines around it
+  std::vector<std::string> notes;  // what else a user should know, sentences: "8 of its points lie on table tops …"
 
   glm::dvec3 centre(std::uint32_t cell) const {
     return corner + (cell % columns + 0.5) * u + (cell / columns + 0.5) * v;
