@@ -9,13 +9,13 @@ namespace lichtmc {
 
 namespace {
 
-constexpr std::uint32_t none = 0xFFFFFFFF;
+constexpr std::uint32_t no_number = 0xFFFFFFFF;
 
 // Numbers of a patch's triangles, by their index in the surface.
 class NumbersInPatch {
  public:
   explicit NumbersInPatch(const std::vector<std::uint32_t>& triangles)
-      : triangles_(triangles), table_(std::bit_ceil(2 * triangles.size() + 1), none) {
+      : triangles_(triangles), table_(std::bit_ceil(2 * triangles.size() + 1), no_number) {
     for (std::uint32_t n = 0; n < triangles.size(); ++n) table_[slot(triangles[n])] = n;
   }
   // none if the triangle is not part of the patch.
@@ -26,7 +26,7 @@ class NumbersInPatch {
   // ratio).
   std::size_t slot(std::uint32_t triangle) const {
     std::size_t at = (triangle * 0x9E3779B97F4A7C15U >> 32U) & (table_.size() - 1);
-    while (table_[at] != none && triangles_[table_[at]] != triangle) at = (at + 1) & (table_.size() - 1);
+    while (table_[at] != no_number && triangles_[table_[at]] != triangle) at = (at + 1) & (table_.size() - 1);
     return at;
   }
 
@@ -75,7 +75,7 @@ class Parts {
     Saving saving;
     std::uint32_t version_a = 0;
     std::uint32_t version_b = 0;
-    std::uint32_t owner = none;  // the part whose best pair it is
+    std::uint32_t owner = no_number;  // the part whose best pair it is
     std::uint32_t ticket = 0;
     bool operator<(const Entry& other) const { return saving < other.saving; }
   };
@@ -109,8 +109,8 @@ Parts::Parts(const Patch& patch, const std::vector<bool>& counts, const MeshLink
       numbers_(patch.triangles),
       edge_m_(edge_m),
       parts_(patch.triangles.size()),
-      joined_into_(parts_.size(), none),
-      next_(parts_.size(), none),
+      joined_into_(parts_.size(), no_number),
+      next_(parts_.size(), no_number),
       seen_by_(parts_.size(), 0) {
   for (std::uint32_t n = 0; n < parts_.size(); ++n) {
     Part& part = parts_[n];
@@ -151,9 +151,9 @@ bool Parts::evaluate(std::uint32_t a, std::uint32_t b, Saving& saving) {
 }
 
 std::uint32_t Parts::part_of(std::uint32_t triangle) {
-  while (joined_into_[triangle] != none) {
+  while (joined_into_[triangle] != no_number) {
     const std::uint32_t into = joined_into_[triangle];
-    if (joined_into_[into] != none) joined_into_[triangle] = joined_into_[into];
+    if (joined_into_[into] != no_number) joined_into_[triangle] = joined_into_[into];
     triangle = into;
   }
   return triangle;
@@ -168,7 +168,7 @@ void Parts::add_neighbours(std::uint32_t part, std::vector<std::uint32_t>& neigh
   for (std::size_t edge = 0; edge < 3; ++edge) {
     for (const std::uint32_t triangle : links_.at_edge(patch_.triangles[part], edge)) {
       const std::uint32_t neighbour = numbers_.of(triangle);
-      if (neighbour != none && neighbour != part) neighbours.push_back(neighbour);
+      if (neighbour != no_number && neighbour != part) neighbours.push_back(neighbour);
     }
   }
 }
@@ -251,21 +251,21 @@ std::vector<std::vector<std::size_t>> Parts::grow() {
   while (!queue_.empty()) {
     const Entry best = queue_.top();
     queue_.pop();
-    if (best.owner != none && parts_[best.owner].ticket != best.ticket) continue;
+    if (best.owner != no_number && parts_[best.owner].ticket != best.ticket) continue;
     const bool holds =
         parts_[best.saving.a].version == best.version_a && parts_[best.saving.b].version == best.version_b;
     if (holds) {
       join(best.saving.a, best.saving.b);
-    } else if (best.owner != none && joined_into_[best.owner] == none) {
+    } else if (best.owner != no_number && joined_into_[best.owner] == no_number) {
       offer(best.owner);
     }
   }
   std::vector<std::vector<std::size_t>> grown;
   std::vector<std::size_t> without_bounds;
   for (std::uint32_t n = 0; n < parts_.size(); ++n) {
-    if (joined_into_[n] != none) continue;
+    if (joined_into_[n] != no_number) continue;
     std::vector<std::size_t>& triangles = parts_[n].bounds.empty() ? without_bounds : grown.emplace_back();
-    for (std::uint32_t k = parts_[n].first; k != none; k = next_[k]) triangles.push_back(k);
+    for (std::uint32_t k = parts_[n].first; k != no_number; k = next_[k]) triangles.push_back(k);
   }
   grown.front().insert(grown.front().end(), without_bounds.begin(), without_bounds.end());
   return grown;
