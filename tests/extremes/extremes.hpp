@@ -23,7 +23,7 @@ inline Compared share(double measured, double probability, std::uint64_t photons
 }
 
 inline void check_shares(const std::vector<Compared>& shares) {
-  const Verdict verdict = compare(shares);
+  const Judgement verdict = compare(shares);
   INFO(verdict.text);
   CHECK(verdict.agrees);
 }

@@ -94,7 +94,7 @@ TEST_CASE("extreme: a luminaire a thousand kilometres from the origin lights its
   }
   Settings others = settings;
   others.seed = 33;
-  const Verdict verdict = compare(against(here, simulate(far, others)));
+  const Judgement verdict = compare(against(here, simulate(far, others)));
   INFO(verdict.text);
   CHECK(verdict.agrees);
 }
@@ -107,7 +107,7 @@ TEST_CASE("extreme: an opening of a nanometre is a point; one larger than the ro
   std::get<MeasuredEmitter>(emitter.shape).opening = LuminousOpening{OpeningForm::rectangle, {1e-9, 1e-9, 0.0}};
   Settings others = settings;
   others.seed = 44;
-  const Verdict verdict = compare(against(point, simulate(box_with(emitter), others)));
+  const Judgement verdict = compare(against(point, simulate(box_with(emitter), others)));
   INFO(verdict.text);
   CHECK(verdict.agrees);
   // Half of the opening lies outside of the walls x = 0 and x = 4, from where no light enters a closed room.

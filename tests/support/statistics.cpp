@@ -15,8 +15,8 @@ double largest_z_allowed(std::size_t figures) {
   return normal_quantile_above(0.5 * each);
 }
 
-Verdict compare(const std::vector<Compared>& figures, Deviations deviations) {
-  Verdict verdict;
+Judgement compare(const std::vector<Compared>& figures, Deviations deviations) {
+  Judgement verdict;
   verdict.agrees = !figures.empty();
   double information = 0.0;  // Σ (expected/error)²: a common relative bias b adds b² times this to Σ z²
   double sharpest = 0.0;     // largest expected/error
@@ -60,8 +60,8 @@ Verdict compare(const std::vector<Compared>& figures, Deviations deviations) {
   return verdict;
 }
 
-Verdict compare_counts(const std::vector<double>& counts, const std::vector<double>& expected) {
-  Verdict verdict;
+Judgement compare_counts(const std::vector<double>& counts, const std::vector<double>& expected) {
+  Judgement verdict;
   std::size_t bins = 0;
   double count = 0.0;
   double expectation = 0.0;

@@ -22,7 +22,7 @@ struct Compared {
   double expected_error = 0.0;
 };
 
-struct Verdict {
+struct Judgement {
   bool agrees = false;
   std::size_t figures = 0;
   double largest_z = 0.0;
@@ -37,13 +37,13 @@ enum class Deviations { independent, correlated };
 
 // Compares figure by figure. Figures whose standard error is not a number above 0 count as disagreement unless value
 // and expectation are equal.
-Verdict compare(const std::vector<Compared>& figures, Deviations deviations = Deviations::independent);
+Judgement compare(const std::vector<Compared>& figures, Deviations deviations = Deviations::independent);
 
 // z-score that the largest absolute value of K standard normal variables exceeds with probability false_alarm.
 double largest_z_allowed(std::size_t figures);
 
 // χ² of counts against expected counts, bins of less than 10 expected pooled with their neighbours; agrees if not
 // beyond false_alarm on the upper side.
-Verdict compare_counts(const std::vector<double>& counts, const std::vector<double>& expected);
+Judgement compare_counts(const std::vector<double>& counts, const std::vector<double>& expected);
 
 }  // namespace lichtmc::test

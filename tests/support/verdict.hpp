@@ -9,7 +9,7 @@
 namespace lichtmc::test {
 
 // agrees = false: of a mutation, which must be rejected.
-inline void check(const std::string& what, const Verdict& verdict, bool agrees = true) {
+inline void check(const std::string& what, const Judgement& verdict, bool agrees = true) {
   INFO(what << ": " << verdict.text);
   WARN(what << ": " << verdict.text);
   CHECK(verdict.agrees == agrees);

@@ -176,7 +176,7 @@ TEST_CASE("first flights of rounds of any size follow Lambert's law within the f
     }
     // Flights of a round are not independent, but spread more evenly: χ² is smaller than that of independent ones.
     const std::vector<double> expected(counts.size(), static_cast<double>(sets * group) / (rings * sectors));
-    const Verdict verdict = compare_counts(counts, expected);
+    const Judgement verdict = compare_counts(counts, expected);
     INFO(group << " in a round: " << verdict.text);
     CHECK(verdict.agrees);
     if (group == 32) CHECK(verdict.chi_square < 12.0);  // independent flights: 47 ± 10

@@ -310,7 +310,7 @@ TEST_CASE("the light towards the aim is that of the half sphere about it") {
   }
 }
 
-// Smallest bias: the Verdict prints it; some 2 % of all bins together, a bin alone 10 %.
+// Smallest bias: the Judgement prints it; some 2 % of all bins together, a bin alone 10 %.
 TEST_CASE("directions follow the intensity of a candela table") {
   for (const Case& one : cases()) {
     const CandelaTable table(one.grid);

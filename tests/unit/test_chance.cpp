@@ -95,7 +95,7 @@ namespace {
 
 // χ² of sampled cosines in 50 equal bins against the integral of a density over the bin, by midpoints of 200 slices.
 template <class Sample, class Density>
-Verdict cosines_against_density(Sample&& sample, Density&& density) {
+Judgement cosines_against_density(Sample&& sample, Density&& density) {
   constexpr std::size_t bins = 50;
   constexpr int samples = 1'000'000;
   std::vector<double> counts(bins);
@@ -120,7 +120,7 @@ Verdict cosines_against_density(Sample&& sample, Density&& density) {
 
 TEST_CASE("sampled directions follow their densities") {
   const auto check = [](const char* name, auto&& sample, auto&& density) {
-    const Verdict verdict = cosines_against_density(sample, density);
+    const Judgement verdict = cosines_against_density(sample, density);
     INFO(name << ": " << verdict.text);
     CHECK(verdict.agrees);
   };
@@ -178,7 +178,7 @@ TEST_CASE("azimuths are uniform") {
         std::atan2(static_cast<double>(v.y), static_cast<double>(v.x)) / (2.0 * std::numbers::pi) + 0.5;
     counts[std::min<std::size_t>(63, static_cast<std::size_t>(turns * 64.0))] += 1.0;
   }
-  const Verdict verdict = compare_counts(counts, std::vector<double>(64, samples / 64.0));
+  const Judgement verdict = compare_counts(counts, std::vector<double>(64, samples / 64.0));
   INFO(verdict.text);
   CHECK(verdict.agrees);
 }
@@ -200,7 +200,7 @@ TEST_CASE("narrow beams keep their width at every exponent") {
     }
     const double mean = sum / samples;
     const double error = std::sqrt((squares / samples - mean * mean) / samples);
-    const Verdict verdict = compare({{mean, error, 2.0 / (m + 3.0), 0.0}});
+    const Judgement verdict = compare({{mean, error, 2.0 / (m + 3.0), 0.0}});
     INFO("m = " << m << ": " << verdict.text);
     CHECK(verdict.agrees);
   }

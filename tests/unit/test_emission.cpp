@@ -118,7 +118,7 @@ TEST_CASE("points are chosen with the density of the map") {
       }
     }
     for (double& one : expected) one *= photons / sum;
-    const Verdict verdict = compare_counts(counts, expected);
+    const Judgement verdict = compare_counts(counts, expected);
     INFO(verdict.text);
     CHECK(verdict.agrees);
     // The mutation: points uniform over the surface.

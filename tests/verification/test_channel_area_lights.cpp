@@ -132,14 +132,14 @@ TEST_CASE("channels: the line of sight of a panel has the time law of its points
                 {gain, found.standard_error[k] * found.bin_width_s, expected.bins[k], of_bins * expected.bins[k]});
         }
         // They add up to the gain.
-        const Verdict verdict = compare(bins, Deviations::correlated);
+        const Judgement verdict = compare(bins, Deviations::correlated);
         INFO("bins: " << verdict.text);
         CHECK(bins.size() > 3);
         CHECK(verdict.agrees);
       }
       for (const auto& [name, figures] : {std::pair("gain", &gains), std::pair("mean delay", &means),
                                           std::pair("delay spread", &spreads), std::pair("|H|", &magnitudes)}) {
-        const Verdict verdict = compare(*figures);
+        const Judgement verdict = compare(*figures);
         INFO(name << ", exponent " << exponent << (per_emitter ? ", each: " : ", all: ") << verdict.text);
         WARN(name << ", exponent " << exponent << (per_emitter ? ", each: " : ", all: ") << verdict.text);
         CHECK(verdict.agrees);

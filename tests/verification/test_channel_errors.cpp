@@ -47,7 +47,7 @@ double binomial_tail(double count, double n, double p) {
 // or 2.5 times as large would be found.
 void check_law(const Tested& one) {
   const auto n = static_cast<double>(one.runs.size());
-  const Verdict verdict = compare(with_errors(one, 1.0));
+  const Judgement verdict = compare(with_errors(one, 1.0));
   double beyond_2 = 0.0;
   double beyond_3 = 0.0;
   double mean = 0.0;
@@ -59,7 +59,7 @@ void check_law(const Tested& one) {
     mean += run.value / n;
     variance += run.standard_error * run.standard_error / (n * n);
   }
-  const Verdict of_mean = compare({{mean, std::sqrt(variance), one.expected, one.expected_error}});
+  const Judgement of_mean = compare({{mean, std::sqrt(variance), one.expected, one.expected_error}});
   INFO(one.name << ": " << verdict.text << "; beyond 2: " << beyond_2 << ", beyond 3: " << beyond_3
                 << "; the mean: " << of_mean.text);
   WARN(one.name << ": " << verdict.text << "; beyond 2: " << beyond_2 << ", beyond 3: " << beyond_3

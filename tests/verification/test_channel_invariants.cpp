@@ -79,7 +79,7 @@ TEST_CASE("channels: a room far from the origin has the same responses") {
     // Float coordinates resolve 0.5 mm there.
     place(room, 1.0, {5000.0, -300.0, 2000.0});
     const ImpulseResponses there = *simulate(room, channel_settings(walk, 2e5, 93)).channels;
-    const Verdict bins = compare(against(bins_of(there, 0, 0), bins_of(here, 0, 0)));
+    const Judgement bins = compare(against(bins_of(there, 0, 0), bins_of(here, 0, 0)));
     INFO(to_string(walk) << ": " << bins.text);
     WARN(to_string(walk) << ": " << bins.text);
     CHECK(bins.figures > 30);
@@ -133,7 +133,7 @@ TEST_CASE("channels: with a limit of flights, orders above it are dark and those
     for (std::size_t order = 1; order <= 2; ++order) {
       const Figure& a = some.order_gain[order];
       const Figure& b = all.order_gain[order];
-      const Verdict verdict = compare({{a.value, a.standard_error, b.value, b.standard_error}});
+      const Judgement verdict = compare({{a.value, a.standard_error, b.value, b.standard_error}});
       INFO("order " << order << ": " << verdict.text);
       CHECK(verdict.agrees);
       CHECK(a.value > 0.0);

@@ -51,7 +51,7 @@ void check_same(const std::string& what, const ImpulseResponses& a, const Impuls
         add(one.*figure, other.*figure);
     }
   }
-  const Verdict verdict = compare(figures, Deviations::correlated);
+  const Judgement verdict = compare(figures, Deviations::correlated);
   WARN(what << ": " << compared << " bins; " << verdict.text);
   check(what + ", figures", verdict);
   CHECK(compared >= least_bins);

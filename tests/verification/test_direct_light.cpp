@@ -66,7 +66,7 @@ TEST_CASE("CIE 171 case 5.2: a point source over a plane") {
   const auto figures =
       against(result, "floor", [&](const Tile& tile) { return floor_tile_mean(tile, 0.25, lambert_law); });
   REQUIRE(figures.size() == 256);
-  const Verdict verdict = compare(figures);
+  const Judgement verdict = compare(figures);
   INFO(verdict.text);
   CHECK(verdict.agrees);
   CHECK(result.walk.impacts + static_cast<std::uint64_t>(std::llround(result.balance.escaped / (1000.0 * pi) * 4e6)) ==
@@ -88,7 +88,7 @@ TEST_CASE("generalized Lambert and isotropic emitters over a plane") {
   for (const double m : {0.0, 2.5, 20.0}) {
     const Result result = simulate(floor_and(lambert({0, height, 0}, {0, -3, 0}, m), 2.0),
                                    settings_of(Estimator::collision, Engine::embree, 2e6, 53, 0.1));
-    const Verdict verdict = compare(against(result, "floor", [&](const Tile& tile) {
+    const Judgement verdict = compare(against(result, "floor", [&](const Tile& tile) {
       return floor_tile_mean(tile, 0.1, [m](const glm::dvec3& p) {
         const double d = std::sqrt(p.x * p.x + p.z * p.z + height * height);
         return (m + 1.0) / (2.0 * pi) * std::pow(height, m + 1.0) / std::pow(d, m + 3.0);
@@ -99,7 +99,7 @@ TEST_CASE("generalized Lambert and isotropic emitters over a plane") {
   }
   const Result result = simulate(floor_and(isotropic({0, height, 0}), 2.0),
                                  settings_of(Estimator::collision, Engine::embree, 2e6, 54, 0.1));
-  const Verdict verdict = compare(against(result, "floor", [&](const Tile& tile) {
+  const Judgement verdict = compare(against(result, "floor", [&](const Tile& tile) {
     return floor_tile_mean(tile, 0.1, [](const glm::dvec3& p) {
       return height / (4.0 * pi * std::pow(p.x * p.x + p.z * p.z + height * height, 1.5));
     });
@@ -116,7 +116,7 @@ TEST_CASE("a spot light has its specified falloff inside its cone") {
   const double on_axis = 100.0 / (2.0 * pi * ((1.0 - std::cos(inner)) + (std::cos(inner) - std::cos(outer)) / 3.0));
   const Result result = simulate(floor_and({"spot", 100.0, SpotEmitter{{0, height, 0}, {0, -1, 0}, inner, outer}}, 3.0),
                                  settings_of(Estimator::collision, Engine::embree, 4e6, 55, 0.1));
-  const Verdict verdict = compare(against(result, "floor", [&](const Tile& tile) {
+  const Judgement verdict = compare(against(result, "floor", [&](const Tile& tile) {
     return floor_tile_mean(tile, 0.1, [&](const glm::dvec3& p) {
       const double d2 = p.x * p.x + p.z * p.z + height * height;
       const double cosine = height / std::sqrt(d2);
@@ -148,7 +148,7 @@ TEST_CASE("a spot with equal cones has a hard edge") {
   Settings settings = settings_of(Estimator::collision, Engine::embree, 2e6, 57, 0.1);
   const Result result = simulate(room, settings);
   CHECK(std::abs(surface_named(result, "floor").power - 100.0) < 1e-9);  // nothing outside the cone
-  const Verdict verdict = compare(against(result, "floor", irradiance_within(outer)));
+  const Judgement verdict = compare(against(result, "floor", irradiance_within(outer)));
   INFO(verdict.text);
   CHECK(verdict.agrees);
   // The mutation: a cone that is 1 % wider, with the same flux in the narrower one.
@@ -184,7 +184,7 @@ TEST_CASE("an emitter in a black cube: shares of the faces") {
     add(lambert(centre, {0, -1, 0}, 1.0), 0.554126423980);  // four corner rectangles, Hottel
     add(lambert(centre, {0, -1, 0}, 0.0), 1.0 / 3.0);
     add(lambert(centre, {0, -1, 0}, 5.0), 0.908183296);
-    const Verdict verdict = compare(figures);
+    const Judgement verdict = compare(figures);
     INFO(to_string(engine) << ": " << verdict.text);
     CHECK(verdict.agrees);
   }
@@ -217,7 +217,7 @@ TEST_CASE("a single triangle receives its solid angle") {
   room.surfaces.push_back(surface);
   room.emitters.push_back(isotropic({0, 1, 0}));
   const Result result = simulate(room, settings_of(Estimator::collision, Engine::embree, 4e6, 58));
-  const Verdict verdict = compare({share(result, 0.02704336199)});
+  const Judgement verdict = compare({share(result, 0.02704336199)});
   INFO(verdict.text);
   CHECK(verdict.agrees);
   CHECK(std::abs(result.balance.escaped + result.surfaces.front().power - 1.0) < 4.0 * 0x1p-53);
@@ -237,7 +237,7 @@ TEST_CASE("two emitters give the sum of each one alone") {
                        first.tiles[i].irradiance + second.tiles[i].irradiance,
                        std::hypot(first.tiles[i].standard_error, second.tiles[i].standard_error)});
   }
-  const Verdict verdict = compare(figures);
+  const Judgement verdict = compare(figures);
   INFO(verdict.text);
   CHECK(verdict.agrees);
 }

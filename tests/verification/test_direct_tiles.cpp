@@ -114,7 +114,7 @@ void check_runs(const std::string& what, Runs& runs, const TileAccuracy& accurac
     const Flux flux = runs.flux(seed, accuracy, surface);
     figures.push_back({flux.value, flux.standard_error, expected, 0.0});
   }
-  const Verdict verdict = compare(figures);
+  const Judgement verdict = compare(figures);
   INFO(what << ": " << verdict.text);
   WARN(what << ": " << verdict.text);
   CHECK(verdict.agrees);

@@ -78,7 +78,7 @@ std::vector<Compared> floor_against(const Result& result, const Result& expected
 
 void check_both(const std::string& what, const std::vector<Compared>& right, const std::vector<Compared>& mutated,
                 double bias) {
-  const Verdict verdict = compare(right);
+  const Judgement verdict = compare(right);
   INFO(what << ": " << verdict.text);
   WARN(what << ": " << verdict.text);
   CHECK(verdict.agrees);

@@ -82,7 +82,7 @@ TEST_CASE("error measure: 200 runs reach the error that they are asked for, and 
   CHECK(without_hits > 10.0);
   CHECK(std::sqrt(stated.mean()) > 0.9 * target);  // a check after every 25 % more histories
   const auto agrees = [](const Mean& a, double factor, const Mean& b, double more) {
-    const Verdict verdict = compare({{a.mean(), a.error(), factor * b.mean() + more, factor * b.error()}});
+    const Judgement verdict = compare({{a.mean(), a.error(), factor * b.mean() + more, factor * b.error()}});
     INFO(verdict.text);
     return verdict.agrees;
   };

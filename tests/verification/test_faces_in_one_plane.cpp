@@ -87,7 +87,7 @@ TEST_CASE("one plane: a flush rug, paper, poster and panel receive what they rec
     if (surface.name != "rug" && surface.name != "paper") continue;
     for (glm::dvec3& position : surface.positions) position.y = -position.y;
   }
-  const Verdict verdict = compare(surfaces_against(simulate(wrong, settings_for("forward", 20)), reference));
+  const Judgement verdict = compare(surfaces_against(simulate(wrong, settings_for("forward", 20)), reference));
   INFO("rug under the floor: " << verdict.text);
   CHECK_FALSE(verdict.agrees);
 }

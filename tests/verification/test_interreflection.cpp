@@ -56,8 +56,8 @@ TEST_CASE("CIE 171 case 5.6: light from a diffuse surface") {
     const auto ceiling = against(result, "ceiling", [&](const Tile& tile) {
       return tile_mean(tile.point, {0.125, 0, 0}, {0, 0, 0.125}, 16, on_ceiling);
     });
-    const Verdict verdict_wall = compare(wall);
-    const Verdict verdict_ceiling = compare(ceiling);
+    const Judgement verdict_wall = compare(wall);
+    const Judgement verdict_ceiling = compare(ceiling);
     INFO(to_string(engine) << "\nwall: " << verdict_wall.text << "\nceiling: " << verdict_ceiling.text);
     CHECK(verdict_wall.agrees);
     CHECK(verdict_ceiling.agrees);
@@ -76,7 +76,7 @@ TEST_CASE("CIE 171 case 5.8: the internally reflected component of a cube") {
         std::vector<Compared> figures;
         for (const SurfaceResult& surface : result.surfaces)
           figures.push_back(mean_irradiance(result, surface.name, expected));
-        const Verdict verdict = compare(figures);
+        const Judgement verdict = compare(figures);
         INFO(to_string(engine) << ", " << to_string(estimator) << ", reflectance " << rho << ": " << verdict.text);
         CHECK(verdict.agrees);
         CHECK(result.quantity == Quantity::photometric);
@@ -98,7 +98,7 @@ TEST_CASE("furnace: irradiance is uniform when every surface emits what it absor
       const Result result = simulate(room, settings_of(estimator, engine, 2e6, 34, 0.5));
       std::vector<Compared> figures;
       for (const TileResult& tile : result.tiles) figures.push_back({tile.irradiance, tile.standard_error, k, 0.0});
-      const Verdict verdict = compare(figures);
+      const Judgement verdict = compare(figures);
       INFO(to_string(engine) << ", " << to_string(estimator) << ": " << verdict.text);
       CHECK(verdict.agrees);
     }
@@ -122,7 +122,7 @@ TEST_CASE("integrating sphere: indirect light is the same everywhere") {
   const double area = surface_area(room.surfaces[0]);
   for (const Estimator estimator : estimators) {
     const Result result = simulate(room, settings_of(estimator, Engine::embree, 2e5, 91, 0.2));
-    const Verdict verdict = compare({mean_irradiance(result, room.surfaces[0].name, power / (area * (1.0 - rho)))});
+    const Judgement verdict = compare({mean_irradiance(result, room.surfaces[0].name, power / (area * (1.0 - rho)))});
     INFO(to_string(estimator) << ": " << verdict.text);
     if (estimator != Estimator::absorption) CHECK(verdict.agrees);
     CHECK(result.lost_histories == 0);
@@ -134,7 +134,7 @@ TEST_CASE("integrating sphere: indirect light is the same everywhere") {
   std::vector<Compared> figures;
   for (const TileResult& tile : furnace.tiles)
     figures.push_back({tile.irradiance, tile.standard_error, power / (area * (1.0 - rho)), 0.0});
-  const Verdict verdict = compare(figures);
+  const Judgement verdict = compare(figures);
   INFO("uniformly emitting sphere, tile by tile: " << verdict.text);
   CHECK(verdict.agrees);
 }
@@ -164,7 +164,7 @@ TEST_CASE("open-top cube: the share of light that escapes") {
     }
     // The weight estimator's variance is smaller than the bound, which may make χ² too small: the largest z alone
     // determines the result there.
-    const Verdict verdict = compare(figures);
+    const Judgement verdict = compare(figures);
     INFO(to_string(estimator) << ": " << verdict.text);
     CHECK(verdict.largest_z <= largest_z_allowed(figures.size()));
     CHECK(verdict.chi_square <= chi_square_above(static_cast<double>(figures.size()), false_alarm));
@@ -186,7 +186,7 @@ TEST_CASE("an opening is a black wall") {
     figures.push_back({open.surfaces[k].mean_irradiance, open.surfaces[k].standard_error, surface.mean_irradiance,
                        surface.standard_error});
   }
-  const Verdict verdict = compare(figures);
+  const Judgement verdict = compare(figures);
   INFO(verdict.text);
   CHECK(verdict.agrees);
   CHECK(open.balance.escaped > 0.0);
@@ -214,7 +214,8 @@ TEST_CASE("parallel plates exchange light by their form factor") {
   room.emitters.push_back(surface_emitter(0, 1.0));
   const Result result = simulate(room, settings_of(Estimator::collision, Engine::embree, 4e6, 18));
   const SurfaceResult& ceiling = surface_named(result, "ceiling");
-  const Verdict verdict = compare({{ceiling.power, ceiling.standard_error * ceiling.area_m2, 0.199824895698387, 0.0}});
+  const Judgement verdict =
+      compare({{ceiling.power, ceiling.standard_error * ceiling.area_m2, 0.199824895698387, 0.0}});
   INFO(verdict.text);
   CHECK(verdict.agrees);
 }

@@ -1,4 +1,5 @@
-// No photons are lost: not at edges and corners, not in hundreds of millions of impacts, for any position and size of the room.
+// No photons are lost: not at edges and corners, not in hundreds of millions of impacts, for any position and size of
+// the room.
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -40,7 +41,7 @@ TEST_CASE("lost is 0 in 200 million impacts in the closed cuboid by Embree") {
   CHECK(result.balance.escaped == 0.0);
   CHECK(result.balance.absorbed == result.balance.emitted);
   for (const SurfaceResult& surface : result.surfaces) CHECK(surface.behind_share == 0.0);
-  const Verdict verdict = compare({{result.incident, result.incident_standard_error, 10.0, 0.0}});
+  const Judgement verdict = compare({{result.incident, result.incident_standard_error, 10.0, 0.0}});
   INFO(verdict.text);
   CHECK(verdict.agrees);
 }
@@ -67,7 +68,7 @@ TEST_CASE("a room a million metres away gives the same irradiance") {
     const Result there = simulate(cube_at(1.0, {1e6, -1e6, 1e6}), settings_of(Estimator::collision, engine, 1e6, 4));
     CHECK(there.lost_histories == 0);
     CHECK(there.balance.escaped == 0.0);
-    const Verdict verdict = compare(against(here, there));
+    const Judgement verdict = compare(against(here, there));
     INFO(to_string(engine) << ": " << verdict.text);
     CHECK(verdict.agrees);
   }
@@ -88,7 +89,7 @@ TEST_CASE("an isotropic emitter on a wall emits half of its flux outwards and on
       CHECK(result.lost_histories == 0);
       CHECK(std::abs(result.balance.escaped + result.incident - 1.0) < 1e-12);
     }
-    const Verdict verdict = compare(figures);
+    const Judgement verdict = compare(figures);
     INFO(to_string(engine) << ": " << verdict.text);
     CHECK(verdict.agrees);
   }

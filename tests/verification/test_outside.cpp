@@ -134,13 +134,13 @@ TEST_CASE("outside: a lamp above the ceiling lights the ceiling's outer face and
       for (const char* inside : {"floor", "wall_x0", "wall_z1"}) CHECK(surface_named(result, inside).power == 0.0);
       const SurfaceResult& ceiling = surface_named(result, "ceiling");
       CHECK(ceiling.behind_share == 1.0);
-      const Verdict verdict = compare({{ceiling.power, ceiling.standard_error * ceiling.area_m2, on_ceiling}});
+      const Judgement verdict = compare({{ceiling.power, ceiling.standard_error * ceiling.area_m2, on_ceiling}});
       INFO(verdict.text);
       CHECK(verdict.agrees);
       CHECK(result.receiver_results[0].irradiance == 0.0);
       CHECK(result.receiver_results[1].direct == Approx(flux / (4.0 * pi) / 2.25).epsilon(1e-12));
       const ReceiverResult& seen = result.receiver_results[1];
-      const Verdict reflected = compare({{seen.indirect, seen.standard_error, indirect}});
+      const Judgement reflected = compare({{seen.indirect, seen.standard_error, indirect}});
       INFO(reflected.text);
       CHECK(reflected.agrees);
       CHECK(reflected.smallest_bias < 0.05);
@@ -201,7 +201,7 @@ TEST_CASE("on a surface: receivers have the limit of the side that they look to,
         without_own_surface.push_back(
             {on.indirect * 0.5 * (1.0 + cosine), on.standard_error, off.indirect, off.standard_error});
       }
-      const Verdict verdict = compare(figures);
+      const Judgement verdict = compare(figures);
       INFO(verdict.text);
       CHECK(verdict.agrees);
       CHECK(verdict.smallest_bias < 0.05);
@@ -244,7 +244,7 @@ TEST_CASE(
       CHECK(on.direct == Approx(off.direct).epsilon(1e-3));
       figures.push_back({on.indirect, on.standard_error, off.indirect, off.standard_error});
     }
-    const Verdict verdict = compare(figures);
+    const Judgement verdict = compare(figures);
     INFO(verdict.text);
     CHECK(verdict.agrees);
   }
@@ -353,7 +353,7 @@ TEST_CASE("outside: walls that meet in T-junctions, and luminous walls that shin
   const Result lit = simulate(shining, receivers_only(Engine::automatic, 200, 1));
   const double exitance = flux / (size.x * size.z);
   const ReceiverResult& above = lit.receiver_results[0];
-  const Verdict verdict = compare(
+  const Judgement verdict = compare(
       {{above.direct, above.standard_error, exitance * element_to_parallel_rectangle(1.0, 2.5, 2.5, 2.0, 2.0)}});
   INFO(verdict.text);
   CHECK(verdict.agrees);

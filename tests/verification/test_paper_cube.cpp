@@ -56,8 +56,9 @@ const std::vector<Case> cases{{Estimator::weight, Engine::cuboid},     {Estimato
 void check_cube(double reflectance, const std::string& rho, std::uint64_t seed) {
   for (const Case& each : cases) {
     const Result result = simulate_cube(reflectance, each.estimator, each.engine, seed++);
-    const Verdict maps = compare(figures(result, rho));
-    const Verdict total = compare({{result.incident, result.incident_standard_error, 1.0 / (1.0 - reflectance), 0.0}});
+    const Judgement maps = compare(figures(result, rho));
+    const Judgement total =
+        compare({{result.incident, result.incident_standard_error, 1.0 / (1.0 - reflectance), 0.0}});
     INFO(to_string(each.estimator) << ", " << to_string(each.engine) << ", " << result.walk.histories
                                    << " histories\nmaps: " << maps.text << "\ntotal: " << total.text);
     CHECK(maps.agrees);
@@ -101,7 +102,7 @@ TEST_CASE("paper cube: totals per wall") {
     const SurfaceResult& surface = surface_named(result, name);
     return Compared{surface.power, surface.standard_error * surface.area_m2, expected, 0.0};
   };
-  const Verdict verdict =
+  const Judgement verdict =
       compare({figure("floor", 1.0985316), figure("wall_x0", 0.284727483), figure("wall_x1", 0.284727483),
                figure("wall_z0", 0.284727483), figure("wall_z1", 0.284727483), figure("ceiling", 0.262558469)});
   INFO(verdict.text);

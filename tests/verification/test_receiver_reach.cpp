@@ -75,8 +75,7 @@ class Prepared {
                              std::uint64_t number, std::uint64_t together, std::uint64_t seed,
                              BackwardCount& count) const {
     const Settings settings = settings_of(estimator, Engine::embree, 1.0, seed);
-    const auto walk =
-        make_receiver_walk({room_, scene_, light_, blocks_, reach}, BackwardScale(room_), settings, plan);
+    const auto walk = make_receiver_walk({room_, scene_, light_, blocks_, reach}, BackwardScale(room_), settings, plan);
     std::vector<double> all;
     for (std::uint64_t first = 0; first < number; first += together) {
       std::vector<double> some(together * points_.size(), 0.0);
@@ -139,7 +138,7 @@ TEST_CASE("receiver reach: the means do not depend on the table") {
       const auto expected = rooms.means(nullptr, plan, estimator, 1);
       for (const ReceiverReach* reach : {&half, &none}) {
         const auto found = rooms.means(reach, plan, estimator, 2);
-        const Verdict verdict = compare(against(found, expected), Deviations::correlated);
+        const Judgement verdict = compare(against(found, expected), Deviations::correlated);
         INFO(plan.backward << " walks, " << to_string(estimator) << ": " << verdict.text);
         WARN(plan.backward << " walks, " << to_string(estimator) << ": " << verdict.text);
         CHECK(verdict.agrees);
@@ -169,7 +168,7 @@ TEST_CASE("receiver reach: the learned table spares most of the pairs, at nearly
 
   const auto expected = rooms.means(nullptr, plan, Estimator::weight, 1);
   const auto found = rooms.means(&learned->reach, plan, Estimator::weight, 2);
-  const Verdict verdict = compare(against(found, expected), Deviations::correlated);
+  const Judgement verdict = compare(against(found, expected), Deviations::correlated);
   INFO(verdict.text);
   WARN(verdict.text);
   CHECK(verdict.agrees);

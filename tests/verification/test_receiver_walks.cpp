@@ -61,7 +61,7 @@ void check_all(const std::string& name, const Room& room, double photons, double
       const Result result = simulate(room, receivers_by(walk, estimator, photons, 12));
       CHECK(result.receiver_walk.receiver_walk == walk);
       const double bias = estimator == Estimator::weight ? largest_bias : 5.0 * largest_bias;
-      const Verdict verdict = compare(against_reference(result, reference), Deviations::correlated);
+      const Judgement verdict = compare(against_reference(result, reference), Deviations::correlated);
       INFO(name << ", " << to_string(walk) << ", " << to_string(estimator) << ": " << verdict.text);
       WARN(name << ", " << to_string(walk) << ", " << to_string(estimator) << ": " << verdict.text);
       CHECK(verdict.agrees);
@@ -87,7 +87,8 @@ Room partitioned() {
   panel.name = "panel";
   panel.reflectance = 0.5;
   room.surfaces.push_back(panel);
-  room.emitters = {isotropic({3.0, 2.0, 1.0}, 100.0), lambert({1.0, 2.8, 1.0}, {0, -1, 0}, 3.0, 200.0),
+  room.emitters = {isotropic({3.0, 2.0, 1.0}, 100.0),
+                   lambert({1.0, 2.8, 1.0}, {0, -1, 0}, 3.0, 200.0),
                    {"spot", 150.0, SpotEmitter{{2.0, 2.5, 3.0}, {0.2, -1, 0.1}, 0.2, 0.6}},
                    surface_emitter(room.surfaces.size() - 1, 300.0)};
   return room;
@@ -114,7 +115,7 @@ TEST_CASE("receiver walks: independent receivers, chi-square") {
       const Result other = simulate(room, receivers_by(ReceiverWalk::backward, Estimator::weight, 2e4, 200 + k));
       figures.push_back(against_reference(one, other).front());
     }
-    const Verdict verdict = compare(figures);
+    const Judgement verdict = compare(figures);
     INFO(to_string(walk) << ": " << verdict.text);
     WARN(to_string(walk) << ": " << verdict.text);
     CHECK(verdict.agrees);
@@ -148,7 +149,7 @@ TEST_CASE("receiver walks: scenes from files") {
     const Result reference = simulate(room, receivers_by(ReceiverWalk::backward, Estimator::weight, 1e6, 21));
     for (const ReceiverWalk walk : walks) {
       const Result result = simulate(room, receivers_by(walk, Estimator::weight, 5e5, 22));
-      const Verdict verdict = compare(against_reference(result, reference), Deviations::correlated);
+      const Judgement verdict = compare(against_reference(result, reference), Deviations::correlated);
       INFO(scene << ", " << to_string(walk) << ": " << verdict.text);
       WARN(scene << ", " << to_string(walk) << ": " << verdict.text);
       CHECK(verdict.agrees);
@@ -171,7 +172,7 @@ TEST_CASE("receiver walks: Barry's room") {
       const ReceiverResult& one = result.receiver_results[k];
       figures.push_back({one.gain, one.standard_error * 1e-4, expected[k], 2e-6 * expected[k]});
     }
-    const Verdict verdict = compare(figures);
+    const Judgement verdict = compare(figures);
     INFO(to_string(walk) << ": " << verdict.text);
     WARN(to_string(walk) << ": " << verdict.text);
     CHECK(verdict.agrees);
@@ -185,7 +186,7 @@ TEST_CASE("receiver walks: close to surfaces two-way walks have no rare large sc
   room.receivers = {at({0.001, 0.5, 0.4}, {-1, 0, 0})};
   const Result close = simulate(room, receivers_by(ReceiverWalk::two_way, Estimator::weight, 2e5, 41));
   const Result reference = simulate(room, receivers_by(ReceiverWalk::backward, Estimator::weight, 2e6, 42));
-  const Verdict verdict = compare(against_reference(close, reference));
+  const Judgement verdict = compare(against_reference(close, reference));
   INFO(verdict.text);
   CHECK(verdict.agrees);
   CHECK(close.receiver_results[0].standard_error < 0.02 * close.receiver_results[0].indirect);
@@ -195,7 +196,7 @@ TEST_CASE("receiver walks: close to surfaces two-way walks have no rare large sc
   room.receivers = {at({0.5, 1.0, 0.5}, {0, -1, 0})};
   const Result below = simulate(room, receivers_by(ReceiverWalk::two_way, Estimator::weight, 2e5, 43));
   const Result photons = simulate(room, receivers_by(ReceiverWalk::next_event, Estimator::weight, 2e6, 44));
-  const Verdict low = compare(against_reference(below, photons));
+  const Judgement low = compare(against_reference(below, photons));
   INFO(low.text);
   CHECK(low.agrees);
   CHECK(below.receiver_results[0].standard_error < 0.005 * below.receiver_results[0].indirect);
@@ -226,7 +227,7 @@ TEST_CASE("receiver walks: a cell has the mean over its area, by all walks") {
     const Result cell = simulate(room, receivers_by(walk, Estimator::weight, 2e5, 52));
     mean.value = cell.receiver_results[0].irradiance;
     mean.standard_error = cell.receiver_results[0].standard_error;
-    const Verdict verdict = compare({mean});
+    const Judgement verdict = compare({mean});
     INFO(to_string(walk) << ": " << verdict.text << "; at the middle " << at_middle);
     WARN(to_string(walk) << ": " << verdict.text << "; at the middle " << at_middle);
     CHECK(verdict.agrees);

@@ -126,7 +126,7 @@ TEST_CASE("receivers: the paper's cube, indirect light of every floor tile's cen
         const Result result = simulate(room, backward(estimator, engine, 1e6, 31));
         CHECK(result.receiver_walk.shadow_rays == 0);
         CHECK(result.receiver_walk.histories == 1000000);
-        const Verdict verdict = compare(indirect_against(result, expected));
+        const Judgement verdict = compare(indirect_against(result, expected));
         check(std::string(to_string(estimator)) + ", " + std::string(to_string(engine)), verdict);
         CHECK(verdict.smallest_bias < 0.05);
         const auto brighter = [&](std::size_t k) { return 1.05 * expected(k); };
@@ -241,7 +241,7 @@ TEST_CASE("receivers: a small Lambert emitter and a small receiver are reciproca
   };
   const Compared there = gain(a, n_a, b, n_b, 71);
   const Compared back = gain(b, n_b, a, n_a, 72);
-  const Verdict verdict = compare({{there.value, there.standard_error, back.value, back.standard_error}});
+  const Judgement verdict = compare({{there.value, there.standard_error, back.value, back.standard_error}});
   check("reciprocity", verdict);
   CHECK(verdict.smallest_bias < 0.02);
 }

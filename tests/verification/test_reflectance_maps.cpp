@@ -93,7 +93,7 @@ TEST_CASE("reflectance maps: the ceiling receives what a non-uniform floor refle
                          [&](const glm::dvec3& p) { return ceiling_irradiance(p, law); });
       };
     };
-    const Verdict verdict = compare(against(result, "ceiling", expected(rho)));
+    const Judgement verdict = compare(against(result, "ceiling", expected(rho)));
     INFO(to_string(estimator) << ": " << verdict.text);
     WARN(verdict.text);
     CHECK(verdict.agrees);
@@ -122,7 +122,7 @@ TEST_CASE("vertex colours: the ceiling receives what a non-uniform floor reflect
                          [&](const glm::dvec3& p) { return ceiling_irradiance(p, rho); });
       });
     };
-    const Verdict verdict = compare(figures(luminance_at));
+    const Judgement verdict = compare(figures(luminance_at));
     INFO((mapped ? "with a map: " : "alone: ") << verdict.text);
     WARN(verdict.text);
     CHECK(verdict.agrees);
@@ -140,7 +140,7 @@ TEST_CASE("reflectance maps: all three estimators agree in a room with non-unifo
   for (const Estimator estimator : estimators)
     results.push_back(simulate(room, settings_of(estimator, Engine::automatic, 2e6, 600 + results.size(), 0.2)));
   for (std::size_t k = 0; k < 3; ++k) {
-    const Verdict verdict = compare(against(results[k], results[(k + 1) % 3]));
+    const Judgement verdict = compare(against(results[k], results[(k + 1) % 3]));
     INFO(to_string(estimators[k]) << " against " << to_string(estimators[(k + 1) % 3]) << ": " << verdict.text);
     WARN(verdict.text);
     CHECK(verdict.agrees);
@@ -206,7 +206,7 @@ TEST_CASE("reflectance maps: absorbed power by surface adds up to the balance an
       const double shared = direct == Direct::analytic ? 8.0 : 1.0;
       const double error = std::sqrt(exact * (1.0 - exact) * shared / 1e6);
       const double absorbed = surface_named(result, "floor").absorbed;
-      const Verdict verdict = compare({{absorbed, error, exact}});
+      const Judgement verdict = compare({{absorbed, error, exact}});
       INFO(to_string(estimator) << ": " << verdict.text);
       CHECK(verdict.smallest_bias < 0.02);
       CHECK(std::abs(absorbed - exact) < largest_z_allowed(1) * error);

@@ -62,7 +62,7 @@ void check_agreement(const std::vector<Result>& results) {
   for (std::size_t k = 0; k < results.size(); ++k) {
     const std::vector<Compared> figures = well_hit(results[k], results[(k + 1) % results.size()]);
     REQUIRE(figures.size() > 100);
-    const Verdict verdict = compare(figures);
+    const Judgement verdict = compare(figures);
     INFO(to_string(results[k].settings.estimator)
          << " against " << to_string(results[(k + 1) % results.size()].settings.estimator) << ": " << verdict.text);
     WARN(verdict.text);
@@ -110,7 +110,7 @@ TEST_CASE("a mirrored node is the mirrored room") {
   for (const Engine engine : {Engine::cuboid, Engine::embree}) {
     const Result a = simulate(room, settings_of(Estimator::collision, engine, 2e6, 61));
     const Result b = simulate(mirrored, settings_of(Estimator::collision, engine, 2e6, 62));
-    const Verdict verdict = compare(against(a, b));
+    const Judgement verdict = compare(against(a, b));
     INFO(to_string(engine) << ": " << verdict.text);
     CHECK(verdict.agrees);
     for (const SurfaceResult& surface : b.surfaces) CHECK(surface.behind_share == 0.0);
@@ -131,7 +131,7 @@ TEST_CASE("a rotated cuboid is recognised and gives the same irradiance") {
   const Result straight = simulate(room, settings_of(Estimator::collision, Engine::cuboid, 2e6, 63));
   for (const Engine engine : {Engine::cuboid, Engine::embree}) {
     const Result result = simulate(turned, settings_of(Estimator::collision, engine, 2e6, 64));
-    const Verdict verdict = compare(against(straight, result));
+    const Judgement verdict = compare(against(straight, result));
     INFO(to_string(engine) << ": " << verdict.text);
     CHECK(verdict.agrees);
   }

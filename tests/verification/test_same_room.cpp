@@ -49,7 +49,7 @@ std::vector<Compared> surfaces_against(const Result& a, const Result& b) {
 }
 
 void check_same(const char* form, const Result& plain, const Result& other) {
-  const Verdict verdict = compare(surfaces_against(plain, other));
+  const Judgement verdict = compare(surfaces_against(plain, other));
   INFO(form << ": " << verdict.text);
   WARN(form << ": " << verdict.text);
   CHECK(verdict.agrees);

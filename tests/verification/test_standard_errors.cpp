@@ -54,7 +54,7 @@ struct Case {
 
 // A share of all (run, tile) pairs, with the binomial error of its expectation.
 void check_share(double measured, double expected, double pairs) {
-  const Verdict verdict = compare({{measured, std::sqrt(expected * (1.0 - expected) / pairs), expected, 0.0}});
+  const Judgement verdict = compare({{measured, std::sqrt(expected * (1.0 - expected) / pairs), expected, 0.0}});
   INFO(verdict.text);
   CHECK(verdict.agrees);
 }
@@ -92,8 +92,8 @@ TEST_CASE("standard errors: 200 runs cover the exact values on the floor of the 
       }
       REQUIRE(k == 100);
     }
-    const Verdict means = compare(means_of(tiles));
-    const Verdict variances = compare(variances_of(tiles));
+    const Judgement means = compare(means_of(tiles));
+    const Judgement variances = compare(variances_of(tiles));
     INFO(to_string(each.estimator) << ' ' << to_string(each.direct) << "\nmeans: " << means.text
                                    << "\nvariances: " << variances.text << "\nbeyond 1.96: " << beyond / 20000);
     CHECK(means.agrees);
@@ -166,12 +166,12 @@ TEST_CASE("standard errors: tiles with half a hit to three hits expected") {
   constexpr double tiles = 2500.0;
   REQUIRE(pairs == tiles * runs);
   const double error = std::sqrt(expected_variance * runs);
-  const Verdict verdict = compare({{covered, error, expected_covered * runs, 0.0}});
+  const Judgement verdict = compare({{covered, error, expected_covered * runs, 0.0}});
   INFO("covered " << covered / pairs << ", by the binomial law " << expected_covered / tiles << "; " << verdict.text);
   CHECK(verdict.agrees);
   // Squared errors are correct in the mean, for any number of hits: no hits count as an error of 0 here.
-  const Verdict variance = compare({{stated, stated * std::sqrt(1.0 / (stated / (1.0 / photons / photons))), squares,
-                                     squares * std::sqrt(3.0 / pairs)}});
+  const Judgement variance = compare({{stated, stated * std::sqrt(1.0 / (stated / (1.0 / photons / photons))), squares,
+                                       squares * std::sqrt(3.0 / pairs)}});
   INFO("variance: " << variance.text);
   CHECK(variance.agrees);
   // The number of tiles without hits follows the law, and their stated error includes the exact value if fewer than

@@ -74,7 +74,7 @@ TEST_CASE("every tile agrees with the textbook walk, by every estimator and both
         figures.push_back({result.tiles[k].irradiance * tile.area_m2, result.tiles[k].standard_error * tile.area_m2,
                            other.value, other.standard_error});
       }
-      const Verdict verdict = compare(figures);
+      const Judgement verdict = compare(figures);
       INFO(to_string(engine) << " " << to_string(estimator) << ": " << verdict.text);
       WARN(to_string(engine) << " " << to_string(estimator) << ": " << verdict.text);
       CHECK(verdict.agrees);

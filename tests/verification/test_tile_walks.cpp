@@ -75,7 +75,7 @@ TEST_CASE("tiles: CIE 171 case 5.8, the mean indirect illuminance of all surface
       for (const SurfaceResult& surface : result.surfaces)
         CHECK(surface.mean_direct == Approx(10000.0 / 96.0).epsilon(1e-3));
       const double error = result.incident_standard_error / 96.0;
-      const Verdict verdict = compare({{result.incident / 96.0 - 10000.0 / 96.0, error, expected, 0.0}});
+      const Judgement verdict = compare({{result.incident / 96.0 - 10000.0 / 96.0, error, expected, 0.0}});
       check("rho " + std::to_string(rho) + ", " + std::string(to_string(estimator)), verdict);
       CHECK(verdict.smallest_bias < 0.12);
     }
@@ -112,7 +112,7 @@ TEST_CASE("tiles: if every wall emits what it absorbs, backward walks give every
         figures.push_back({tile.irradiance, tile.standard_error, 1.0, 0.0});
         dimmer.push_back({tile.irradiance, tile.standard_error, 0.98, 0.0});
       }
-      const Verdict verdict = compare(figures);
+      const Judgement verdict = compare(figures);
       check(std::string(to_string(engine)) + ", " + std::string(to_string(estimator)), verdict);
       CHECK(verdict.smallest_bias < 0.015);
       CHECK_FALSE(compare(dimmer).agrees);
@@ -139,7 +139,7 @@ TEST_CASE("tiles: forward walks, integrated direct light and backward walks agre
       const Result integrated =
           simulate(room, analytic(estimator, Engine::automatic, 0.25 * one.counted, 32, one.tile));
       CHECK(integrated.walk.shadow_rays > 0);
-      const Verdict by_integral = compare(well_counted(counted, integrated));
+      const Judgement by_integral = compare(well_counted(counted, integrated));
       check(name + ", direct integrated", by_integral);
       CHECK(by_integral.smallest_bias < 0.02);
       const Result walked = simulate(room, from_tiles(estimator, Engine::automatic, one.walked, 33, one.tile));

@@ -74,8 +74,8 @@ TEST_CASE("the outer faces of thick walls do not count in the mean") {
   // By the balance: absorbed = (1 − ρ) E A. Bias that would fail: 5 standard errors of 0.3 %, some 1.5 %.
   const double mean = 1000.0 / (0.5 * inner_m2);
   const SurfaceResult& bare = thin.surfaces[0];
-  const Verdict verdict = compare({{walls.mean_irradiance, walls.standard_error, mean, 0.0},
-                                   {bare.mean_irradiance, bare.standard_error, mean, 0.0}});
+  const Judgement verdict = compare({{walls.mean_irradiance, walls.standard_error, mean, 0.0},
+                                     {bare.mean_irradiance, bare.standard_error, mean, 0.0}});
   INFO(verdict.text);
   CHECK(verdict.agrees);
   CHECK(verdict.smallest_bias < 0.02);
