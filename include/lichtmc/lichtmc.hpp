@@ -8,7 +8,9 @@
 #include "lichtmc/control.hpp"            // IWYU pragma: export
 #include "lichtmc/cover.hpp"              // IWYU pragma: export
 #include "lichtmc/cuboid.hpp"             // IWYU pragma: export
+#include "lichtmc/dimmed_scene.hpp"       // IWYU pragma: export
 #include "lichtmc/emitter_law.hpp"        // IWYU pragma: export
+#include "lichtmc/emitter_parts.hpp"      // IWYU pragma: export
 #include "lichtmc/error.hpp"              // IWYU pragma: export
 #include "lichtmc/figure.hpp"             // IWYU pragma: export
 #include "lichtmc/fingerprint.hpp"        // IWYU pragma: export

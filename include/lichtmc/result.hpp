@@ -15,6 +15,7 @@
 #include "lichtmc/area.hpp"
 #include "lichtmc/channel.hpp"
 #include "lichtmc/cover.hpp"
+#include "lichtmc/emitter_parts.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
 #include "lichtmc/state.hpp"
@@ -153,6 +154,7 @@ struct Result {
   std::vector<Receiver> receivers;               // the room's
   std::vector<ReceiverResult> receiver_results;  // of each; empty if only tiles were measured
   std::vector<AreaResult> areas;                 // as Room::areas; empty if only tiles were measured
+  std::optional<EmitterParts> parts;             // if Settings::per_emitter asks for them
   std::optional<ImpulseResponses> channels;      // if Settings::channel asks for them
   std::vector<Ignored> ignored;                  // Room::ignored, and parts of the room that this run did not use
   std::vector<std::string> overrides;            // Room::overrides

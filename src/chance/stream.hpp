@@ -27,6 +27,7 @@ enum class Purpose : std::uint32_t {
   cell = 11,            // words 0, 1: where in the cells of receivers an impact contributes
   direct_cell = 12,     // words 0, 1: where in a cell direct light is computed
   direct_opening = 13,  // words 0, 1: point of a luminous opening for direct light that is computed outside the walks
+  bootstrap = 14,       // word 0: by which the figures of areas are varied (run/area_figures.hpp)
 };
 
 class Stream {

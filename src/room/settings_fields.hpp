@@ -31,6 +31,7 @@ void visit_fields(const F& f, Things&... s) {
   f(Field{"time_span_s", same, "time span of impulse responses", "s", "--time-span"}, s.channel.time_span_s...);
   f(Field{"orders", same, "reflections kept apart", "", "--orders"}, s.channel.orders...);
   f(Field{"per_emitter", same, "channels of each emitter", "", "--per-emitter"}, s.channel.per_emitter...);
+  f(Field{"keeps_parts", same, "parts of each emitter", "", "--per-emitter"}, s.per_emitter...);
   f(Field{"first_frequency_hz", same, "first frequency", "Hz", "--frequencies"}, s.channel.frequencies.first_hz...);
   f(Field{"last_frequency_hz", same, "last frequency", "Hz", "--frequencies"}, s.channel.frequencies.last_hz...);
   f(Field{"frequency_step_hz", same, "step of frequencies", "Hz", "--frequencies"}, s.channel.frequencies.step_hz...);

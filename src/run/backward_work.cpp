@@ -44,6 +44,8 @@ BackwardWork::BackwardWork(const RunContext& context, const BackwardTask& task, 
   found_.sums = std::make_shared<std::vector<BackwardSums>>(task.origins);
   if (task.channels != nullptr && stage != Progress::Stage::pilot)
     found_.channels = std::make_shared<ChannelSums>(*task.channels, task.origins);
+  if (task.parts > 0 && stage != Progress::Stage::pilot)
+    found_.parts = std::make_shared<PartSums>(task.origins, task.parts);
   found_.plan = task.plan;
   found_.group = task.group;
   found_.unit = task.unit;
@@ -87,6 +89,16 @@ void BackwardWork::restore(StateData& data) {
     }
     found_.channels = own(std::move(data.channels));
   }
+  if (task_.parts > 0) {
+    if (data.parts == nullptr || !data.parts->has_size_of(*found_.parts)) {
+      throw InputError(
+          "The state has other parts of emitters than the room, or none (allowed: the same receivers and emitters; "
+          "parts "
+          "are kept for calculation areas and with --per-emitter). The state does not belong to this room and these "
+          "options; start a new run.");
+    }
+    found_.parts = own(std::move(data.parts));
+  }
   found_.sums = own(std::move(before.sums));
   count_ = before.count;
   found_.rounds = before.size();
@@ -95,6 +107,7 @@ void BackwardWork::restore(StateData& data) {
   range_.last = std::max(range_.last, before_.back().last);
   before_.pop_back();
   rounds_before_ = count_of(before_);
+  found_.ranges = ranges();
   reporter_.set_before(histories_of(found_.rounds));
 }
 
@@ -106,6 +119,7 @@ Walked& BackwardWork::write_to(StateData& data) {
   state.count = count_;
   state.sums = found_.sums;
   if (found_.channels) data.channels = found_.channels;
+  if (found_.parts) data.parts = found_.parts;
   return state;
 }
 
@@ -140,10 +154,11 @@ void BackwardWork::simulate_towards(std::uint64_t rounds) {
 bool BackwardWork::simulate_step(std::uint64_t rounds) {
   std::vector<BackwardSums> sums(task_.origins);
   if (found_.channels && step_channels_.bins.empty()) step_channels_ = ChannelSums(*task_.channels, task_.origins);
+  if (found_.parts && step_parts_.of_groups.empty()) step_parts_ = PartSums(task_.origins, task_.parts);
   BackwardCount count;
   next_ = 0;
   context_.watch.run_on_threads(context_.threads, [&](unsigned) {
-    take_rounds(found_.rounds, rounds, {sums, step_channels_, count});
+    take_rounds(found_.rounds, rounds, {sums, step_channels_, step_parts_, count});
   });
   context_.watch.agree();
   if (context_.watch.reason()) return false;
@@ -156,8 +171,14 @@ bool BackwardWork::simulate_step(std::uint64_t rounds) {
     found_.channels = own<ChannelSums>(std::move(found_.channels));
     move_sums(*found_.channels, step_channels_);
   }
+  if (found_.parts) {
+    reduce(context_.control.communicator, step_parts_);
+    found_.parts = own<PartSums>(std::move(found_.parts));
+    step_parts_.move_to(*found_.parts, 0, task_.parts);
+  }
   add_fields(count_, count);
   found_.rounds = rounds;
+  found_.ranges = ranges();
   return true;
 }
 
@@ -205,6 +226,7 @@ void BackwardWork::take_rounds(std::uint64_t first, std::uint64_t last, const St
       const std::lock_guard lock(mutex_);
       for (std::size_t k = 0; k < sums.size(); ++k) add_fields(step.sums[work.first + k], sums[k]);
       if (found_.channels) walk->hand_over(step.channels, count);
+      if (found_.parts) walk->hand_over(step.parts);
       add_fields(step.count, count);
     }
     const std::uint64_t histories =

@@ -18,6 +18,7 @@
 #include "walk/backward.hpp"
 #include "walk/channel_sums.hpp"
 #include "walk/direct_light.hpp"
+#include "walk/part_sums.hpp"
 
 namespace lichtmc {
 
@@ -27,6 +28,8 @@ struct OriginEstimates {
   std::shared_ptr<std::vector<BackwardSums>> sums;              // per origin, of all rounds
   std::uint64_t rounds = 0;                                     // per origin
   std::shared_ptr<ChannelSums> channels;                        // of all rounds; null: no impulse responses
+  std::shared_ptr<PartSums> parts;                              // of all rounds; null: no parts are kept
+  std::vector<HistoryRange> ranges;                             // of all rounds
   RoundPlan plan;                                               // histories of a round
   std::uint32_t group = 1;                                      // scores of a round that are added up in a sum
   double unit = 1.0;                                            // of the sums, W/m² or lx
@@ -55,6 +58,7 @@ struct BackwardTask {
   std::function<double(const std::vector<double>&)> floor;
   std::vector<double> weights;
   const ChannelAxes* channels = nullptr;  // of impulse responses, if they are measured; else null
+  std::uint32_t parts = 0;                // groups of emitters whose parts are kept; 0: no sums of parts
   std::string name;                       // of the origins
   std::vector<Estimator> candidates;      // for an estimator
   std::string reason;                     // for the plan and the estimator, if they were chosen
@@ -84,6 +88,7 @@ class BackwardWork final : public Work {
   void release(StateData& data) override {
     (data.*task_.slot)->sums.reset();
     if (found_.channels) data.channels.reset();
+    if (found_.parts) data.parts.reset();
   }
   void show(double rms_relative_error, double histories_to_target) override {
     reporter_.set_error(rms_relative_error, histories_to_target);
@@ -113,6 +118,7 @@ class BackwardWork final : public Work {
   struct Step {
     std::vector<BackwardSums>& sums;
     ChannelSums& channels;
+    PartSums& parts;
     BackwardCount& count;
   };
   void take_rounds(std::uint64_t first, std::uint64_t last, const Step& step);
@@ -122,6 +128,7 @@ class BackwardWork final : public Work {
   Settings settings_;                 // with the estimator of this work
   std::uint64_t together_;            // histories in a round of all origins
   ChannelSums step_channels_;         // of the step that is simulated; else 0
+  PartSums step_parts_;               // likewise
   HistoryRange range_;                // of rounds, to simulate
   std::vector<HistoryRange> before_;  // ranges before the one that grows
   std::uint64_t rounds_before_ = 0;   // number of rounds in them

@@ -74,7 +74,7 @@ void LitRooms::make_raster() {
   raster_ = tracer_.columns(places);
   for (std::size_t k = 0; k < raster_.size(); ++k) {
     first_gap_.push_back(gaps_.size());
-    for (const Gap& gap : raster_[k].gaps) gaps_.push_back({k, gap, none, none});
+    for (const Gap& gap : raster_[k].gaps) gaps_.push_back({k, gap, no_number, no_number});
   }
   first_gap_.push_back(gaps_.size());
   lit_.assign(gaps_.size(), 0);
@@ -193,7 +193,7 @@ std::vector<std::size_t> patches_of(const std::vector<LitGap>& gaps, const std::
                                     double step, const ForNeighbours& for_each_neighbour) {
   DisjointSets<std::size_t> sets(gaps.size());
   for (std::size_t g = 0; g < gaps.size(); ++g) {
-    if (gaps[g].room == none) continue;
+    if (gaps[g].room == no_number) continue;
     for_each_neighbour(gaps[g].column, [&](std::size_t other) {
       for (std::size_t h = first_gap[other]; h < first_gap[other + 1]; ++h) {
         if (gaps[h].room == gaps[g].room && std::abs(gaps[h].gap.low - gaps[g].gap.low) <= step &&
@@ -202,9 +202,9 @@ std::vector<std::size_t> patches_of(const std::vector<LitGap>& gaps, const std::
       }
     });
   }
-  std::vector<std::size_t> patch(gaps.size(), none);
+  std::vector<std::size_t> patch(gaps.size(), no_number);
   for (std::size_t g = 0; g < gaps.size(); ++g) {
-    if (gaps[g].room != none) patch[g] = sets.find(g);
+    if (gaps[g].room != no_number) patch[g] = sets.find(g);
   }
   return patch;
 }
@@ -216,7 +216,7 @@ void LitRooms::find_floors() {
       gaps_, first_gap_, step_, [this](std::size_t column, const auto& use) { for_each_neighbour(column, use); });
   std::vector<Patch> patches(gaps_.size());
   for (std::size_t g = 0; g < gaps_.size(); ++g) {
-    if (patch_of[g] == none) continue;
+    if (patch_of[g] == no_number) continue;
     Patch& patch = patches[patch_of[g]];
     const Gap& gap = gaps_[g].gap;
     ++patch.gaps;
@@ -224,7 +224,7 @@ void LitRooms::find_floors() {
     if (gap.height() >= standing_) ++patch.standing;
     const std::size_t first = first_gap_[gaps_[g].column];
     for (std::size_t below = first; below < g; ++below) {
-      if (gaps_[below].room == none) continue;
+      if (gaps_[below].room == no_number) continue;
       ++patch.over_space;
       if (gap.low - gaps_[below].gap.low < standing_) ++patch.over_low;
       break;
@@ -239,12 +239,12 @@ void LitRooms::find_floors() {
   }
   std::vector<double> largest(rooms_.size(), 0.0);  // m², of the floors of each room
   for (std::size_t g = 0; g < gaps_.size(); ++g) {
-    if (patch_of[g] == none || is_floor[patch_of[g]] == 0) continue;
+    if (patch_of[g] == no_number || is_floor[patch_of[g]] == 0) continue;
     double& area = largest[gaps_[g].room];
     area = std::max(area, static_cast<double>(patches[patch_of[g]].gaps) * spacing_ * spacing_);
   }
   for (std::size_t g = 0; g < gaps_.size(); ++g) {
-    if (patch_of[g] == none || is_floor[patch_of[g]] == 0) continue;
+    if (patch_of[g] == no_number || is_floor[patch_of[g]] == 0) continue;
     Patch& high = patches[patch_of[g]];
     if (2 * high.over_space > high.gaps) continue;  // a gallery or an upper storey
     for_each_neighbour(gaps_[g].column, [&](std::size_t other) {
@@ -268,7 +268,7 @@ void LitRooms::find_floors() {
 void LitRooms::use_floors(const std::vector<std::size_t>& patch_of, const std::vector<char>& is_floor) {
   std::map<std::size_t, std::size_t> number_of;
   for (std::size_t g = 0; g < gaps_.size(); ++g) {
-    if (patch_of[g] == none || is_floor[patch_of[g]] == 0) continue;
+    if (patch_of[g] == no_number || is_floor[patch_of[g]] == 0) continue;
     const auto [found, made] = number_of.try_emplace(patch_of[g], floors_.size());
     if (made) floors_.push_back({gaps_[g].room, gaps_[g].gap.low});
     gaps_[g].floor = found->second;
@@ -285,7 +285,7 @@ void LitRooms::measure_rooms() {
   const glm::dvec2 low(tracer_.low().x, tracer_.low().z);
   const glm::dvec2 high(tracer_.high().x, tracer_.high().z);
   for (const LitGap& here : gaps_) {
-    if (here.floor == none) continue;
+    if (here.floor == no_number) continue;
     LitRoom& room = rooms_[here.room];
     const glm::dvec2& at = raster_[here.column].at;
     const glm::dvec3 point(at.x, here.gap.low + 0.5 * std::min(here.gap.height(), standing_), at.y);
@@ -309,7 +309,7 @@ std::size_t LitRooms::nearest_on_floor(std::size_t floor, const glm::dvec2& at, 
   const std::size_t middle = column_at(at);
   const long x0 = static_cast<long>(middle % columns_);
   const long y0 = static_cast<long>(middle / columns_);
-  std::size_t nearest = none;
+  std::size_t nearest = no_number;
   double least = within_m;
   const auto test = [&](long x, long y) {
     if (x < 0 || y < 0 || x >= static_cast<long>(columns_) || y >= static_cast<long>(rows_)) return;
@@ -342,7 +342,7 @@ bool LitRooms::is_between_floors(const glm::dvec2& at, std::size_t room) const {
   const std::size_t middle = column_at(at);
   const auto has_floor = [&](std::size_t column) {
     for (std::size_t g = first_gap_[column]; g < first_gap_[column + 1]; ++g) {
-      if (gaps_[g].room == room && gaps_[g].floor != none) return true;
+      if (gaps_[g].room == room && gaps_[g].floor != no_number) return true;
     }
     return false;
   };

@@ -11,19 +11,19 @@
 
 namespace lichtmc {
 
-inline constexpr std::size_t none = static_cast<std::size_t>(-1);
+inline constexpr std::size_t no_number = static_cast<std::size_t>(-1);
 
 // A gap of a line of the raster.
 struct LitGap {
   std::size_t column = 0;
   Gap gap;
-  std::size_t room = none;   // number in LitRooms::rooms
-  std::size_t floor = none;  // number in LitRooms::floors if its lower end is a floor
+  std::size_t room = no_number;   // number in LitRooms::rooms
+  std::size_t floor = no_number;  // number in LitRooms::floors if its lower end is a floor
 };
 
 // A connected floor: steps up to the height of a stair's riser belong to it.
 struct Floor {
-  std::size_t room = none;
+  std::size_t room = no_number;
   double lowest = 0.0;  // m
 };
 
@@ -50,7 +50,7 @@ class LitRooms {
   const std::vector<LitGap>& gaps() const { return gaps_; }
   double spacing() const { return spacing_; }
 
-  // The gap with this floor closest to (x, z), none if it is farther than `within_m`.
+  // The gap with this floor closest to (x, z), no_number if it is farther than `within_m`.
   std::size_t nearest_on_floor(std::size_t floor, const glm::dvec2& at, double within_m) const;
   // From a gap to (x, z), in m.
   double distance(std::size_t gap, const glm::dvec2& at) const;

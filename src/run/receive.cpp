@@ -10,11 +10,13 @@
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
 #include "room/reflectance.hpp"
+#include "run/area_figures.hpp"
 #include "run/backward_work.hpp"
 #include "run/channel_results.hpp"
 #include "run/direct_error.hpp"
 #include "run/error_measure.hpp"
 #include "run/jackknife.hpp"
+#include "run/part_estimates.hpp"
 #include "run/pilot.hpp"
 #include "run/receiver_plan.hpp"
 #include "run/rounds.hpp"
@@ -48,8 +50,17 @@ double receiver_error(const OriginEstimates& found, std::size_t k) {
   return std::hypot(factor * found.indirect_error(k), (*found.direct)[k].standard_error);
 }
 
-// Of the receivers with an irradiance above 0.
-RunError error_of_receivers(const Settings& settings, const OriginEstimates& found) {
+// Whether a receiver is no point of an area, so that its own error counts.
+std::vector<bool> receivers_apart(const Room& room) {
+  std::vector<bool> apart(room.receivers.size(), true);
+  for (const Area& area : room.areas) {
+    for (std::size_t k = 0; k < area.cells.size(); ++k) apart[area.first_receiver + k] = false;
+  }
+  return apart;
+}
+
+// The rms of the receivers with an irradiance above 0, as far as `apart` says so.
+RunError error_of_receivers(const Settings& settings, const OriginEstimates& found, const std::vector<bool>& apart) {
   std::vector<double> irradiances;
   for (std::size_t k = 0; k < found.sums->size(); ++k)
     irradiances.push_back((*found.direct)[k].value + found.indirect(k));
@@ -59,7 +70,7 @@ RunError error_of_receivers(const Settings& settings, const OriginEstimates& fou
   double squares_without_floor = 0.0;
   std::size_t lit = 0;
   for (std::size_t k = 0; k < irradiances.size(); ++k) {
-    if (!(irradiances[k] > 0.0)) continue;
+    if (!(irradiances[k] > 0.0) || !apart[k]) continue;
     const double standard_error = receiver_error(found, k);
     squares += std::pow(standard_error / std::max(irradiances[k], error.floor), 2);
     squares_without_floor += std::pow(standard_error / irradiances[k], 2);
@@ -71,6 +82,15 @@ RunError error_of_receivers(const Settings& settings, const OriginEstimates& fou
   error.relative = root_of_mean(squares);
   error.without_floor = root_of_mean(squares_without_floor);
   return error;
+}
+
+// In runs with areas their figures count too: the error is that of the worst, or of the other receivers.
+void add_error_of_areas(const Room& room, const EmitterParts& parts, RunError& error) {
+  const auto larger = [](double receivers, double areas) {
+    return std::isnan(receivers) || std::isnan(areas) ? areas : std::max(receivers, areas);
+  };
+  error.relative = larger(error.relative, largest_error_of_areas(room.areas, parts, error.floor));
+  error.without_floor = larger(error.without_floor, largest_error_of_areas(room.areas, parts, 0.0));
 }
 
 // Each tile is the sum of its faces.
@@ -169,8 +189,10 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   // Walks from the receivers have no use for it; it is learned for blocks of the usual size.
   const bool has_reach = context.settings.receiver_walk != ReceiverWalk::backward && block == ReceiverBlocks::size;
   const std::optional<LearnedReach> learned = has_reach ? learn_reach(context.scene, points, blocks) : std::nullopt;
+  LightOfParts kept(room, context.settings);
   const ReceiverWalkParts parts{
-      room, context.scene, light, blocks, learned ? &learned->reach : nullptr, channels ? &*channels : nullptr};
+      room,         context.scene, light, blocks, learned ? &learned->reach : nullptr, channels ? &*channels : nullptr,
+      kept.groups()};
   const BackwardScale scale(room);
   const Stream stream(context.settings.seed, WalkDirection::backward);
   BackwardTask task;
@@ -179,6 +201,7 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
   task.unit = scale.unit;
   task.block = block;
   task.channels = channels ? &channels->axes : nullptr;
+  task.parts = kept.size();
   const SamplingAccuracy accuracy{direct_error_of_receivers(context.settings)};
   task.choose = [&](BackwardTask& chosen, const std::vector<DirectIrradiance>& direct) {
     ReceiverPlan found =
@@ -192,18 +215,39 @@ ReceiverMeasurement measure_receivers(const RunContext& context) {
     const Receiver& receiver = room.receivers[k];
     if (receiver.half_angle_deg == 0.0) return {};  // its field of view is empty
     if (const auto emitter = light.emitter_at(reference_point_of(receiver))) refuse_on_emitter(room, k, *emitter);
-    if (receiver.is_cell()) return cell_irradiance(light, tracer, points[k], stream, k, accuracy, count);
-    return light.irradiance_at(points[k], stream, k, count, accuracy);
+    return kept.direct(k, [&](std::vector<DirectIrradiance>* of_emitters) {
+      if (receiver.is_cell()) return cell_irradiance(light, tracer, points[k], stream, k, accuracy, count, of_emitters);
+      return light.irradiance_at(points[k], stream, k, count, accuracy, of_emitters);
+    });
   };
   task.make_walk = [&](const Settings& own, const RoundPlan& plan) {
     return make_receiver_walk(parts, scale, own, plan);
   };
-  task.error = [&](const OriginEstimates& found) { return error_of_receivers(context.settings, found); };
+  const std::vector<bool> apart = receivers_apart(room);
+  const auto parts_from = [&](const OriginEstimates& found) {
+    return estimate_parts(room, *kept.groups(), found, kept.all_direct(context.control.communicator));
+  };
+  task.error = [&](const OriginEstimates& found) {
+    RunError error = error_of_receivers(context.settings, found, apart);
+    if (!room.areas.empty()) add_error_of_areas(room, parts_from(found), error);
+    return error;
+  };
   task.name = "the receivers";
   task.slot = &StateData::receivers;
   BackwardOutcome outcome = walk_backward(context, std::move(task));
   outcome.report.receiver_walk = walk_of(outcome.estimates.plan);
-  ReceiverMeasurement measured{receiver_results(room, outcome.estimates), std::nullopt, std::move(outcome.report)};
+  ReceiverMeasurement measured;
+  measured.receivers = receiver_results(room, outcome.estimates);
+  measured.report = std::move(outcome.report);
+  if (kept.groups() != nullptr) {
+    EmitterParts of_emitters = parts_from(outcome.estimates);
+    const std::vector<double> undimmed(of_emitters.parts.size(), 1.0);
+    measured.areas = area_results(room.areas, of_emitters, undimmed);
+    if (context.settings.per_emitter) {
+      measured.receivers = receivers_by_parts(of_emitters, room.receivers, undimmed);
+      measured.parts = std::move(of_emitters);
+    }
+  }
   if (channels) {
     measured.channels =
         channel_results({context, channels->axes, channels->scale, light, points, *outcome.estimates.channels,

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "lichtmc/emitter_parts.hpp"
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
@@ -22,6 +23,8 @@ void check_receivers_whole(const Room& room, const Settings& settings, const Bac
 
 struct ReceiverMeasurement {
   std::vector<ReceiverResult> receivers;
+  std::vector<AreaResult> areas;
+  std::optional<EmitterParts> parts;  // if Settings::per_emitter asks for them
   std::optional<ImpulseResponses> channels;
   WalkReport report;
 };

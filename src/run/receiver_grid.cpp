@@ -154,7 +154,7 @@ class GridMaker {
   std::optional<FloorHere> floor_at(const Column& line, std::size_t room, std::size_t floor) const {
     constexpr double reach_m = 2.5;  // over furniture, the floor beside it counts
     const std::size_t near = lit_.nearest_on_floor(floor, line.at, std::max(reach_m, 2.0 * lit_.spacing()));
-    if (near == none) return std::nullopt;
+    if (near == no_number) return std::nullopt;
     const double beside = lit_.gaps()[near].gap.low;
     FloorHere here{beside, lit_.distance(near, line.at)};
     double least = lit_.step();

@@ -224,6 +224,8 @@ class Run {
     try {
       ReceiverMeasurement measured = measure_receivers(context(watch));
       result_.receiver_results = std::move(measured.receivers);
+      result_.areas = std::move(measured.areas);
+      result_.parts = std::move(measured.parts);
       result_.channels = std::move(measured.channels);
       result_.receiver_walk = std::move(measured.report);
     } catch (const StoppedTooSoon&) {

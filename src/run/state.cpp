@@ -139,7 +139,8 @@ class Merger {
     merge_photons(sum);
     merge_walks(sum, &StateData::tile_walks);
     merge_walks(sum, &StateData::receivers);
-    merge_channels(sum);
+    merge_sums(sum, &StateData::channels, "have different numbers of bins");
+    merge_sums(sum, &StateData::parts, "have different parts of emitters");
     if (states_.size() > 1) set_rules(sum);
     return sum;
   }
@@ -272,21 +273,23 @@ class Merger {
     if (states_.size() > 1) (sum.*slot)->convergence.clear();
   }
 
-  // Of the same rounds as the walks from the receivers.
-  void merge_channels(StateData& sum) const {
-    std::shared_ptr<ChannelSums> sums;
+  // Impulse responses or parts, of the same rounds as the walks from the receivers.
+  template <class Sums>
+  void merge_sums(StateData& sum, std::shared_ptr<const Sums> StateData::*slot,
+                  const std::string& if_sizes_differ) const {
+    std::shared_ptr<Sums> sums;
     for (std::size_t k = 0; k < states_.size(); ++k) {
       const StateData& data = states_[k].data();
       if (!data.receivers) continue;
-      if (!data.channels) return;
+      if (!(data.*slot)) return;
       if (sums == nullptr) {
-        sums = std::make_shared<ChannelSums>(*data.channels);
+        sums = std::make_shared<Sums>(*(data.*slot));
         continue;
       }
-      if (!sums->has_size_of(*data.channels)) refuse(k, "have different numbers of bins");
-      add_fields(*sums, *data.channels);
+      if (!sums->has_size_of(*(data.*slot))) refuse(k, if_sizes_differ);
+      add_fields(*sums, *(data.*slot));
     }
-    sum.channels = std::move(sums);
+    sum.*slot = std::move(sums);
   }
 
   const std::vector<State>& states_;

@@ -14,6 +14,7 @@
 #include "lichtmc/state.hpp"
 #include "walk/backward.hpp"
 #include "walk/channel_sums.hpp"
+#include "walk/part_sums.hpp"
 #include "walk/round_plan.hpp"
 #include "walk/totals.hpp"
 
@@ -67,6 +68,8 @@ struct StateData {
   std::optional<BackwardState> receivers;
   // Impulse responses, of the rounds of `receivers`; null: not asked for.
   std::shared_ptr<const ChannelSums> channels;
+  // Parts of groups of emitters, of the same rounds; null: not kept.
+  std::shared_ptr<const PartSums> parts;
   std::string note;
 };
 
@@ -105,6 +108,7 @@ void visit_fields(const F& f, Things&... state) {
   f(Field{"tile_walks"}, state.tile_walks...);
   f(Field{"receivers"}, state.receivers...);
   f(Field{"channels"}, state.channels...);
+  f(Field{"parts"}, state.parts...);
 }
 
 // States with the same fingerprint have the same sums and will continue in the same way: a hash (XXH3, 128 bits) of all

@@ -39,6 +39,10 @@ std::string printable(const std::string& text) {
 // One row of the array "convergence"; integers are exact up to 2⁵³.
 using ConvergenceRow = std::array<double, 3>;
 
+// Sums that a state may be without.
+template <class Sums>
+concept OptionalSums = std::same_as<Sums, ChannelSums> || std::same_as<Sums, PartSums>;
+
 // Both archives have one function per type of field. Nested structs are written into the same group; settings and walks
 // are groups.
 class Writer {
@@ -98,8 +102,9 @@ class Writer {
   void field(const char* name, const std::shared_ptr<const Thing>& thing) {
     field(name, *thing);
   }
-  // Has a group of its own; none without impulse responses.
-  void field(const char* name, const std::shared_ptr<const ChannelSums>& sums) {
+  // Has a group of its own; none if there are no such sums.
+  template <OptionalSums Sums>
+  void field(const char* name, const std::shared_ptr<const Sums>& sums) {
     if (sums == nullptr) return;
     file_.enter(std::string("/") + name);
     fields(*sums);
@@ -202,11 +207,12 @@ class Reader {
     field(name, *read);
     thing = read;
   }
-  void field(const char* name, std::shared_ptr<const ChannelSums>& sums) {
+  template <OptionalSums Sums>
+  void field(const char* name, std::shared_ptr<const Sums>& sums) {
     const std::string group = std::string("/") + name;
     if (!file_.has_group(group)) return;
     file_.enter(group);
-    const auto read = std::make_shared<ChannelSums>();
+    const auto read = std::make_shared<Sums>();
     fields(*read);
     sums = read;
   }
@@ -231,7 +237,7 @@ class Reader {
 // the array "room" always exist.
 void check_members(const Hdf5File& file, const StateData& data) {
   const std::uint64_t known = 2U + (data.photons ? 1U : 0U) + (data.tile_walks ? 1U : 0U) + (data.receivers ? 1U : 0U) +
-                              (data.channels ? 1U : 0U);
+                              (data.channels ? 1U : 0U) + (data.parts ? 1U : 0U);
   if (file.members() != known)
     throw Hdf5Error("it has " + std::to_string(file.members()) + " groups and arrays, of which " +
                     std::to_string(known) + " are known");

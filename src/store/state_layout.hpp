@@ -7,7 +7,7 @@
 namespace lichtmc {
 
 // The first line of the file. Its number changes whenever the fields or their storage change.
-inline constexpr const char* state_title = "lichtmc state, layout 6";
+inline constexpr const char* state_title = "lichtmc state, layout 7";
 
 // Write the data into the file, or read them from it. Throw Hdf5Error.
 void write_layout(Hdf5File& file, const StateData& data);

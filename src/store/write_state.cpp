@@ -18,10 +18,9 @@ std::uint64_t size_of(const StateData& data) {
   }
   if (data.tile_walks) bytes += data.tile_walks->sums->size() * sizeof(BackwardSums);
   if (data.receivers) bytes += data.receivers->sums->size() * sizeof(BackwardSums);
-  if (data.channels) {
-    visit_fields([&](const Field& /*field*/, const auto& list) { bytes += list.size() * sizeof(list[0]); },
-                 *data.channels);
-  }
+  const auto add_lists = [&](const Field& /*field*/, const auto& list) { bytes += list.size() * sizeof(list[0]); };
+  if (data.channels) visit_fields(add_lists, *data.channels);
+  if (data.parts) visit_fields(add_lists, *data.parts);
   return bytes;
 }
 

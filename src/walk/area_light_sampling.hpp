@@ -26,6 +26,12 @@ namespace lichtmc {
 struct DirectIrradiance {
   double value = 0.0;           // W/m² or lx
   double standard_error = 0.0;  // 0: exact
+
+  // Adds light whose error is independent.
+  void add(const DirectIrradiance& other) {
+    value += other.value;
+    standard_error = std::hypot(standard_error, other.standard_error);
+  }
 };
 
 // Required accuracy of a sampled value: the number of pairs of samples doubles from 32 up to `most`/2 until the

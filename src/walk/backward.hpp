@@ -27,6 +27,8 @@ namespace lichtmc {
 class ChannelScores;
 class FacetPlanes;
 struct ChannelSums;
+struct EmitterGroups;
+struct PartSums;
 
 // The unit of scores: 2⁻²⁴ of the emitters' power over the area of all surfaces. A score is at
 // most 2⁵⁰ units, 6·10⁷ times that, and the sum of a round at most 2⁵²: the sum of the squares of 2²⁴ such rounds
@@ -75,8 +77,8 @@ class BackwardWalk {
                         const Abandon& abandon) = 0;
 
   // The same; adds the mean over the walks of each round, in W/m² or lx and not rounded, to
-  // irradiance[(r − first) · origins + k], for round r, of which `first` is the first of the work, and origin
-  // work.first + k of its origins.
+  // irradiance[((r − first) · parts + group of emitters) · origins + k], for round r, of which `first` is the first of
+  // the work, and origin work.first + k of its origins. parts is the number of groups of emitters that are kept apart.
   // scores: receives the light with its paths, of round r as r − first, if the walk keeps them; or null.
   virtual void collect(const WalkBlock& work, std::vector<double>& irradiance, BackwardCount& count,
                        const Abandon& abandon, ChannelScores* scores) = 0;
@@ -86,6 +88,8 @@ class BackwardWalk {
 
   // Adds the impulse responses that were scored since the last call, if there are any.
   virtual void hand_over(ChannelSums& /*sums*/, BackwardCount& /*count*/) {}
+  // The same for the parts of groups of emitters, if they are kept.
+  virtual void hand_over(PartSums& /*sums*/) {}
 
  protected:
   BackwardWalk() = default;
@@ -144,13 +148,16 @@ class CellOrigins {
 
 // A walk for one thread, from receivers or from the faces of tiles; scene, light and origins must outlive it. plan: a
 // round has plan.backward walks from each receiver; if it has histories from the emitters too, each light sample has
-// its weight beside them (DirectLight::sample_light()).
+// its weight beside them (DirectLight::sample_light()). groups: of emitters whose light is kept apart, for collect();
+// null: none.
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
                                                  const ReceiverOrigins& origins, const BackwardScale& scale,
-                                                 const Settings& settings, const RoundPlan& plan);
+                                                 const Settings& settings, const RoundPlan& plan,
+                                                 const EmitterGroups* groups = nullptr);
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
                                                  const CellOrigins& origins, const BackwardScale& scale,
-                                                 const Settings& settings, const RoundPlan& plan);
+                                                 const Settings& settings, const RoundPlan& plan,
+                                                 const EmitterGroups* groups = nullptr);
 // The same with the paths of light, for collect(). planes: of the tracer's facets; must outlive it.
 std::unique_ptr<BackwardWalk> make_backward_walk(const Scene& scene, const DirectLight& light,
                                                  const ReceiverOrigins& origins, const BackwardScale& scale,

@@ -11,6 +11,7 @@
 #include "walk/backward_arrivals.hpp"
 #include "walk/channel_scores.hpp"
 #include "walk/choose_policy.hpp"
+#include "walk/emitter_groups.hpp"
 #include "walk/first_flights.hpp"
 #include "walk/roulette.hpp"
 #include "walk/surface_light.hpp"
@@ -20,11 +21,13 @@ namespace lichtmc {
 
 // Goal of the backward walk: photons collect direct light at every surface.
 // keeps_paths: it also records the path of the light that they collect (channel_scores.hpp).
+// groups: of emitters whose parts of the light are kept apart; null: none.
 template <class Policy, class Origins, bool keeps_paths>
 class BackwardGoal : public GoalBase {
  public:
   BackwardGoal(const Scene& scene, const DirectLight& light, const Origins& origins, const Stream& stream,
-               const RoundPlan& plan, double threshold, std::uint32_t max_flights, const FacetPlanes* planes)
+               const RoundPlan& plan, double threshold, std::uint32_t max_flights, const FacetPlanes* planes,
+               const EmitterGroups* groups)
       : scene_(&scene),
         light_(&light),
         origins_(&origins),
@@ -33,6 +36,7 @@ class BackwardGoal : public GoalBase {
         forward_per_walk_(plan.forward_per_walk()),
         threshold_(threshold),
         max_flights_(max_flights),
+        parts_(groups != nullptr ? groups->size() : 1),
         points_(plan.backward, Origins::is_extended),
         first_flights_(batch_histories),
         surface_light_(light, *scene.tracer, stream),
@@ -40,13 +44,17 @@ class BackwardGoal : public GoalBase {
         origin_(batch_histories),
         round_(batch_histories),
         number_(batch_histories),
-        found_(batch_histories),
+        found_(std::size_t{batch_histories} * parts_),
         forward_ratio_(batch_histories),
         factor_(batch_histories),
         direct_(batch_histories),
         cosine_(whole_lanes(batch_histories)),
         cell_(batch_histories),
-        arrivals_(light, planes, Policy::scores_every_impact) {}
+        arrivals_(light, planes, Policy::scores_every_impact) {
+    if (groups == nullptr) return;
+    for (std::size_t k = 0; k < light.sources(); ++k) part_of_.push_back(groups->of_emitter[light.source(k).emitter]);
+    if (!Policy::scores_every_impact) direct_parts_.resize(found_.size());
+  }
 
   // Photon i will start from an origin, as walk `number` of a round.
   void prepare(std::size_t i, std::uint64_t origin, std::uint64_t round, std::uint32_t number) {
@@ -57,8 +65,11 @@ class BackwardGoal : public GoalBase {
   }
   void begin(BackwardCount& count) { count_ = &count; }
 
-  // What photon i, which has ended, contributes to its origin, W/m² or lx.
-  double irradiance(std::uint32_t i) const { return found_[i] * factor_[i]; }
+  // What photon i, which has ended, contributes to its origin, W/m² or lx: all, or the light of a group of emitters.
+  double irradiance(std::uint32_t i, std::uint32_t part = 0) const {
+    return found_[std::size_t{i} * parts_ + part] * factor_[i];
+  }
+  std::uint32_t parts() const { return parts_; }
   std::uint64_t origin(std::uint32_t i) const { return origin_[i]; }
   std::uint64_t round(std::uint32_t i) const { return round_[i]; }
   // The light that photons collect is scored here, as rounds from first_round on and of origins from first_origin on.
@@ -81,13 +92,14 @@ class BackwardGoal : public GoalBase {
       if (view.way_out) ways_out_.push_back({i, *view.way_out});
       factor_[i] = view.squared_sine() * origins_->uncovered_share(origin_[i]);
       forward_ratio_[i] = 0.0;
-      found_[i] = 0.0;
       direct_[i] = 0.0;
       if constexpr (keeps_paths) {
         arrivals_.start(i, origins_->point(origin_[i]), round_[i] - first_round_, origin_[i] - first_origin_,
                         factor_[i] / group_);
       }
     }
+    std::fill_n(found_.begin(), std::size_t{n} * parts_, 0.0);
+    std::fill_n(direct_parts_.begin(), direct_parts_.empty() ? 0 : std::size_t{n} * parts_, 0.0);
     first_flights_.aim(n, scene_->tracer->directions(), wave.rays, cosine_.data());
     for (const auto& [i, direction] : ways_out_) wave.rays.set_direction(i, direction);
   }
@@ -99,8 +111,7 @@ class BackwardGoal : public GoalBase {
   // Escape through an opening counts as absorption by ρ = 0, also if the opening is due to rounding.
   void escape(const Wave& wave, std::size_t i) {
     if constexpr (!Policy::scores_every_impact) {
-      found_[wave.photon[i]] += direct_[i];
-      if constexpr (keeps_paths) arrivals_.score_last(wave.photon[i], 1.0);
+      score_last(wave.photon[i], i, 1.0);
     }
   }
 
@@ -122,7 +133,11 @@ class BackwardGoal : public GoalBase {
       const std::uint32_t photon = wave.photon[i];
       double irradiance = 0.0;
       const auto add = [&](std::size_t source, double part) {
-        irradiance += part;
+        if (keeps_parts()) {
+          add_part(photon, i, source, weight(wave, i), part);
+        } else {
+          irradiance += part;
+        }
         if constexpr (keeps_paths) arrivals_.hit(photon, source, flight_ - 1, weight(wave, i) * part);
       };
       light_->mis_weighted_emission(rays, i, cell_[i], double{cosine_[i]}, flight, forward_ratio_[photon], add);
@@ -139,8 +154,7 @@ class BackwardGoal : public GoalBase {
   // Variant 3: only the direct light at the last surface that the photon survived scores.
   void absorb(const Wave& wave, std::size_t i, double reflectance) {
     if constexpr (!Policy::scores_every_impact) {
-      found_[wave.photon[i]] += direct_[i] / (1.0 - reflectance);
-      if constexpr (keeps_paths) arrivals_.score_last(wave.photon[i], 1.0 / (1.0 - reflectance));
+      score_last(wave.photon[i], i, 1.0 - reflectance);
     }
   }
   void absorb_all(const Wave& wave, const std::uint32_t* at, std::size_t n) {
@@ -153,6 +167,11 @@ class BackwardGoal : public GoalBase {
     if (flight == max_flights_) return;
     if (!light_->takes_all() || light_->has_extended_lights()) number_histories(wave);
     const double* forward_ratio = forward_per_walk_ > 0.0 ? forward_ratio_.data() : nullptr;
+    if (keeps_parts()) {
+      sample_parts(wave, flight, forward_ratio);
+      copy_cells(wave);
+      return;
+    }
     if constexpr (keeps_paths) {
       arrivals_.leave(wave);
       surface_light_.sample(wave, flight, forward_ratio, count_->traced, [&](const LightSamples& samples) {
@@ -169,8 +188,7 @@ class BackwardGoal : public GoalBase {
         direct_[i] = irradiance[i];
       }
     }
-    if (!light_->takes_all() && light_->has_area_lights())
-      std::copy_n(surface_light_.cells().begin(), wave.rays.size, cell_.begin());
+    copy_cells(wave);
   }
 
   void play(Wave& wave, std::uint8_t* marks) const requires std::same_as<Policy, RouletteBeforeFlightPolicy> {
@@ -183,13 +201,51 @@ class BackwardGoal : public GoalBase {
     if constexpr (keeps_paths) wave.rays.set_start(to, wave.rays.start(from));
     wave.rays.set_direction(to, wave.rays.direction(from));
     wave.rays.length[to] = wave.rays.length[from];
-    if constexpr (!Policy::scores_every_impact) direct_[to] = direct_[from];
+    if constexpr (!Policy::scores_every_impact) {
+      direct_[to] = direct_[from];
+      if (keeps_parts())
+        std::copy_n(direct_parts_.begin() + static_cast<std::ptrdiff_t>(from * parts_), parts_,
+                    direct_parts_.begin() + static_cast<std::ptrdiff_t>(to * parts_));
+    }
     cosine_[to] = cosine_[from];
     cell_[to] = cell_[from];
   }
 
  private:
   static const double* weights(const Wave& wave) { return Policy::carries_weight ? wave.weight.data() : nullptr; }
+  bool keeps_parts() const { return !part_of_.empty(); }
+  // The light of a source at the surface that photon i of the wave left.
+  void add_part(std::uint32_t photon, std::size_t i, std::size_t source, double weight, double irradiance) {
+    if constexpr (Policy::scores_every_impact) {
+      found_[std::size_t{photon} * parts_ + part_of_[source]] += weight * irradiance;
+    } else {
+      direct_parts_[i * parts_ + part_of_[source]] += irradiance;
+    }
+  }
+  // Light samples of which each belongs to the part of its emitter.
+  void sample_parts(const Wave& wave, std::uint32_t flight, const double* forward_ratio) {
+    if constexpr (!Policy::scores_every_impact) std::fill_n(direct_parts_.begin(), wave.rays.size * parts_, 0.0);
+    surface_light_.sample(wave, flight, forward_ratio, count_->traced, [&](const LightSamples& samples) {
+      for (std::size_t i = 0; i < wave.rays.size; ++i) {
+        if (samples.irradiance[i] > 0.0)
+          add_part(wave.photon[i], i, samples.source[i], weight(wave, i), samples.irradiance[i]);
+      }
+    });
+  }
+  void copy_cells(const Wave& wave) {
+    if (!light_->takes_all() && light_->has_area_lights())
+      std::copy_n(surface_light_.cells().begin(), wave.rays.size, cell_.begin());
+  }
+  // Variant 3: the direct light at the surface that a photon, i of the wave, survived last, over its absorptance.
+  void score_last(std::uint32_t photon, std::size_t i, double absorptance) {
+    if (keeps_parts()) {
+      for (std::uint32_t part = 0; part < parts_; ++part)
+        found_[std::size_t{photon} * parts_ + part] += direct_parts_[i * parts_ + part] / absorptance;
+    } else {
+      found_[photon] += direct_[i] / absorptance;
+    }
+    if constexpr (keeps_paths) arrivals_.score_last(photon, 1.0 / absorptance);
+  }
   static double weight(const Wave& wave, std::size_t i) { return Policy::carries_weight ? wave.weight[i] : 1.0; }
 
   OriginView leave_origin(std::size_t i, Rays& rays) const {
@@ -227,6 +283,8 @@ class BackwardGoal : public GoalBase {
   double forward_per_walk_;    // histories from the emitters for each walk, whose contributions are weighted together
   double threshold_;           // of the roulette, see roulette.hpp
   std::uint32_t max_flights_;  // of a path from an emitter to an origin; 0: no limit
+  std::uint32_t parts_;        // groups of emitters whose light is kept apart; 1: all together
+  std::vector<std::uint32_t> part_of_;  // of each source of light; none if all emitters are together
   RoundPoints points_;
   FirstFlights first_flights_;
   SurfaceLight surface_light_;
@@ -236,14 +294,15 @@ class BackwardGoal : public GoalBase {
   std::vector<std::uint64_t> origin_;
   std::vector<std::uint64_t> round_;
   std::vector<std::uint32_t> number_;  // of the walk in its round
-  std::vector<double> found_;          // score so far, W/m² or lx
+  std::vector<double> found_;          // score so far, W/m² or lx; [photon][part]
   std::vector<double> forward_ratio_;  // m², of its first impact, see DirectLight::sample_light()
   std::vector<double> factor_;         // squared sine of the half angle of the field of view (the fraction of a uniform
                                        // hemisphere), times the uncovered share of the origin
   // By the position in the wave:
-  std::vector<double> direct_;       // direct irradiance at the surface that was left last
-  std::vector<float> cosine_;        // of the angle at which that surface was left
-  std::vector<std::uint32_t> cell_;  // of light samples there, see DirectLight::cell_of()
+  std::vector<double> direct_;        // direct irradiance at the surface that was left last
+  std::vector<double> direct_parts_;  // the same, [position][part], if parts are kept
+  std::vector<float> cosine_;         // of the angle at which that surface was left
+  std::vector<std::uint32_t> cell_;   // of light samples there, see DirectLight::cell_of()
   std::uint32_t flight_ = 0;
   BackwardCount* count_ = nullptr;
   // Only if paths are kept:
@@ -256,11 +315,12 @@ template <class Policy, class Reflectance, class Origins, bool keeps_paths>
 class PolicyBackwardWalk final : public BackwardWalk {
  public:
   PolicyBackwardWalk(const Scene& scene, const DirectLight& light, const Origins& origins, const BackwardScale& scale,
-                     const RoundPlan& plan, std::uint64_t seed, std::uint32_t max_flights, const FacetPlanes* planes)
+                     const RoundPlan& plan, std::uint64_t seed, std::uint32_t max_flights, const FacetPlanes* planes,
+                     const EmitterGroups* groups)
       : scale_(scale),
         group_(plan.backward),
         goal_(scene, light, origins, Stream(seed, WalkDirection::backward), plan, threshold_of(scene, light, scale),
-              max_flights, planes),
+              max_flights, planes, groups),
         kernel_(scene, Stream(seed, WalkDirection::backward), max_flights) {}
 
   void simulate(const WalkBlock& work, std::vector<BackwardSums>& sums, BackwardCount& count,
@@ -284,7 +344,9 @@ class PolicyBackwardWalk final : public BackwardWalk {
     if constexpr (keeps_paths) goal_.begin_paths(*scores, first_round, work.first);
     walk(work, count, abandon, [&](std::uint32_t i) {
       const std::uint64_t round = goal_.round(i) - first_round;
-      irradiance[round * origins + (goal_.origin(i) - work.first)] += goal_.irradiance(i) / group_;
+      for (std::uint32_t part = 0; part < goal_.parts(); ++part)
+        irradiance[(round * goal_.parts() + part) * origins + (goal_.origin(i) - work.first)] +=
+            goal_.irradiance(i, part) / group_;
     });
   }
 
@@ -330,14 +392,14 @@ class PolicyBackwardWalk final : public BackwardWalk {
 template <bool keeps_paths, class Origins>
 std::unique_ptr<BackwardWalk> walk_from(const Scene& scene, const DirectLight& light, const Origins& origins,
                                         const BackwardScale& scale, const Settings& settings, const RoundPlan& plan,
-                                        const FacetPlanes* planes = nullptr) {
+                                        const FacetPlanes* planes = nullptr, const EmitterGroups* groups = nullptr) {
   return choose_policy(
       settings.estimator, settings.max_bounces, scene.has_reflectance_maps(),
       [&]<class Policy, class Reflectance>(std::uint32_t max_flights) -> std::unique_ptr<BackwardWalk> {
         using Own =
             std::conditional_t<std::is_same_v<Policy, RouletteWeightPolicy>, RouletteBeforeFlightPolicy, Policy>;
         return std::make_unique<PolicyBackwardWalk<Own, Reflectance, Origins, keeps_paths>>(
-            scene, light, origins, scale, plan, settings.seed, max_flights, planes);
+            scene, light, origins, scale, plan, settings.seed, max_flights, planes, groups);
       });
 }
 

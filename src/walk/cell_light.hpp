@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "chance/stream.hpp"
 #include "tracer/tracer.hpp"
@@ -12,9 +13,9 @@
 namespace lichtmc {
 
 // With the accuracy asked for, as far as some thousand points give it. Samples depend on (seed, number)
-// only; shadow rays are counted.
+// only; shadow rays are counted. of_emitters: as for DirectLight::irradiance_at().
 DirectIrradiance cell_irradiance(const DirectLight& light, const Tracer& tracer, const ReferencePoint& cell,
                                  const Stream& stream, std::uint64_t number, const SamplingAccuracy& accuracy,
-                                 TraceCount& count);
+                                 TraceCount& count, std::vector<DirectIrradiance>* of_emitters = nullptr);
 
 }  // namespace lichtmc

@@ -3,11 +3,13 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "room/bounds.hpp"
 #include "room/reflectance.hpp"
+#include "walk/emitter_groups.hpp"
 
 namespace lichtmc {
 
@@ -19,19 +21,6 @@ constexpr std::uint32_t usual_coarse_bins = 64;
 std::uint32_t whole_bins(double span_s, double width_s) {
   constexpr double rounding = 1e-9;  // a span of 400 bins is 400 bins
   return static_cast<std::uint32_t>(std::max(1.0, std::ceil(span_s / width_s - rounding)));
-}
-
-std::vector<std::string> emitter_groups(const Room& room, const ChannelSettings& settings,
-                                        std::vector<std::uint32_t>& group_of_emitter) {
-  group_of_emitter.assign(room.emitters.size(), 0);
-  if (!settings.per_emitter) return {"all"};
-  std::vector<std::string> names;
-  for (std::size_t n = 0; n < room.emitters.size(); ++n) {
-    const auto found = std::find(names.begin(), names.end(), room.emitters[n].name);
-    group_of_emitter[n] = static_cast<std::uint32_t>(found - names.begin());
-    if (found == names.end()) names.push_back(room.emitters[n].name);
-  }
-  return names;
 }
 
 }  // namespace
@@ -72,7 +61,9 @@ ChannelAxes::ChannelAxes(const Room& room, const Settings& settings) {
   coarse_bins = ((bins - 1) >> coarse_shift) + 1;
   frequencies = wanted.frequencies;
   frequency_count = static_cast<std::uint32_t>(frequencies.size());
-  group_names = emitter_groups(room, wanted, group_of_emitter);
+  EmitterGroups by_name = wanted.per_emitter ? groups_by_name(room) : one_group(room);
+  group_names = std::move(by_name.names);
+  group_of_emitter = std::move(by_name.of_emitter);
   groups = static_cast<std::uint32_t>(group_names.size());
   for (const Emitter& emitter : room.emitters) delay_m.push_back(emitter.delay_s * speed_of_light);
 }

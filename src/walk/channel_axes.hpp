@@ -13,12 +13,9 @@
 #include "lichtmc/channel.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/settings.hpp"
+#include "walk/jackknife_groups.hpp"
 
 namespace lichtmc {
-
-// Rounds are divided into this number of groups, by turns: the errors of derived figures follow from the differences
-// between groups (jackknife).
-inline constexpr std::uint32_t jackknife_groups = 32;
 
 struct ChannelAxes {
   // The room must have passed check_room(), the settings check_settings(); settings.channel.wanted().

@@ -54,6 +54,7 @@ DirectLight::DirectLight(const Room& room, const Tracer& tracer)
           area_sources_of_surface_[area.surface].push_back(source);
           sources_.push_back({LightSource::Kind::area, areas_.size(), source, n, flux});
           areas_.push_back(std::move(light));
+          emitter_of_area_.push_back(n);
         });
     if (sources_.size() > source) source_of_emitter_[n] = source;
   }
@@ -79,43 +80,50 @@ void DirectLight::learn_selection(const Scene& scene) {
 }
 
 DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, const Stream& stream, std::uint64_t number,
-                                            TraceCount& count, const SamplingAccuracy& accuracy) const {
+                                            TraceCount& count, const SamplingAccuracy& accuracy,
+                                            std::vector<DirectIrradiance>* of_emitters) const {
   DirectIrradiance sum;
   double variance = 0.0;
-  sum.value = irradiance_by_points(reference, count);
+  sum.value = irradiance_by_points(reference, count, of_emitters);
   const auto same_point = [&reference](std::uint32_t) { return reference; };
-  const auto add = [&](const DirectIrradiance& part) {
+  const auto add = [&](std::size_t emitter, const DirectIrradiance& part) {
     sum.value += part.value;
     variance += part.standard_error * part.standard_error;
+    if (of_emitters != nullptr) (*of_emitters)[emitter].add(part);
   };
   for (std::size_t k = 0; k < openings_.size(); ++k) {
-    add(sample_opening(openings_[k], *tracer_, same_point, stream, number * openings_.size() + k, accuracy, count));
+    add(openings_[k].number(),
+        sample_opening(openings_[k], *tracer_, same_point, stream, number * openings_.size() + k, accuracy, count));
   }
   sum.standard_error = std::sqrt(variance);
   if (reference.way_out) return sum;  // the walls lie between area lights, which are walls, and points outside
   for (std::size_t k = 0; k < areas_.size(); ++k) {
     if (!tracer_->casts_shadows() && areas_[k].has_closed_form() && reference.least_cosine <= 0.0) {
-      sum.value += areas_[k].polygon_irradiance(reference);
+      add(emitter_of_area_[k], {areas_[k].polygon_irradiance(reference), 0.0});
       continue;
     }
     if (is_near(areas_[k], reference)) {
-      add(sample_near_light(areas_[k], *tracer_, reference, stream, number * areas_.size() + k, accuracy, count));
+      add(emitter_of_area_[k],
+          sample_near_light(areas_[k], *tracer_, reference, stream, number * areas_.size() + k, accuracy, count));
       continue;
     }
-    add(sample_area_light(areas_[k], *tracer_, same_point, stream, number * areas_.size() + k, accuracy, count));
+    add(emitter_of_area_[k],
+        sample_area_light(areas_[k], *tracer_, same_point, stream, number * areas_.size() + k, accuracy, count));
   }
   sum.standard_error = std::sqrt(variance);
   return sum;
 }
 
 // The shadow rays to all point lights are traced together.
-double DirectLight::irradiance_by_points(const ReferencePoint& reference, TraceCount& count) const {
+double DirectLight::irradiance_by_points(const ReferencePoint& reference, TraceCount& count,
+                                         std::vector<DirectIrradiance>* of_emitters) const {
   const bool has_shadows = tracer_->casts_shadows() || reference.way_out;
   const glm::dvec3 start = start_of(reference, *tracer_);
   constexpr std::size_t untested = std::numeric_limits<std::size_t>::max();
   struct Part {
     double irradiance = 0.0;
     std::size_t ray = untested;
+    std::size_t emitter = 0;
   };
   std::vector<Part> parts;
   ShadowRays rays;
@@ -123,13 +131,15 @@ double DirectLight::irradiance_by_points(const ReferencePoint& reference, TraceC
     const LightSample sample = light.sample_light(reference);
     if (!(sample.irradiance > 0.0)) continue;
     const auto segment = has_shadows ? shadow_segment(*tracer_, start, sample.target) : std::nullopt;
-    parts.push_back({sample.irradiance, segment ? rays.size : untested});
+    parts.push_back({sample.irradiance, segment ? rays.size : untested, light.number()});
     if (segment) rays.add(glm::vec3(start), *segment);
   }
   if (rays.size > 0) tracer_->find_blocked(rays, count);
   double sum = 0.0;
   for (const Part& part : parts) {
-    if (part.ray == untested || rays.blocked[part.ray] == 0) sum += part.irradiance;
+    if (part.ray != untested && rays.blocked[part.ray] != 0) continue;
+    sum += part.irradiance;
+    if (of_emitters != nullptr) (*of_emitters)[part.emitter].value += part.irradiance;
   }
   return sum;
 }

@@ -47,18 +47,23 @@ class DirectLight {
   void learn_selection(const Scene& scene);
 
   // The direct irradiance at a receiver. Samples of area lights depend on (seed, number) only. Shadow rays are counted.
-  // accuracy: of the parts that are sampled.
+  // accuracy: of the parts that are sampled. of_emitters: the part of each of Room::emitters is added there; null: not
+  // wanted.
   DirectIrradiance irradiance_at(const ReferencePoint& reference, const Stream& stream, std::uint64_t number,
-                                 TraceCount& count, const SamplingAccuracy& accuracy = {}) const;
+                                 TraceCount& count, const SamplingAccuracy& accuracy = {},
+                                 std::vector<DirectIrradiance>* of_emitters = nullptr) const;
 
   // Its part by point emitters.
-  double irradiance_by_points(const ReferencePoint& reference, TraceCount& count) const;
+  double irradiance_by_points(const ReferencePoint& reference, TraceCount& count,
+                              std::vector<DirectIrradiance>* of_emitters = nullptr) const;
 
   // The emitters with a flux above 0 that are not wholly covered by other faces in their plane; openings: point
   // emitters whose light starts all over an opening.
   const std::vector<PointLight>& points() const { return points_; }
   const std::vector<PointLight>& openings() const { return openings_; }
   const std::vector<AreaLight>& areas() const { return areas_; }
+  // The index into Room::emitters of an area light, given by its index in areas().
+  std::size_t emitter_of_area(std::size_t area) const { return emitter_of_area_[area]; }
 
   // Number of light samples at each surface of a walk: one of every emitter if there are few, else one of one emitter
   // (light_selection.hpp).
@@ -148,6 +153,7 @@ class DirectLight {
   std::vector<PointLight> points_;
   std::vector<PointLight> openings_;
   std::vector<AreaLight> areas_;
+  std::vector<std::size_t> emitter_of_area_;  // of each of areas_
   std::vector<LightSource> sources_;
   std::vector<std::size_t> source_of_emitter_;                     // of Room::emitters; or no_source
   std::optional<LightSelection> selection_;                        // among sources_, unless these are few

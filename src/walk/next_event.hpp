@@ -23,12 +23,15 @@
 
 namespace lichtmc {
 
+struct EmitterGroups;
+
 class NextEvent {
  public:
   virtual ~NextEvent() = default;
 
   // Simulates the photons of rounds first … first + rounds − 1 and adds the mean irradiance of each round, in W/m² or
-  // lx, to irradiance[round · receivers.size() + number of the receiver]. scores: if paths are kept, receives the light
+  // lx, to irradiance[(round · parts + group of emitters) · receivers.size() + number of the receiver]; parts is the number of
+  // groups, 1 if none are kept apart. scores: if paths are kept, receives the light
   // with its paths; it opens and closes its rounds 0 … rounds − 1. Else null.
   virtual void simulate(const ReceiverLanes& receivers, std::uint64_t first, std::uint64_t rounds,
                         std::vector<double>& irradiance, BackwardCount& count, const Abandon& abandon,
@@ -50,9 +53,10 @@ struct ForwardPathParts {
 };
 
 // For one thread. plan.forward: a power of two, at most batch_histories. reach: which receivers an impact serves; null:
-// all. All references must outlive it.
+// all. groups: of emitters that are kept apart; null: none. All references must outlive it.
 std::unique_ptr<NextEvent> make_next_event(const Room& room, const Scene& scene, const DirectLight& light,
-                                           const Settings& settings, const RoundPlan& plan, const ReceiverReach* reach);
+                                           const Settings& settings, const RoundPlan& plan, const ReceiverReach* reach,
+                                           const EmitterGroups* groups = nullptr);
 // The same with the paths of light.
 std::unique_ptr<NextEvent> make_next_event(const Room& room, const Scene& scene, const DirectLight& light,
                                            const Settings& settings, const RoundPlan& plan, const ReceiverReach* reach,

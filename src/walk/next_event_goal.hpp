@@ -9,6 +9,7 @@
 #include "room/emitter_shape.hpp"
 #include "walk/channel_scores.hpp"
 #include "walk/choose_policy.hpp"
+#include "walk/emitter_groups.hpp"
 #include "walk/flight_paths.hpp"
 #include "walk/kernel.hpp"
 #include "walk/launch_words.hpp"
@@ -24,7 +25,7 @@ class NextEventGoal : public GoalBase {
  public:
   NextEventGoal(const Room& room, const Scene& scene, const DirectLight& light, const Stream& stream,
                 const RoundPlan& plan, const ReceiverReach* reach, std::uint32_t max_flights,
-                const ForwardPathParts* paths)
+                const ForwardPathParts* paths, const EmitterGroups* groups)
       : room_(&room),
         scene_(&scene),
         stream_(stream),
@@ -34,6 +35,8 @@ class NextEventGoal : public GoalBase {
         first_impact_(room, *scene.tracer, light),
         plan_(plan),
         power_(total_power(room)),
+        groups_(groups),
+        parts_(groups != nullptr ? groups->size() : 1),
         emitter_(batch_histories),
         from_(batch_histories),
         ratio_(batch_histories, 0.0F),
@@ -51,12 +54,12 @@ class NextEventGoal : public GoalBase {
     receivers_ = &receivers;
     first_history_ = first_round * plan_.forward;
     count_ = &count;
-    sums_.assign(rounds * whole_lanes(receivers.size()), 0.0);
+    sums_.assign(std::size_t{rounds} * parts_ * whole_lanes(receivers.size()), 0.0);
     impacts_.clear();
     impact_paths_.clear();
   }
-  // Adds the mean over the photons of each round, in W/m² or lx. scores: receives their paths, if they are kept, as
-  // rounds first_scored, first_scored + 1, …
+  // Adds the mean over the photons of each round, in W/m² or lx, as NextEvent::simulate() says. scores: receives their
+  // paths, if they are kept, as rounds first_scored, first_scored + 1, …
   void end(std::uint32_t rounds, double* irradiance, ChannelScores* scores, std::size_t first_scored) {
     if constexpr (keeps_paths) {
       contribute_by_rounds(rounds, *scores, first_scored);
@@ -65,9 +68,9 @@ class NextEventGoal : public GoalBase {
     }
     const std::size_t n = receivers_->size();
     const double unit = power_ / plan_.forward / (receivers_->size_m() * receivers_->size_m());
-    for (std::uint32_t round = 0; round < rounds; ++round) {
+    for (std::size_t row = 0; row < std::size_t{rounds} * parts_; ++row) {
       for (std::size_t k = 0; k < n; ++k)
-        irradiance[round * n + receivers_->number(k)] += unit * sums_[round * whole_lanes(n) + k];
+        irradiance[row * n + receivers_->number(k)] += unit * sums_[row * whole_lanes(n) + k];
     }
   }
 
@@ -152,7 +155,8 @@ class NextEventGoal : public GoalBase {
     impact.normal = rays.behind[i] != 0 ? -normal : normal;
     impact.weight = Policy::carries_weight && Policy::scores_every_impact ? static_cast<float>(wave.weight[i]) : 1.0F;
     impact.backward_ratio = ratio_[photon];
-    impact.round = photon / plan_.forward;
+    impact.row = photon / plan_.forward;
+    if (groups_ != nullptr) impact.row = impact.row * parts_ + groups_->of_emitter[emitter_[photon]];
     if (reach_ != nullptr) {
       impact.cell = reach_->cell_of(scene_->tracer->world_point(glm::dvec3(impact.start)), glm::dvec3(impact.normal));
       impact.turn = stream_.draw(first_history_ + photon, flight_, Purpose::receivers)[0] % ReceiverReach::one_in;
@@ -203,7 +207,7 @@ class NextEventGoal : public GoalBase {
     order_.resize(impacts_.size());
     std::iota(order_.begin(), order_.end(), 0U);
     std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return impacts_[a].round < impacts_[b].round; });
+                     [&](std::uint32_t a, std::uint32_t b) { return impacts_[a].row < impacts_[b].row; });
     std::vector<Impact> of_round;
     std::vector<ImpactPath> paths;
     const double unit = power_ / plan_.forward / (receivers_->size_m() * receivers_->size_m());
@@ -211,7 +215,7 @@ class NextEventGoal : public GoalBase {
     for (std::uint32_t round = 0; round < rounds; ++round) {
       of_round.clear();
       paths.clear();
-      for (; next != order_.end() && impacts_[*next].round == round; ++next) {
+      for (; next != order_.end() && impacts_[*next].row == round; ++next) {
         of_round.push_back(impacts_[*next]);
         paths.push_back(impact_paths_[*next]);
       }
@@ -239,14 +243,16 @@ class NextEventGoal : public GoalBase {
   QuasiRandomWords words_;
   FirstImpact first_impact_;
   RoundPlan plan_;
-  double power_;  // of all emitters, W or lm
+  double power_;                 // of all emitters, W or lm
+  const EmitterGroups* groups_;  // whose parts are kept apart; null: all emitters together
+  std::uint32_t parts_;          // number of groups
   std::uint32_t flight_ = 0;
   const ReceiverLanes* receivers_ = nullptr;
   BackwardCount* count_ = nullptr;
   std::vector<glm::vec3> normals_;  // of the facets, world; empty if there are many
   std::vector<Impact> impacts_;     // that have not yet contributed
   std::vector<float> value_;
-  std::vector<double> sums_;  // by round and receiver
+  std::vector<double> sums_;  // by round, group of emitters and receiver
   // By the number of the photon:
   std::vector<std::uint32_t> emitter_;
   std::vector<StartOnFacet> from_;
@@ -265,9 +271,10 @@ class PolicyNextEvent final : public NextEvent {
  public:
   PolicyNextEvent(const Room& room, const Scene& scene, const DirectLight& light, std::uint64_t seed,
                   const RoundPlan& plan, const ReceiverReach* reach, std::uint32_t max_flights,
-                  const ForwardPathParts* paths)
+                  const ForwardPathParts* paths, const EmitterGroups* groups)
       : plan_(plan),
-        goal_(room, scene, light, Stream(seed), plan, reach, max_flights, paths),
+        parts_(groups != nullptr ? groups->size() : 1),
+        goal_(room, scene, light, Stream(seed), plan, reach, max_flights, paths, groups),
         kernel_(scene, Stream(seed), max_flights) {}
 
   std::uint32_t rounds_at_a_time() const override { return batch_histories / plan_.forward; }
@@ -279,13 +286,14 @@ class PolicyNextEvent final : public NextEvent {
       const auto together = static_cast<std::uint32_t>(std::min<std::uint64_t>(rounds_at_a_time(), rounds - done));
       goal_.begin(receivers, first + done, together, count);
       kernel_.fly(together * plan_.forward, goal_, abandon);
-      goal_.end(together, irradiance.data() + done * receivers.size(), scores, done);
+      goal_.end(together, irradiance.data() + done * parts_ * receivers.size(), scores, done);
       done += together;
     }
   }
 
  private:
   RoundPlan plan_;
+  std::uint32_t parts_;
   using Goal = NextEventGoal<Policy, keeps_paths>;
   Goal goal_;
   Kernel<Policy, Reflectance, Goal> kernel_;
@@ -294,11 +302,11 @@ class PolicyNextEvent final : public NextEvent {
 template <bool keeps_paths>
 std::unique_ptr<NextEvent> next_event_with(const Room& room, const Scene& scene, const DirectLight& light,
                                            const Settings& settings, const RoundPlan& plan, const ReceiverReach* reach,
-                                           const ForwardPathParts* paths) {
+                                           const ForwardPathParts* paths, const EmitterGroups* groups) {
   return choose_policy(settings.estimator, settings.max_bounces, scene.has_reflectance_maps(),
                        [&]<class Policy, class Reflectance>(std::uint32_t max_flights) -> std::unique_ptr<NextEvent> {
                          return std::make_unique<PolicyNextEvent<Policy, Reflectance, keeps_paths>>(
-                             room, scene, light, settings.seed, plan, reach, max_flights, paths);
+                             room, scene, light, settings.seed, plan, reach, max_flights, paths, groups);
                        });
 }
 

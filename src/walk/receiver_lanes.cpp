@@ -86,8 +86,8 @@ LICHTMC_LANES void irradiate_all_lanes(std::size_t n, const Impact* impacts, std
   const Lanes lanes = at;
   for (std::size_t i = 0; i < count; ++i) {
     const Impact here = impacts[i];
-    double* LICHTMC_APART of_round = sums + here.round * n;
-    for (std::size_t k = 0; k < n; ++k) of_round[k] += double{irradiance_at(here, lanes, k)};
+    double* LICHTMC_APART of_row = sums + here.row * n;
+    for (std::size_t k = 0; k < n; ++k) of_row[k] += double{irradiance_at(here, lanes, k)};
   }
 }
 
@@ -176,9 +176,9 @@ std::uint64_t ReceiverLanes::irradiate(std::span<const Impact> impacts, const Tr
   std::uint64_t pairs = 0;
   for (std::size_t i = 0; i < impacts.size(); ++i) {
     const Impact& impact = impacts[i];
-    double* of_round = sums.data() + impact.round * n;
+    double* of_row = sums.data() + impact.row * n;
     const auto serve = [&](const Impact& weighted, std::size_t begin, std::size_t end) {
-      const bool some = irradiate_some(weighted, begin, end, tracer, value.data(), of_round, count);
+      const bool some = irradiate_some(weighted, begin, end, tracer, value.data(), of_row, count);
       if (record != nullptr && some)
         record->scores->add_impact(record->paths[i], begin, end, value.data() + begin, record->unit);
       pairs += end - begin;
@@ -235,7 +235,7 @@ std::uint64_t ReceiverLanes::irradiate_cells(std::span<const Impact> impacts, co
       shift(ends_.z, 8, impact, ends.z);
       tracer.darken_blocked(impact.start, ends, 0, size(), value.data(), count);
     }
-    add_lanes(n, value.data(), sums.data() + impact.round * n);
+    add_lanes(n, value.data(), sums.data() + impact.row * n);
   }
   return impacts.size() * size();
 }

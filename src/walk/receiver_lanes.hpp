@@ -32,7 +32,7 @@ struct Impact {
   // Backward over forward: the density with which walks from receivers would have made the photon's path, except for
   // their first flight, divided by that of photons from the emitters; in the receivers' units of area. 0: no walks.
   float backward_ratio = 0.0F;
-  std::uint32_t round = 0;
+  std::uint32_t row = 0;  // of the sums that it scores in: its round, or its round and group of emitters
   // Only where receivers are chosen (receiver_reach.hpp): the cell of the surfaces, and a random number below one_in.
   std::uint32_t cell = 0;
   std::uint32_t turn = 0;
@@ -66,7 +66,7 @@ class ReceiverLanes {
   glm::vec3 point(const glm::vec3& in_tracer) const { return glm::vec3(to_lanes_ * glm::dvec3(in_tracer)); }
 
   // Adds the irradiance that impacts cause at every receiver, in units of the photon's power per size_m², to
-  // sums[round · whole_lanes(size()) + k], k the position in the arrays. reach: which receivers each impact serves;
+  // sums[row · whole_lanes(size()) + k], k the position in the arrays. reach: which receivers each impact serves;
   // null: all. value: memory for it; shadow rays are counted. record: receives what each impact sends to each receiver;
   // null: nothing does; not for cells. Returns the number of pairs of impact and receiver.
   std::uint64_t irradiate(std::span<const Impact> impacts, const Tracer& tracer, const ReceiverReach* reach,

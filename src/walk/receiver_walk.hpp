@@ -11,8 +11,10 @@
 #include "lichtmc/settings.hpp"
 #include "walk/backward.hpp"
 #include "walk/channel_scores.hpp"
+#include "walk/emitter_groups.hpp"
 #include "walk/facet_planes.hpp"
 #include "walk/next_event.hpp"
+#include "walk/part_sums.hpp"
 #include "walk/round_plan.hpp"
 
 namespace lichtmc {
@@ -56,6 +58,9 @@ struct ReceiverWalkParts {
   const ReceiverBlocks& blocks;
   const ReceiverReach* reach;              // null: impacts serve all receivers
   const ChannelParts* channels = nullptr;  // null: no impulse responses
+  const EmitterGroups* groups = nullptr;   // whose parts are kept; null: no parts. Not both.
+
+  std::uint32_t parts() const { return groups != nullptr ? groups->size() : 1; }
 };
 
 // The photons and the walks of rounds, for one thread.
@@ -80,7 +85,8 @@ class ReceiverRounds {
 };
 
 // For one thread. In WalkBlock, origins are receivers, whose first is a multiple of ReceiverBlocks::block(), within one
-// block; samples are rounds. The score of a round is its mean irradiance, in units of `scale`.
+// block; samples are rounds. The score of a round is its mean irradiance, in units of `scale`, or the sum of the scores
+// of its parts.
 std::unique_ptr<BackwardWalk> make_receiver_walk(const ReceiverWalkParts& parts, const BackwardScale& scale,
                                                  const Settings& settings, const RoundPlan& plan);
 

@@ -27,10 +27,10 @@ BELOW = {
 # Public headers by the layer that provides them: a layer may use its own headers and those of the layers below it.
 PUBLIC = {
     "error": "base", "walk_direction": "base", "emitter_law": "chance", "candela_table": "chance", "intensity_cut": "chance", "luminous_opening": "chance", "units": "base", "version": "base", "visible_text": "base",
-    "room": "room", "area": "room", "figure": "room", "photometry": "room", "cover": "room", "cuboid": "room", "overrides": "room", "tiles": "room", "receiver_table": "room",
+    "room": "room", "area": "room", "figure": "room", "emitter_parts": "room", "photometry": "room", "cover": "room", "cuboid": "room", "overrides": "room", "tiles": "room", "receiver_table": "room",
     "settings": "room", "channel": "room", "fingerprint": "room",  # plain data that every layer may read
     "communicator": "run", "control": "run", "progress": "run", "state": "run", "mpi": "mpi",
-    "result": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
+    "result": "run", "dimmed_scene": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
     "prepared_room": "tracer", "paths": "walk", "picture": "view",
     "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output", "luminaire_figures": "output", "folder_lock": "output",
 }

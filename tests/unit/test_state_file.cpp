@@ -104,11 +104,11 @@ TEST_CASE("files that are no state are refused with what they are") {
   CHECK_THROWS_WITH(read_state(scratch.file()), ContainsSubstring("no state of lichtmc"));
   write_state(small_state(), scratch.file());
   std::string other = bytes_of(scratch.file());
-  other.replace(other.find("layout 6"), 8, "layout 1");
+  other.replace(other.find("layout 7"), 8, "layout 1");
   write_bytes(scratch.file(), other);
   CHECK_THROWS_WITH(
       read_state(scratch.file()),
-      ContainsSubstring("'lichtmc state, layout 1', as lichtmc 0.1.0 writes it (allowed: 'lichtmc state, layout 6'"));
+      ContainsSubstring("'lichtmc state, layout 1', as lichtmc 0.1.0 writes it (allowed: 'lichtmc state, layout 7'"));
 }
 
 TEST_CASE("a state that cannot be written leaves the old one") {
