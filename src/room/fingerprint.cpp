@@ -102,6 +102,7 @@ class RoomChecksum {
     sum_.add(emitter.name);
     sum_.add(emitter.power);
     sum_.add(emitter.delay_s);
+    if (emitter.maintenance_factor != 1.0) sum_.add(emitter.maintenance_factor);
     sum_.add(std::uint64_t{emitter.shape.index()});
     std::visit([this](const auto& shape) { add(shape); }, emitter.shape);
   }
@@ -113,6 +114,10 @@ class RoomChecksum {
     sum_.add(receiver.area_m2);
     sum_.add(receiver.concentrator_index.value_or(0.0));
     sum_.add(receiver.filter_gain);
+    if (receiver.law != ReceiverLaw::planar) {
+      sum_.add(static_cast<std::uint8_t>(receiver.law));
+      if (receiver.law == ReceiverLaw::semicylindrical) add(receiver.facing);
+    }
     if (!receiver.is_cell()) return;
     add(receiver.cell_u);
     add(receiver.cell_v);

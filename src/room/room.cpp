@@ -163,7 +163,8 @@ void check_axes(const Room& room, const MeasuredEmitter& shape, const std::strin
 }
 
 void check_opening(const Room& room, const LuminousOpening& opening, const std::string& of) {
-  const bool valid = finite(opening.size_m) && std::min({opening.size_m.x, opening.size_m.y, opening.size_m.z}) >= 0.0 &&
+  const bool valid = finite(opening.size_m) &&
+                     std::min({opening.size_m.x, opening.size_m.y, opening.size_m.z}) >= 0.0 &&
                      opening.largest_m() > 0.0;
   if (!valid)
     refuse(room, "size in m of the opening " + of, to_text(opening.size_m), "finite numbers, 0 or more, not all 0",
@@ -219,6 +220,26 @@ void check_cell(const Room& room, const Receiver& receiver) {
           tilt, "below 1e-6", "Give edges at right angles to the normal.");
 }
 
+// Of a cylinder or half cylinder.
+void check_law(const Room& room, const Receiver& receiver) {
+  const bool is_half = receiver.law == ReceiverLaw::semicylindrical;
+  const std::string of =
+      "of the " + std::string(is_half ? "semicylindrical" : "cylindrical") + " receiver " + in_quotes(receiver.name);
+  require(receiver.half_angle_deg == 90.0, room, "field of view (half angle in degrees) " + of, receiver.half_angle_deg,
+          "90, which stands for all directions", "Leave it out.");
+  require(!receiver.is_cell(), room, "greatest edge in m of the cell " + of,
+          std::max(glm::length(receiver.cell_u), glm::length(receiver.cell_v)), "0: it has no cell",
+          "Measure at points.");
+  require(!receiver.concentrator_index, room, "refractive index of the concentrator " + of,
+          receiver.concentrator_index.value_or(0.0), "none, which is for planar receivers", "Leave it out.");
+  if (!is_half) return;
+  check_axis(room, receiver.facing, "faced " + of);
+  constexpr double parallel = 1e-6;
+  const double sine = glm::length(glm::cross(glm::normalize(receiver.facing), glm::normalize(receiver.normal)));
+  require(sine > parallel, room, "sine of the angle between the axis and the direction faced " + of, sine, "above 1e-6",
+          "Give a direction to the side of the axis; of a vertical half cylinder a level one.");
+}
+
 void check_receiver(const Room& room, const Receiver& receiver) {
   const std::string of = "of receiver " + in_quotes(receiver.name);
   check_position(room, receiver.position, of);
@@ -227,6 +248,7 @@ void check_receiver(const Room& room, const Receiver& receiver) {
           "field of view (half angle in degrees) " + of, receiver.half_angle_deg, "0 to 90",
           "Give the half angle; 90 is the whole hemisphere.");
   check_cell(room, receiver);
+  if (receiver.law != ReceiverLaw::planar) check_law(room, receiver);
   require(receiver.area_m2 >= 0.0 && std::isfinite(receiver.area_m2), room, "area in m² " + of, receiver.area_m2,
           "a finite number, 0 or more", "Give its sensitive area.");
   const double index = receiver.concentrator_index.value_or(1.0);
@@ -271,6 +293,9 @@ void check_emitters(const Room& room) {
             "a finite number, 0 or more", "Give its power.");
     require(emitter.delay_s >= 0.0 && std::isfinite(emitter.delay_s), room, "delay in s " + of, emitter.delay_s,
             "a finite number, 0 or more", "Count the delays of all emitters from the earliest one.");
+    require(emitter.maintenance_factor > 0.0 && emitter.maintenance_factor <= 1.0, room, "maintenance factor " + of,
+            emitter.maintenance_factor, "above 0 and up to 1",
+            "Give the share of its new power that it keeps, for example 0.8; 1 if it loses none.");
     std::visit([&](const auto& shape) { check_shape(room, shape, of); }, emitter.shape);
   }
   const double power = total_power(room);

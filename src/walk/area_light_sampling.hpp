@@ -13,8 +13,6 @@
 #include <cstdint>
 #include <numbers>
 
-#include "base/frame.hpp"
-#include "chance/places.hpp"
 #include "chance/stream.hpp"
 #include "tracer/rays.hpp"
 #include "tracer/tracer.hpp"
@@ -108,31 +106,31 @@ class AreaLightSampler {
 
   // Samples k … k + chunk − 1 of n new ones: flights from the reference points.
   void add_flights(std::uint32_t samples, std::uint32_t k, std::uint32_t n) {
-    std::array<double, chunk> cosines;
+    std::array<double, chunk> weights;
     std::array<double, chunk> views;
     flights_.size = chunk;
     for (std::uint32_t i = 0; i < chunk; ++i) {
       const ReferencePoint reference = reference_at_(samples + k + i);
       const Words words = stream_.draw(number_, samples + k + i, Purpose::direct_flight);
       views[i] = reference.squared_sine();
-      const ConeDirection flight = sample_cosine_cone(frame_about(reference.normal), views[i],
-                                                      in_stratum(k + i, n, unit_open(words[0])), unit_open(words[1]));
-      cosines[i] = flight.cosine;
+      const FirstFlight flight =
+          first_flight(reference, in_stratum(k + i, n, unit_open(words[0])), unit_open(words[1]));
+      weights[i] = flight.weight;
       flights_.facet[i] = no_facet;
       flights_.set_start(i, glm::vec3(start_of(reference, tracer_)));
       flights_.set_direction(i, glm::vec3(tracer_.directions() * flight.direction));
     }
     tracer_.trace(flights_, Misses::escape, count_);
     for (std::uint32_t i = 0; i < chunk; i += 2)
-      add_pair(by_flight(i, cosines[i], views[i]), by_flight(i + 1, cosines[i + 1], views[i + 1]));
+      add_pair(by_flight(i, weights[i], views[i]), by_flight(i + 1, weights[i + 1], views[i + 1]));
   }
 
-  double by_flight(std::uint32_t i, double cosine, double view) const {
+  double by_flight(std::uint32_t i, double weight, double view) const {
     if (flights_.facet[i] == no_facet || flights_.behind[i] != 0) return 0.0;
     if (tracer_.facets()[flights_.facet[i]].surface != light_.surface()) return 0.0;
     const FlightGeometry flight = flight_geometry(tracer_, flights_, i);
     if (flight.degenerate()) return 0.0;
-    const double pdf_flight = flight.pdf_bsdf(cosine) / view;
+    const double pdf_flight = flight.pdf_bsdf(weight) / view;
     const double relative = light_.relative_exitance(flights_.facet[i], flights_.s[i], flights_.t[i]);
     const double part = view * (light_.radiance(flight.cosine_there) * relative) * std::numbers::pi * pdf_flight /
                         (pdf_flight + pdf_light_ * relative);

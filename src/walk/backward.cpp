@@ -18,7 +18,12 @@ std::uint64_t BackwardScale::score(double irradiance) const {
 ReceiverOrigins::ReceiverOrigins(const std::vector<ReferencePoint>& receivers, const Tracer& tracer) {
   places_.reserve(receivers.size());
   for (const ReferencePoint& one : receivers) {
-    Place place{glm::vec3(start_of(one, tracer)), {glm::vec3(one.normal), one.least_cosine, std::nullopt}, one.point};
+    Place place{glm::vec3(start_of(one, tracer)), {}, one.point};
+    place.view.normal = glm::vec3(one.normal);
+    place.view.least_cosine = one.least_cosine;
+    place.view.law = one.law;
+    place.view.facing = glm::vec3(one.facing);
+    place.view.least_height_m = one.least_height_m;
     if (one.way_out) place.view.way_out = glm::vec3(*one.way_out);
     places_.push_back(place);
   }

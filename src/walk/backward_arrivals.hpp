@@ -38,6 +38,8 @@ class BackwardArrivals {
     if (!every_impact_) left_[photon].clear();
   }
   void land(const Wave& wave) { paths_.land(wave); }
+  // What a photon collects does not count.
+  void drop(std::uint32_t photon) { walks_[photon].factor = 0.0; }
 
   // The photons have been reflected, and leave their surfaces.
   void leave(const Wave& wave) {
@@ -77,6 +79,7 @@ class BackwardArrivals {
 
   void add(std::uint32_t photon, std::size_t source, std::uint32_t order, double length_m, double irradiance) {
     const Walk& walk = walks_[photon];
+    if (walk.factor == 0.0) return;
     const auto emitter = static_cast<std::uint32_t>(light_->source(source).emitter);
     const Arrival arrival{walk.receiver, emitter, order, length_m, walk.factor * irradiance};
     if (every_impact_) {

@@ -47,6 +47,7 @@ class BackwardGoal : public GoalBase {
         found_(std::size_t{batch_histories} * parts_),
         forward_ratio_(batch_histories),
         factor_(batch_histories),
+        least_height_m_(batch_histories),
         direct_(batch_histories),
         cosine_(whole_lanes(batch_histories)),
         cell_(batch_histories),
@@ -79,9 +80,11 @@ class BackwardGoal : public GoalBase {
     first_origin_ = first_origin;
   }
 
-  // The first flight leaves by Lambert's law within the field of view: the receiver weights radiance by the cosine.
+  // The first flight leaves with a density proportional to the weight that the receiver gives to radiance: by Lambert's
+  // law within the field of view, unless it is a cylinder.
   void start(Wave& wave, std::uint32_t n) {
     flight_ = 0;
+    lies_on_surface_ = false;
     std::uint64_t last_set = 0;
     ways_out_.clear();
     for (std::uint32_t i = 0; i < n; ++i) {
@@ -91,6 +94,8 @@ class BackwardGoal : public GoalBase {
       first_flights_.set(i, view, points_.polar(number_[i]), points_.azimuth(number_[i]));
       if (view.way_out) ways_out_.push_back({i, *view.way_out});
       factor_[i] = view.squared_sine() * origins_->uncovered_share(origin_[i]);
+      least_height_m_[i] = view.least_height_m;
+      lies_on_surface_ = lies_on_surface_ || view.least_height_m > 0.0;
       forward_ratio_[i] = 0.0;
       direct_[i] = 0.0;
       if constexpr (keeps_paths) {
@@ -122,6 +127,7 @@ class BackwardGoal : public GoalBase {
     count_->impacts += wave.rays.size;
     find_surfaces(wave);
     if constexpr (keeps_paths) arrivals_.land(wave);
+    if (flight_ == 1 && lies_on_surface_) drop_flights_to_own_surface(wave);
     if (flight_ == 1 && forward_per_walk_ > 0.0) weigh_first_impacts(wave);
     if (flight_ == 1 || !light_->has_area_lights()) return;
     const Rays& rays = wave.rays;
@@ -263,6 +269,18 @@ class BackwardGoal : public GoalBase {
     for (std::size_t i = 0; i < wave.rays.size; ++i) wave.surface[i] = surface_of[wave.rays.facet[i]];
   }
 
+  // A cylinder on a surface receives nothing from there.
+  void drop_flights_to_own_surface(const Wave& wave) {
+    for (std::size_t i = 0; i < wave.rays.size; ++i) {
+      const std::uint32_t photon = wave.photon[i];
+      if (!(least_height_m_[photon] > 0.0)) continue;
+      const FlightGeometry flight = flight_geometry(*scene_->tracer, wave.rays, i);
+      if (!flight.degenerate() && flight.length_m * flight.cosine_there > least_height_m_[photon]) continue;
+      factor_[photon] = 0.0;
+      if constexpr (keeps_paths) arrivals_.drop(photon);
+    }
+  }
+
   // forward_ratio of DirectLight::sample_light(), from the density of the first impact; factor_ is the share of
   // Lambert's law within the field of view. A flight without length or along its surface is not found from the other
   // side.
@@ -298,12 +316,14 @@ class BackwardGoal : public GoalBase {
   std::vector<double> forward_ratio_;  // m², of its first impact, see DirectLight::sample_light()
   std::vector<double> factor_;         // squared sine of the half angle of the field of view (the fraction of a uniform
                                        // hemisphere), times the uncovered share of the origin
+  std::vector<double> least_height_m_;  // of its origin, see ReferencePoint
   // By the position in the wave:
   std::vector<double> direct_;        // direct irradiance at the surface that was left last
   std::vector<double> direct_parts_;  // the same, [position][part], if parts are kept
   std::vector<float> cosine_;         // of the angle at which that surface was left
   std::vector<std::uint32_t> cell_;   // of light samples there, see DirectLight::cell_of()
   std::uint32_t flight_ = 0;
+  bool lies_on_surface_ = false;  // whether some of the origins are cylinders on surfaces
   BackwardCount* count_ = nullptr;
   // Only if paths are kept:
   BackwardArrivals arrivals_;

@@ -98,7 +98,7 @@ DirectIrradiance DirectLight::irradiance_at(const ReferencePoint& reference, con
   sum.standard_error = std::sqrt(variance);
   if (reference.way_out) return sum;  // the walls lie between area lights, which are walls, and points outside
   for (std::size_t k = 0; k < areas_.size(); ++k) {
-    if (!tracer_->casts_shadows() && areas_[k].has_closed_form() && reference.least_cosine <= 0.0) {
+    if (!tracer_->casts_shadows() && areas_[k].has_closed_form() && sees_hemisphere(reference)) {
       add(emitter_of_area_[k], {areas_[k].polygon_irradiance(reference), 0.0});
       continue;
     }
@@ -192,7 +192,8 @@ std::optional<std::size_t> DirectLight::emitter_at(const ReferencePoint& referen
       const double twice = glm::length(cross);
       const glm::dvec3 p = reference.point - a;
       if (!(twice > 0.0) || std::abs(glm::dot(p, cross)) > near * twice) continue;
-      if (glm::dot(reference.normal, cross) >= 0.0) continue;  // it faces away from the emitter
+      const bool is_planar = reference.law == ReceiverLaw::planar;
+      if (is_planar && glm::dot(reference.normal, cross) >= 0.0) continue;  // it faces away from the emitter
       const double s = glm::dot(glm::cross(p, c), cross) / (twice * twice);
       const double t = glm::dot(glm::cross(b, p), cross) / (twice * twice);
       if (s >= 0.0 && t >= 0.0 && s + t <= 1.0) return n;

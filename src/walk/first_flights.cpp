@@ -5,6 +5,7 @@
 
 #include "chance/directions.hpp"
 #include "chance/sobol.hpp"
+#include "walk/reference_point.hpp"
 
 namespace lichtmc {
 
@@ -75,12 +76,21 @@ void FirstFlights::set(std::size_t i, const OriginView& view, std::uint32_t pola
   view_[i] = static_cast<float>(view.squared_sine());
   polar_[i] = polar;
   azimuth_[i] = azimuth;
+  if (view.law != ReceiverLaw::planar) around_.push_back({i, glm::dvec3(view.normal), glm::dvec3(view.facing)});
 }
 
-void FirstFlights::aim(std::size_t n, const glm::dmat3& directions, Rays& rays, float* cosines) const {
+void FirstFlights::aim(std::size_t n, const glm::dmat3& directions, Rays& rays, float* weights) {
   const glm::mat3 to_tracer(directions);
   aim_lanes(n, normal_x_.data(), normal_y_.data(), normal_z_.data(), view_.data(), polar_.data(), azimuth_.data(),
-            &to_tracer[0].x, rays.dx.data(), rays.dy.data(), rays.dz.data(), cosines);
+            &to_tracer[0].x, rays.dx.data(), rays.dy.data(), rays.dz.data(), weights);
+  for (const Around& one : around_) {
+    const auto unit = [](std::uint32_t word) { return (word + 0.5) * 0x1p-32; };
+    const std::size_t i = one.flight;
+    const FirstFlight flight = first_flight_around(one.axis, one.facing, unit(polar_[i]), unit(azimuth_[i]));
+    rays.set_direction(i, glm::vec3(directions * flight.direction));
+    weights[i] = static_cast<float>(flight.weight);
+  }
+  around_.clear();
 }
 
 }  // namespace lichtmc

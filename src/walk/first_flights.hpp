@@ -51,7 +51,7 @@ class RoundPoints {
   Words place_shift_{};
 };
 
-// Directions by Lambert's law within fields of view.
+// Directions by Lambert's law within fields of view, or with the densities of cylinders and half cylinders.
 class FirstFlights {
  public:
   explicit FirstFlights(std::size_t capacity);
@@ -59,14 +59,22 @@ class FirstFlights {
   // Flight i: what it leaves, and two random words.
   void set(std::size_t i, const OriginView& view, std::uint32_t polar, std::uint32_t azimuth);
 
-  // Sets the directions of the first n flights, and the cosines of their angles to the normals. directions: world → the
-  // tracer's coordinates.
-  void aim(std::size_t n, const glm::dmat3& directions, Rays& rays, float* cosines) const;
+  // Sets the directions of the first n flights, which have been set since the last call, and their weights as in
+  // ReferencePoint::weight(): the cosines of their angles to the normals. directions: world → the tracer's coordinates.
+  void aim(std::size_t n, const glm::dmat3& directions, Rays& rays, float* weights);
 
  private:
+  // A flight from a cylinder.
+  struct Around {
+    std::size_t flight = 0;
+    glm::dvec3 axis{0.0};
+    glm::dvec3 facing{0.0};
+  };
+
   std::vector<float> normal_x_, normal_y_, normal_z_;
   std::vector<float> view_;  // squared sine of the half angle of the field of view
   std::vector<std::uint32_t> polar_, azimuth_;
+  std::vector<Around> around_;
 };
 
 }  // namespace lichtmc

@@ -98,9 +98,9 @@ LightSample PointLight::sample_light(const ReferencePoint& reference, const glm:
   const double r = glm::length(segment);
   if (!(r > 0.0)) return {};
   const glm::dvec3 towards = segment / r;
-  const double cosine = glm::dot(towards, reference.normal);
-  if (cosine <= 0.0 || cosine < reference.least_cosine) return {};
-  return {flux_ * density(-towards) * cosine / (r * r), from, 0.0};
+  const double weight = reference.weight(towards);
+  if (!(weight > 0.0)) return {};
+  return {flux_ * density(-towards) * weight / (r * r), from, 0.0};
 }
 
 glm::dvec3 PointLight::place(double u, double v) const {
@@ -269,11 +269,11 @@ LightSample AreaLight::sample_at(const ReferencePoint& reference, const Emission
   const double r = glm::length(segment);
   if (!(r > 0.0)) return {};
   const glm::dvec3 towards = segment / r;
-  const double cosine = glm::dot(towards, reference.normal);
+  const double weight = reference.weight(towards);
   const double cosine_there = -glm::dot(towards, here.normal);
-  if (cosine <= 0.0 || cosine < reference.least_cosine || cosine_there <= 0.0) return {};
+  if (!(weight > 0.0) || cosine_there <= 0.0) return {};
   // The exitance at the point and the density of the points are proportional: their ratio is the flux everywhere.
-  return {flux_ * density_at(cosine_there) * cosine / (r * r), target, cosine * cosine_there / (pi * r * r),
+  return {flux_ * density_at(cosine_there) * weight / (r * r), target, weight * cosine_there / (pi * r * r),
           place.relative};
 }
 

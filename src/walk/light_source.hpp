@@ -1,8 +1,8 @@
 // The irradiance by each emitter at a reference point, without shadows.
 //
-// Point lights in closed form, E = I(θ) cos θ'/r²; Lambertian area lights of uniform exitance by the polygon formula;
-// any area light by a random point on it, with a density proportional to its exitance. World coordinates in m; shadows
-// are in direct_light.hpp.
+// Point lights in closed form, E = I(θ) w/r², w = cos θ' unless the receiver is a cylinder; Lambertian area lights of
+// uniform exitance by the polygon formula; any area light by a random point on it, with a density proportional to its
+// exitance. World coordinates in m; shadows are in direct_light.hpp.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,9 @@ namespace lichtmc {
 struct LightSample {
   double irradiance = 0.0;  // W/m² or lx; 0: none
   glm::dvec3 target{0.0};   // m, the point of the emitter
-  double pdf_bsdf = 0.0;    // density per area with which a diffuse flight hits that point; 0 for point lights
-  double relative = 1.0;    // of area lights: exitance at that point, divided by its mean
+  double pdf_bsdf =
+      0.0;  // density per area with which a diffuse flight (of a cylinder: first_flight()) hits it; 0: point lights
+  double relative = 1.0;  // of area lights: exitance at that point, divided by its mean
 };
 
 class PointLight {
@@ -122,7 +123,7 @@ class AreaLight {
 
   // Whether polygon_irradiance() is valid: the emitter is Lambertian, and its exitance is uniform.
   bool has_closed_form() const { return law_.exponent == 1.0 && !emission_; }
-  // The irradiance over the whole hemisphere, without shadows.
+  // The irradiance over the whole hemisphere, without shadows; not of cylinders.
   double polygon_irradiance(const ReferencePoint& reference) const;
   std::size_t triangles() const { return triangles_.size(); }
 

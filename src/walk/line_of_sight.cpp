@@ -152,8 +152,8 @@ class Sight {
   bool is_seen(const NearestPoint& nearest, std::size_t emitter) {
     if (!nearest.is_front || !(nearest.length_m > 0.0) || tracer_.faces_in_one_plane() != nullptr) return false;
     if (std::get<SurfaceEmitter>(room_.emitters[emitter].shape).emission_map) return false;
-    const double cosine = glm::dot(nearest.point - receiver_.point, receiver_.normal) / nearest.length_m;
-    return cosine > std::max(0.0, receiver_.least_cosine) && !is_blocked(tracer_, receiver_, nearest.point, count_);
+    const glm::dvec3 towards = (nearest.point - receiver_.point) / nearest.length_m;
+    return receiver_.weight(towards) > 0.0 && !is_blocked(tracer_, receiver_, nearest.point, count_);
   }
 
   const Room& room_;

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/frame.hpp"
-#include "chance/places.hpp"
 #include "tracer/rays.hpp"
 #include "walk/visibility.hpp"
 
@@ -31,7 +29,7 @@ class NearLightSampler {
         count_(count),
         start_(start_of(reference, tracer)),
         view_(reference.squared_sine()),
-        complement_(light.has_closed_form() && light.triangles() <= most_triangles && reference.least_cosine <= 0.0) {}
+        complement_(light.has_closed_form() && light.triangles() <= most_triangles && sees_hemisphere(reference)) {}
 
   DirectIrradiance sample(const SamplingAccuracy& accuracy) {
     const double unshadowed = complement_ ? light_.polygon_irradiance(reference_) : 0.0;
@@ -58,12 +56,11 @@ class NearLightSampler {
 
   // Flights k … k + chunk − 1 of n new ones after the first `samples`.
   void add_flights(std::uint32_t samples, std::uint32_t k, std::uint32_t n) {
-    const Frame frame = frame_about(reference_.normal);
     flights_.size = chunk;
     for (std::uint32_t i = 0; i < chunk; ++i) {
       const Words words = stream_.draw(number_, samples + k + i, Purpose::direct_flight);
-      const ConeDirection flight =
-          sample_cosine_cone(frame, view_, in_stratum(k + i, n, unit_open(words[0])), unit_open(words[1]));
+      const FirstFlight flight =
+          first_flight(reference_, in_stratum(k + i, n, unit_open(words[0])), unit_open(words[1]));
       flights_.facet[i] = no_facet;
       flights_.set_start(i, glm::vec3(start_));
       flights_.set_direction(i, glm::vec3(tracer_.directions() * flight.direction));
@@ -120,7 +117,7 @@ bool is_near(const AreaLight& light, const ReferencePoint& reference) {
 DirectIrradiance sample_near_light(const AreaLight& light, const Tracer& tracer, const ReferencePoint& reference,
                                    const Stream& stream, std::uint64_t number, const SamplingAccuracy& accuracy,
                                    TraceCount& count) {
-  if (!light.reaches_above_horizon(reference)) return {};
+  if (reference.law == ReceiverLaw::planar && !light.reaches_above_horizon(reference)) return {};
   return NearLightSampler(light, tracer, reference, stream, number, count).sample(accuracy);
 }
 

@@ -1,11 +1,11 @@
 // The irradiance by an area light at a point so close to it that samples of its points would be useless: few of them
 // fall on the small part that contributes most.
 //
-// Flights from the point by Lambert's law sample it instead. If the emitter is Lambertian, uniform and of few
-// triangles, and the field of view is the whole hemisphere, the irradiance without shadows is known (the polygon
-// formula), and the flights only estimate what is missing from it: where the emitter lies in the direction of a flight,
-// but the flight does not arrive there. If nothing is in between, the value is exact. The standard error then is that
-// of −ln(1 − 0.683) = 1.148 missing flights, as for tiles without hits.
+// Flights from the point with the density of what it receives (first_flight()) sample it instead. If the emitter is
+// Lambertian, uniform and of few triangles, and the field of view is the whole hemisphere, the irradiance without
+// shadows is known (the polygon formula), and the flights only estimate what is missing from it: where the emitter lies
+// in the direction of a flight, but the flight does not arrive there. If nothing is in between, the value is exact. The
+// standard error then is that of −ln(1 − 0.683) = 1.148 missing flights, as for tiles without hits.
 #pragma once
 
 #include <cstdint>

@@ -64,6 +64,56 @@ inline float irradiance_at(const Impact& impact, const Lanes& at, std::size_t k)
   return seen ? value : 0.0F;
 }
 
+// Of receivers some of which are cylinders.
+struct LawLanes {
+  const float* LICHTMC_APART facing_x;
+  const float* LICHTMC_APART facing_y;
+  const float* LICHTMC_APART facing_z;
+  const float* LICHTMC_APART around;        // 1: a cylinder or half cylinder, 0: planar
+  const float* LICHTMC_APART least_height;  // over impacts
+};
+
+// The same for any law: with r w in place of r cos ψ. A cylinder has sin ε/π, ε the angle to its axis, and a half
+// cylinder (sin ε + sin ε cos α)/π, the second term of which is the component towards the direction that it faces.
+inline float irradiance_by_law(const Impact& impact, const Lanes& at, const LawLanes& laws, std::size_t k) {
+  constexpr float inverse_pi = 0.318309886F;
+  const float dx = at.x[k] - impact.point.x;
+  const float dy = at.y[k] - impact.point.y;
+  const float dz = at.z[k] - impact.point.z;
+  const float nx = at.normal_x[k];
+  const float ny = at.normal_y[k];
+  const float nz = at.normal_z[k];
+  const float squared = dx * dx + dy * dy + dz * dz;
+  const float height = dx * impact.normal.x + dy * impact.normal.y + dz * impact.normal.z;
+  const float depth = -(dx * nx + dy * ny + dz * nz);
+  const float across_x = dy * nz - dz * ny;
+  const float across_y = dz * nx - dx * nz;
+  const float across_z = dx * ny - dy * nx;
+  const float sine = std::sqrt(across_x * across_x + across_y * across_y + across_z * across_z);
+  const float forward = -(dx * laws.facing_x[k] + dy * laws.facing_y[k] + dz * laws.facing_z[k]);
+  const bool is_around = laws.around[k] > 0.0F;
+  const float around = inverse_pi * (sine + forward);
+  const bool in_view = (depth > least_height) & (depth * depth >= at.least_squared_cosine[k] * squared);
+  const bool seen = (height > laws.least_height[k]) & ((is_around & (around > 0.0F)) | (!is_around & in_view));
+  const float projected = inverse_pi * height * (is_around ? around : depth);
+  const float value =
+      impact.weight * projected / (squared * squared + impact.backward_ratio * at.spread[k] * projected);
+  return seen ? value : 0.0F;
+}
+
+LICHTMC_LANES std::uint32_t irradiate_lanes_by_law(std::size_t n, const Impact& impact, const Lanes& at,
+                                                   const LawLanes& laws, float* LICHTMC_APART value) {
+  const Impact here = impact;
+  const Lanes lanes = at;
+  const LawLanes by = laws;
+  std::uint32_t any = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    value[k] = irradiance_by_law(here, lanes, by, k);
+    any |= value[k] > 0.0F ? 1U : 0U;
+  }
+  return any;
+}
+
 LICHTMC_LANES std::uint32_t irradiate_lanes(std::size_t n, const Impact& impact, const Lanes& at,
                                             float* LICHTMC_APART value) {
   const Impact here = impact;
@@ -116,6 +166,7 @@ ReceiverLanes::ReceiverLanes(const std::vector<ReferencePoint>& receivers, const
   std::stable_sort(number_.begin(), number_.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return codes[a] < codes[b]; });
 
+  bool has_laws = false;
   const std::size_t whole = whole_lanes(number_.size());
   for (std::vector<float>& array : arrays_) array.resize(whole, 0.0F);
   ends_.resize(number_.size());
@@ -139,6 +190,22 @@ ReceiverLanes::ReceiverLanes(const std::vector<ReferencePoint>& receivers, const
     for (std::size_t c = 0; c < arrays_.size(); ++c) arrays_[c][k] = static_cast<float>(of_receiver[c]);
     ends_.set(k, end);
     if (receiver.is_cell()) set_edges(k, receiver, tracer);
+    if (receiver.law != ReceiverLaw::planar) has_laws = true;
+  }
+  if (has_laws) set_laws(receivers);
+}
+
+void ReceiverLanes::set_laws(const std::vector<ReferencePoint>& receivers) {
+  laws_.resize(5);
+  for (std::vector<float>& array : laws_) array.resize(whole_lanes(size()), 0.0F);
+  for (std::size_t k = 0; k < size(); ++k) {
+    const ReferencePoint& receiver = receivers[first_ + number_[k]];
+    // One that receives nothing has no axis, and then no direction that it faces.
+    const bool receives = arrays_[3][k] != 0.0F || arrays_[4][k] != 0.0F || arrays_[5][k] != 0.0F;
+    for (int c = 0; c < 3; ++c)
+      laws_[static_cast<std::size_t>(c)][k] = receives ? static_cast<float>(receiver.facing[c]) : 0.0F;
+    laws_[3][k] = receiver.law != ReceiverLaw::planar ? 1.0F : 0.0F;
+    laws_[4][k] = std::max(least_height, static_cast<float>(receiver.least_height_m / size_m_));
   }
 }
 
@@ -161,6 +228,17 @@ Lanes lanes_from(const Arrays& of, std::size_t first) {
           of[4].data() + first, of[5].data() + first, of[6].data() + first, of[7].data() + first};
 }
 
+LawLanes law_lanes_from(const std::vector<std::vector<float>>& of, std::size_t first) {
+  return {of[0].data() + first, of[1].data() + first, of[2].data() + first, of[3].data() + first, of[4].data() + first};
+}
+
+// laws: empty if all receivers are planar.
+std::uint32_t irradiate_any(std::size_t n, const Impact& impact, const Lanes& at,
+                            const std::vector<std::vector<float>>& laws, std::size_t first, float* value) {
+  if (laws.empty()) return irradiate_lanes(n, impact, at, value);
+  return irradiate_lanes_by_law(n, impact, at, law_lanes_from(laws, first), value);
+}
+
 }  // namespace
 
 std::uint64_t ReceiverLanes::irradiate(std::span<const Impact> impacts, const Tracer& tracer,
@@ -168,7 +246,7 @@ std::uint64_t ReceiverLanes::irradiate(std::span<const Impact> impacts, const Tr
                                        TraceCount& count, const ImpactRecord* record) const {
   const std::size_t n = whole_lanes(size());
   if (has_cells()) return irradiate_cells(impacts, tracer, value, sums, count);
-  if (!tracer.casts_shadows() && record == nullptr) {
+  if (!tracer.casts_shadows() && record == nullptr && laws_.empty()) {
     irradiate_all_lanes(n, impacts.data(), impacts.size(), lanes_from(arrays_, 0), sums.data());
     return impacts.size() * size();
   }
@@ -199,7 +277,7 @@ std::uint64_t ReceiverLanes::irradiate(std::span<const Impact> impacts, const Tr
 bool ReceiverLanes::irradiate_some(const Impact& impact, std::size_t begin, std::size_t end, const Tracer& tracer,
                                    float* value, double* sums, TraceCount& count) const {
   const std::size_t n = whole_lanes(end - begin);
-  if (irradiate_lanes(n, impact, lanes_from(arrays_, begin), value + begin) == 0) return false;
+  if (irradiate_any(n, impact, lanes_from(arrays_, begin), laws_, begin, value + begin) == 0) return false;
   if (tracer.casts_shadows()) tracer.darken_blocked(impact.start, ends_, begin, end, value, count);
   add_lanes(n, value + begin, sums + begin);
   return true;
@@ -208,7 +286,7 @@ bool ReceiverLanes::irradiate_some(const Impact& impact, std::size_t begin, std:
 void ReceiverLanes::irradiate_unshadowed(const Impact& impact, std::vector<float>& value) const {
   const std::size_t n = whole_lanes(size());
   value.resize(n);
-  irradiate_lanes(n, impact, lanes_from(arrays_, 0), value.data());
+  irradiate_any(n, impact, lanes_from(arrays_, 0), laws_, 0, value.data());
 }
 
 // As irradiate(), with receivers shifted within their cells.
@@ -228,7 +306,7 @@ std::uint64_t ReceiverLanes::irradiate_cells(std::span<const Impact> impacts, co
   };
   for (const Impact& impact : impacts) {
     for (std::size_t c = 0; c < 3; ++c) shift(arrays_[c], c, impact, shifted[c]);
-    if (irradiate_lanes(n, impact, lanes, value.data()) == 0) continue;
+    if (irradiate_any(n, impact, lanes, laws_, 0, value.data()) == 0) continue;
     if (tracer.casts_shadows()) {
       shift(ends_.x, 6, impact, ends.x);
       shift(ends_.y, 7, impact, ends.y);

@@ -89,17 +89,20 @@ class ReceiverLanes {
   // As irradiate(), with receivers shifted within their cells. All are served.
   std::uint64_t irradiate_cells(std::span<const Impact> impacts, const Tracer& tracer, std::vector<float>& value,
                                 std::vector<double>& sums, TraceCount& count) const;
+  void set_laws(const std::vector<ReferencePoint>& receivers);
   void set_edges(std::size_t k, const ReferencePoint& receiver, const Tracer& tracer);
 
   std::size_t first_ = 0;
   glm::dmat3 to_lanes_{1.0};
   double size_m_ = 1.0;
   std::vector<std::uint32_t> number_;
-  // Position, normal, squared least cosine of the field of view, 1/sin² of its half angle.
+  // Position, normal or axis, squared least cosine of the field of view, 1/sin² of its half angle.
   std::array<std::vector<float>, 8> arrays_;
   EndPoints ends_;  // of shadow rays
   // Only if a receiver is a cell: its edges, u and then v, in the receivers' and then in the tracer's coordinates.
   std::vector<std::vector<float>> edges_;
+  // Only if a receiver is a cylinder: the direction that it faces, whether it is one, its least height over impacts.
+  std::vector<std::vector<float>> laws_;
 };
 
 }  // namespace lichtmc

@@ -65,9 +65,15 @@ class ReceiverPlacer {
     constexpr double parallel = 1.0 - 1e-9;
     const bool usual =
         planes.empty() || (planes.size() == 1 && glm::dot(planes[0].normal, reference.normal) > parallel);
-    if (!usual) {
+    const bool is_planar = reference.law == ReceiverLaw::planar;
+    if (!usual || !is_planar) {
       reference.point = moved;
       reference.start = tracer_.tracer_point(moved);
+    }
+    // Rays start at the clearance; as far again is left to the rounding of a hit.
+    constexpr double closest = 4.0;
+    for (const TouchedPlane& plane : planes) {
+      if (!is_planar) reference.least_height_m = std::max(reference.least_height_m, closest * plane.clearance_m);
     }
     return reference;
   }
@@ -90,7 +96,8 @@ class ReceiverPlacer {
         return std::abs(glm::dot(plane.normal, triangle.normal)) > same_plane;
       });
       if (known) continue;
-      const double cosine = glm::dot(reference.normal, triangle.normal);
+      // A cylinder looks to all sides.
+      const double cosine = reference.law == ReceiverLaw::planar ? glm::dot(reference.normal, triangle.normal) : 0.0;
       const double side = std::abs(distance) > rounding ? distance : std::abs(cosine) > along ? cosine : 0.0;
       const double sign = side < 0.0 ? -1.0 : 1.0;
       planes.push_back({sign * triangle.normal, sign * distance, clearance, side != 0.0});

@@ -1,11 +1,11 @@
 // Receivers as reference points, and the side of the surfaces that they lie on.
 //
 // A receiver on a surface has the irradiance of one side: the limit for a distance from the surface that goes to 0. It
-// is the side that the receiver looks to. If it looks along the surface (its normal lies in the plane), it is the side
-// of the room: the one that is enclosed by the same closed shells as an emitter; if both or none are, the one from
-// which an emitter is visible; if both or none are, the front of the surface. A receiver lies on a surface if its
-// distance is within the rounding of float coordinates (NearPlane); if it is farther away, but closer than the tracer
-// can separate, it stays on its side.
+// is the side that the receiver looks to. If it looks along the surface (its normal lies in the plane), or to both
+// sides (cylinders), it is the side of the room: the one that is enclosed by the same closed shells as an emitter; if
+// both or none are, the one from which an emitter is visible; if both or none are, the front of the surface. A receiver
+// lies on a surface if its distance is within the rounding of float coordinates (NearPlane); if it is farther away, but
+// closer than the tracer can separate, it stays on its side.
 #pragma once
 
 #include <vector>
