@@ -50,7 +50,7 @@ ADDED_TO_SURFACES = {
     "covered_area": "the area that other surfaces in one plane cover, since 0.2.0",
 }
 # Figures of summary.json that a base may not have.
-ADDED = {"unreached_tiles", "tile_images", "luminaires"}
+ADDED = {"unreached_tiles", "tile_images", "luminaires", "areas"}
 # The same, also within other keys.
 ADDED_ANYWHERE = {"rms_relative_error_without_floor", "error_floor", "concentrator_index", "filter_gain", "delay_ns",
                   "file", "total_power", "watts", "total_watts", "efficacy", "scale"}  # fmt: skip

@@ -143,6 +143,7 @@ void print_outcome(const Result& result, const std::filesystem::path& folder, bo
   if (!result.tiles.empty()) print_tiles(result);
   if (!result.receiver_results.empty()) print_receivers(result);
   if (result.channels) print_channels(*result.channels);
+  for (const AreaResult& area : result.areas) std::cerr << visible_text(area_line(area, result.quantity)) << '\n';
   for (const Measured what : {Measured::tiles, Measured::receivers}) {
     const std::string options = options_to_repeat(result, what);
     if (!options.empty()) std::cerr << "The same figures, to the last digit, without a clock: " << options << '\n';
@@ -154,6 +155,7 @@ void print_outcome(const Result& result, const std::filesystem::path& folder, bo
             << (result.tiles.empty() ? ": " : ": surfaces.csv (one row per surface), tiles.csv, ")
             << (result.tiles.empty() || !with_images ? "" : "tiles/*.exr, ")
             << (result.receiver_results.empty() ? "" : "receivers.csv, ")
+            << (result.areas.empty() ? "" : "areas.csv, areas/*.csv, areas/*.svg, areas/*.dxf, ")
             << (result.channels ? "channels.csv, impulse_response.csv, channels.h5, " : "")
             << (result.channels && files_left_out(result).empty() ? "channels.mat, " : "")
             << "emitters.csv, summary.json.\n";

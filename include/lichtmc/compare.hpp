@@ -8,9 +8,11 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "lichtmc/area.hpp"
 #include "lichtmc/result.hpp"
 
 namespace lichtmc {
@@ -64,5 +66,50 @@ std::vector<Comparison> compare_results(const std::filesystem::path& a, const st
 
 // The same for two results in memory, called "a" and "b" in messages.
 std::vector<Comparison> compare(const Result& a, const Result& b);
+
+// A calculation area of a design.
+struct DesignArea {
+  std::string name;
+  std::string role;
+  std::string quantity;  // "horizontal", …
+  std::size_t points = 0;
+  Figure mean;  // W/m² or lx
+  Figure minimum;
+  Figure uniformity;
+  std::optional<double> target_mean;
+  std::optional<double> target_uniformity;
+  Verdict verdict = Verdict::none;
+};
+
+// An area of two designs, by its name. In one of them it may be missing.
+struct DesignAreas {
+  std::optional<DesignArea> a;
+  std::optional<DesignArea> b;
+  // b − a, with the errors of independent results; NaN if one is missing.
+  Figure mean_difference;
+  Figure uniformity_difference;
+};
+
+struct DesignTotals {
+  double power = 0.0;           // of all emitters, W or lm
+  std::optional<double> watts;  // that all luminaires take, if all emitters have a photometric file that tells it
+};
+
+struct DesignComparison {
+  std::string a;  // the folders
+  std::string b;
+  std::string unit;                // of power: "W" or "lm"
+  std::vector<DesignAreas> areas;  // in the order of a, then those of b alone
+  DesignTotals total_a;
+  DesignTotals total_b;
+};
+
+// Two designs side by side: the areas of the results in two folders. A difference is no fault.
+//
+// Throws InputError if a folder contains no result or no areas, or if the units differ.
+DesignComparison compare_designs(const std::filesystem::path& a, const std::filesystem::path& b);
+
+// The comparison as a table, for readers.
+std::string designs_text(const DesignComparison& designs);
 
 }  // namespace lichtmc

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lichtmc/area.hpp"               // IWYU pragma: export
+#include "lichtmc/area_drawing.hpp"      // IWYU pragma: export
 #include "lichtmc/candela_table.hpp"      // IWYU pragma: export
 #include "lichtmc/communicator.hpp"       // IWYU pragma: export
 #include "lichtmc/compare.hpp"            // IWYU pragma: export

@@ -34,7 +34,8 @@ struct ResultFiles {
 
 // Writes summary.json and emitters.csv into a folder; with results of tiles also tiles.csv, surfaces.csv and tiles/NAME.exr; with
 // results of receivers also receivers.csv; with impulse responses also impulse_response.csv, channels.csv, channels.h5
-// and channels.mat, except those that files_left_out() names.
+// and channels.mat, except those that files_left_out() names; with calculation areas also areas.csv, and of each area
+// areas/NAME.csv (its grid), areas/NAME.svg and areas/NAME.dxf (its plan).
 //
 // All files are first written and flushed to disk under temporary names, then renamed; summary.json is renamed last: a
 // folder with a summary.json is complete. Tile maps and the report of an earlier run are removed. Throws RuntimeError
@@ -95,6 +96,9 @@ std::string luminaire_svg(const Photometry& photometry);
 
 // Writes it to a file, atomically. Throws RuntimeError if that fails.
 void write_luminaire_svg(const Photometry& photometry, const std::filesystem::path& file);
+
+// The figures of a calculation area, for readers: "desk (task): Em 349 ± 2 lx, U0 0.55 ± 0.01, target 500 lx, 0.60: fail".
+std::string area_line(const AreaResult& result, Quantity quantity);
 
 // The content of summary.json.
 std::string summary_json(const Room& room, const Result& result, const ResultFiles& files = {});

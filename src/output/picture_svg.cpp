@@ -15,6 +15,7 @@
 #include "lichtmc/units.hpp"
 #include "lichtmc/version.hpp"
 #include "output/exr.hpp"
+#include "output/isoline_marks.hpp"
 #include "output/picture_marks.hpp"
 #include "output/picture_parts.hpp"
 #include "output/svg.hpp"
@@ -37,52 +38,6 @@ std::string title_of(const Result& result, const Picture& picture, View view) {
 }
 
 constexpr double plan_side = 480.0;  // units of a plan's longer side
-
-std::string polyline(const std::vector<glm::dvec2>& points, double unit, double x, double y, std::string_view style) {
-  std::string svg = "<polyline fill=\"none\" " + std::string(style) + " points=\"";
-  for (const glm::dvec2& p : points) svg += fixed(x + unit * p.x) + "," + fixed(y + unit * p.y) + " ";
-  return svg + "\"/>\n";
-}
-
-// Isolines: dark over a wider bright line, visible on every colour; then their labels, with a minimum distance.
-std::string isolines_svg(const SurfacePlan& plan, double unit, double x, double y) {
-  std::string svg;
-  for (const Isoline& line : plan.isolines) {
-    svg += polyline(line.points, unit, x, y, "stroke=\"#fff\" stroke-opacity=\"0.55\" stroke-width=\"2.6\"");
-    svg += polyline(line.points, unit, x, y, "stroke=\"#000\" stroke-width=\"1\"");
-  }
-  constexpr double gap = 6.0;  // between labels
-  struct Label {
-    glm::dvec2 at{0.0};
-    double width = 0.0;
-  };
-  std::vector<Label> labels;
-  const double width = unit * static_cast<double>(plan.picture.width);
-  const double height = unit * static_cast<double>(plan.picture.height);
-  for (const Isoline& line : plan.isolines) {
-    // The first free position along the line, from its middle outwards.
-    const std::size_t n = line.points.size();
-    const std::string text = short_number(line.level);
-    const double own_width = text_width(text, text_size);
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t from_middle = (k + 1) / 2;
-      const std::size_t at = k % 2 == 0 ? n / 2 + from_middle : n / 2 - from_middle;
-      if (at >= n) continue;
-      const glm::dvec2 p = unit * line.points[at];
-      const double half = 0.5 * own_width;
-      if (p.x < half || p.y < 10.0 || p.x > width - half || p.y > height - 8.0) continue;
-      const bool free = std::none_of(labels.begin(), labels.end(), [&](const Label& other) {
-        return std::abs(other.at.x - p.x) < half + 0.5 * other.width + gap &&
-               std::abs(other.at.y - p.y) < text_size + gap;
-      });
-      if (!free) continue;
-      labels.push_back({p, own_width});
-      svg += svg_text(x + p.x - half, y + p.y + 4.0, text, " class=\"halo\" font-size=\"" + fixed(text_size) + "\"");
-      break;
-    }
-  }
-  return svg;
-}
 
 }  // namespace
 
@@ -177,7 +132,9 @@ std::string plan_svg(const Result& result, const SurfacePlan& plan, const std::s
     y += 18.0;
   }
   svg += svg_image(png, picture_side, y, width, height, true);
-  svg += isolines_svg(plan, unit, picture_side, y);
+  const glm::dvec2 at(picture_side, y);
+  svg += isoline_strokes(plan.isolines, unit, at);
+  svg += LabelPlaces({0.0, 10.0}, {width, height - 8.0}).isoline_labels(plan.isolines, unit, at, text_size);
   svg += colour_legend(scale, written_irradiance_unit(result.quantity), picture_side + width, y + 10.0, legend_height);
   y += legend_height + 38.5;
   if (plan.flat) {

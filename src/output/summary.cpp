@@ -7,6 +7,7 @@
 
 #include "lichtmc/output.hpp"
 #include "lichtmc/version.hpp"
+#include "output/area_json.hpp"
 #include "output/channel_json.hpp"
 #include "output/json.hpp"
 #include "output/luminaire_schedule.hpp"
@@ -276,6 +277,14 @@ void add_details(const Room& room, const Result& result, const ResultFiles& file
   if (result.channels) {
     // The names of times and frequencies end in their units.
     for (const char* name : {"line_of_sight", "diffuse", "rician_k", "beyond_time_span"}) summary["units"][name] = "1";
+  }
+  summary["areas"] = areas_of(result);
+  if (!result.areas.empty()) {
+    for (const char* name : {"em", "em_se", "emin", "emin_se", "emax", "emax_se", "em_initial", "em_initial_se",
+                             "emin_initial", "emin_initial_se", "emax_initial", "emax_initial_se", "lowest", "highest"})
+      summary["units"][name] = std::string(irradiance_unit(result.quantity));
+    for (const char* name : {"u0", "u0_se", "ud", "ud_se", "target_uniformity"}) summary["units"][name] = "1";
+    for (const char* name : {"spacing", "margin", "above_floor"}) summary["units"][name] = "m";
   }
   summary["settings"] = settings_of(result.settings);
   if (!files.tile_images) summary["tile_images"] = false;

@@ -11,13 +11,14 @@ namespace lichtmc {
 
 namespace {
 
-// ink: text; paper: background; rule: grid lines and frames; halo: text on pictures.
+// ink: text; paper: background; rule: grid lines and frames; line: walls; halo: text on pictures.
 constexpr std::string_view style =
     "<style>.lichtmc .ink{fill:#1b1b1b}.lichtmc .muted{fill:#5a5a5a}.lichtmc .paper{fill:#fff}"
     ".lichtmc .rule{stroke:#ddd}.lichtmc .frame{stroke:#888;fill:none}.lichtmc .mark{stroke:#1b1b1b;fill:#fff}"
+    ".lichtmc .line{stroke:#1b1b1b;fill:none}"
     ".lichtmc .halo{fill:#000;stroke:#fff;stroke-width:3px;paint-order:stroke;stroke-linejoin:round}"
     "@media screen and (prefers-color-scheme:dark){.lichtmc .ink{fill:#ececec}.lichtmc .muted{fill:#a8a8a8}"
-    ".lichtmc .paper{fill:#1a1b1e}.lichtmc .rule{stroke:#3a3c40}.lichtmc .frame{stroke:#888}}</style>\n";
+    ".lichtmc .paper{fill:#1a1b1e}.lichtmc .rule{stroke:#3a3c40}.lichtmc .frame{stroke:#888}.lichtmc .line{stroke:#ececec}}</style>\n";
 
 constexpr double title_size = 17.0;
 

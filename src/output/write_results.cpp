@@ -20,6 +20,7 @@
 #include "output/summary.hpp"
 #include "output/tables.hpp"
 #include "output/tile_image.hpp"
+#include "output/write_areas.hpp"
 
 namespace lichtmc {
 
@@ -76,7 +77,7 @@ FolderLock prepare_output(const fs::path& folder) {
   FolderLock lock(folder);
   if (const std::error_code fault = try_to_write(folder)) refuse_folder(folder, reason_of(fault));
   StagedFiles::remove_leftovers(folder);
-  for (const char* name : {"tiles", "pictures"}) {
+  for (const char* name : {"tiles", "areas", "pictures"}) {
     const fs::path inner = folder / name;
     if (!fs::exists(inner, error)) continue;
     if (!fs::is_directory(inner, error)) refuse_folder(folder, in_quotes(name) + " in it is not a folder");
@@ -101,6 +102,7 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
   if (!result.receiver_results.empty())
     staged.write("receivers.csv", [&](const Sink& sink) { write_receivers_csv(result, sink); });
   if (result.channels) write_channels(result, staged);
+  write_areas(room, result, staged);
   staged.write("emitters.csv", emitters_csv(room));
   staged.write("summary.json", [&](const Sink& sink) { write_summary(room, result, files, sink); });
   staged.flush();
@@ -123,6 +125,7 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
     remove_old(folder / "surfaces.csv");
   }
   if (result.receiver_results.empty()) remove_old(folder / "receivers.csv");
+  remove_old_areas(result, folder);
   if (!result.channels) {
     for (const char* name : {"impulse_response.csv", "channels.csv", "channels.h5"}) remove_old(folder / name);
   }

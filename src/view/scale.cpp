@@ -1,11 +1,12 @@
 // Colour scale: the colour of each irradiance.
+#include "view/scale.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
-#include "lichtmc/picture.hpp"
 
 namespace lichtmc {
 
@@ -60,21 +61,11 @@ double ColourScale::share(double irradiance) const {
   return place > 0.0 ? std::min(place, 1.0) : 0.0;
 }
 
-ColourScale choose_scale(const Result& result, const ScaleOptions& options) {
+ColourScale scale_of(std::vector<std::pair<double, double>> lit, Quantity quantity, const ScaleOptions& options) {
   if (options.high && !(*options.high >= least_scale_top && *options.high <= greatest_scale_top)) {
     throw InputError("The top of the colour scale is " + to_text(*options.high) + " " +
-                     std::string(irradiance_unit(result.quantity)) +
+                     std::string(irradiance_unit(quantity)) +
                      " (allowed: a number above 0, from 1e-300 to 1e300). Give --scale-max such a number, or omit it.");
-  }
-  std::vector<std::pair<double, double>> lit;
-  for (std::size_t t = 0; t < result.tiles.size(); ++t) {
-    if (result.tiles[t].irradiance > 0.0) lit.emplace_back(result.tiles[t].irradiance, result.tiling.tiles[t].area_m2);
-  }
-  // Without results of tiles, the receivers determine the scale.
-  if (lit.empty()) {
-    for (const ReceiverResult& receiver : result.receiver_results) {
-      if (receiver.irradiance > 0.0) lit.emplace_back(receiver.irradiance, 1.0);
-    }
   }
   std::sort(lit.begin(), lit.end());
   ColourScale scale;
@@ -89,6 +80,20 @@ ColourScale choose_scale(const Result& result, const ScaleOptions& options) {
     scale.low = std::clamp(dark, least, 0.1 * scale.high);
   }
   return scale;
+}
+
+ColourScale choose_scale(const Result& result, const ScaleOptions& options) {
+  std::vector<std::pair<double, double>> lit;
+  for (std::size_t t = 0; t < result.tiles.size(); ++t) {
+    if (result.tiles[t].irradiance > 0.0) lit.emplace_back(result.tiles[t].irradiance, result.tiling.tiles[t].area_m2);
+  }
+  // Without results of tiles, the receivers determine the scale.
+  if (lit.empty()) {
+    for (const ReceiverResult& receiver : result.receiver_results) {
+      if (receiver.irradiance > 0.0) lit.emplace_back(receiver.irradiance, 1.0);
+    }
+  }
+  return scale_of(std::move(lit), result.quantity, options);
 }
 
 }  // namespace lichtmc

@@ -31,10 +31,10 @@ PUBLIC = {
     "settings": "room", "channel": "room", "fingerprint": "room",  # plain data that every layer may read
     "communicator": "run", "control": "run", "progress": "run", "state": "run", "mpi": "mpi",
     "result": "run", "dimmed_scene": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
-    "prepared_room": "tracer", "paths": "walk", "picture": "view",
+    "prepared_room": "tracer", "paths": "walk", "picture": "view", "area_drawing": "view",
     "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output", "luminaire_figures": "output", "folder_lock": "output",
 }
-ADAPTERS_SEE_RESULTS = {"output": ["prepared_room", "result", "inspect", "study", "picture", "paths", "lit_room"], "gltf": ["result", "picture", "paths"]}
+ADAPTERS_SEE_RESULTS = {"output": ["prepared_room", "result", "inspect", "study", "picture", "area_drawing", "paths", "lit_room"], "gltf": ["result", "picture", "paths"]}
 # Libraries that only these files or folders may include.
 LIBRARIES = {
     r"embree\d?/": ["src/tracer/embree.hpp"],

@@ -1,0 +1,38 @@
+// The figures of calculation areas in words, for readers: terminal, plans, report.
+#pragma once
+
+#include <string>
+
+#include "lichtmc/area.hpp"
+#include "lichtmc/result.hpp"
+#include "lichtmc/units.hpp"
+
+namespace lichtmc {
+
+// A figure with its standard error, to one digit of the error and at most so many of the value: "349 ± 2", "0.55 ±
+// 0.01". The error is rounded up. An error of 0 or an unknown one is left out. "–" without a value.
+std::string figure_text(const Figure& figure, int most_digits = 4);
+
+// "0.60"
+std::string uniformity_target_text(double target);
+
+// "desk (task)"
+std::string area_title(const Area& area);
+
+// "Em 349 ± 2 lx, U0 0.55 ± 0.01"; of radiant quantities "mean 3.49 ± 0.02 W/m², uniformity 0.55 ± 0.01".
+std::string area_figures_text(const AreaResult& result, Quantity quantity);
+
+// "target 500 lx, 0.60: fail"; which of two targets fails or is undecided, is told: "target 500 lx, 0.60: fail (U0)".
+// Empty without a target.
+std::string area_target_text(const AreaResult& result, Quantity quantity);
+
+// "cylindrical illuminance, 0.75 m above the floor"
+std::string area_quantity_text(const Area& area, Quantity quantity);
+
+// "12 of 48 cells have no point: 8 outside its outline, 4 within 0.5 m of a wall"; empty if no cell is left out.
+std::string area_left_out_text(const Area& area);
+
+// Whether its figures are maintained values that differ from the initial ones.
+bool has_maintenance(const AreaResult& result);
+
+}  // namespace lichtmc

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "base/message.hpp"
+#include "lichtmc/compare.hpp"
+#include "lichtmc/error.hpp"
+
+namespace lichtmc {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse_design(const fs::path& file, const std::string& fault) {
+  throw InputError("Cannot read " + in_quotes(file.string()) + " (" + fault +
+                   "). Give an output folder of 'lichtmc run' with calculation areas, or run it again.");
+}
+
+// A number; NaN where the file has null.
+double number_of(const nlohmann::json& object, const std::string& key) {
+  const nlohmann::json& value = object.at(key);
+  return value.is_null() ? std::nan("") : value.get<double>();
+}
+
+Figure figure_of(const nlohmann::json& area, const std::string& key) {
+  return {number_of(area, key), number_of(area, key + "_se")};
+}
+
+std::optional<double> known(double value) {
+  return std::isnan(value) ? std::nullopt : std::optional<double>(value);
+}
+
+Verdict verdict_of(const nlohmann::json& verdict) {
+  if (verdict.is_null()) return Verdict::none;
+  const auto text = verdict.get<std::string>();
+  for (const Verdict one : {Verdict::pass, Verdict::fail, Verdict::undecided}) {
+    if (to_string(one) == text) return one;
+  }
+  return Verdict::none;
+}
+
+struct Design {
+  std::string unit;
+  std::vector<DesignArea> areas;
+  DesignTotals total;
+};
+
+// The schedule must hold every emitter: else the sum would be too small without a word.
+std::optional<double> watts_of(const nlohmann::json& summary) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const nlohmann::json& luminaire : summary.at("luminaires")) {
+    const double watts = number_of(luminaire, "total_watts");
+    if (std::isnan(watts)) return std::nullopt;
+    sum += watts;
+    count += luminaire.at("count").get<std::size_t>();
+  }
+  return count > 0 && count == summary.at("emitters").size() ? std::optional<double>(sum) : std::nullopt;
+}
+
+Design design_of(const nlohmann::json& summary) {
+  Design design;
+  design.unit = summary.at("unit").get<std::string>();
+  design.total = {number_of(summary, "emitted"), watts_of(summary)};
+  for (const nlohmann::json& area : summary.at("areas")) {
+    design.areas.push_back({area.at("name").get<std::string>(), area.at("role").get<std::string>(),
+                            area.at("quantity").get<std::string>(), area.at("points").get<std::size_t>(),
+                            figure_of(area, "em"), figure_of(area, "emin"), figure_of(area, "u0"),
+                            known(number_of(area, "target_lx")), known(number_of(area, "target_uniformity")),
+                            verdict_of(area.at("verdict"))});
+  }
+  return design;
+}
+
+Design read_design(const fs::path& folder) {
+  const fs::path file = folder / "summary.json";
+  std::ifstream in(file);
+  if (!in) refuse_design(file, "the file does not exist; a complete run writes it");
+  const nlohmann::json summary = nlohmann::json::parse(in, nullptr, false);
+  if (!summary.is_object()) refuse_design(file, "it is not a JSON object");
+  if (!summary.contains("areas") || summary["areas"].empty())
+    throw InputError("The result in " + in_quotes(folder.string()) +
+                     " has no calculation areas (allowed: results with at least one). Run it again with --plane, "
+                     "--area or --area-on, or with areas in its room; or compare without --designs.");
+  try {
+    return design_of(summary);
+  } catch (const nlohmann::json::exception& fault) {
+    refuse_design(file, fault.what());
+  }
+}
+
+Figure difference(const Figure& a, const Figure& b) {
+  return {b.value - a.value, std::hypot(a.standard_error, b.standard_error)};
+}
+
+}  // namespace
+
+DesignComparison compare_designs(const fs::path& a, const fs::path& b) {
+  Design design_a = read_design(a);
+  Design design_b = read_design(b);
+  if (design_a.unit != design_b.unit)
+    throw InputError("The powers in " + in_quotes(a.string()) + " are in " + design_a.unit + ", those in " +
+                     in_quotes(b.string()) + " in " + design_b.unit +
+                     " (allowed: the same unit). Give --unit for one of the runs.");
+  DesignComparison designs;
+  designs.a = a.string();
+  designs.b = b.string();
+  designs.unit = design_a.unit;
+  designs.total_a = design_a.total;
+  designs.total_b = design_b.total;
+  for (DesignArea& area : design_a.areas) designs.areas.push_back({std::move(area), std::nullopt, {}, {}});
+  for (DesignArea& area : design_b.areas) {
+    const auto same = std::find_if(designs.areas.begin(), designs.areas.end(),
+                                   [&area](const DesignAreas& other) { return other.a && other.a->name == area.name; });
+    if (same == designs.areas.end()) {
+      designs.areas.push_back({std::nullopt, std::move(area), {}, {}});
+      continue;
+    }
+    same->mean_difference = difference(same->a->mean, area.mean);
+    same->uniformity_difference = difference(same->a->uniformity, area.uniformity);
+    same->b = std::move(area);
+  }
+  return designs;
+}
+
+}  // namespace lichtmc
