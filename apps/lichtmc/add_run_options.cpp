@@ -17,6 +17,16 @@ void add_checkpoint_option(CLI::App& command, std::string& checkpoint, const std
       ->group(group);
 }
 
+void add_message_options(CLI::App& command, std::optional<std::string>& progress, bool& quiet,
+                         const std::string& quiet_help) {
+  command
+      .add_option("--progress", progress,
+                  "Progress on stderr: bar (a line every few seconds where stderr is no terminal), json (for programs: "
+                  "one object per line), or none [bar; none with --quiet]")
+      ->type_name("FORM");
+  command.add_flag("--quiet", quiet, quiet_help);
+}
+
 void add_report_options(CLI::App& command, ReportArguments& options) {
   const std::string group = "Report (report.html, room_lit.glb and pictures/)";
   command.add_flag("--images,!--no-images", options.images, "Write the tile maps as images, tiles/*.exr [yes]")
@@ -168,7 +178,8 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_channel_options(command, options.channel);
   add_report_options(command, options.report_arguments);
   add_room_options(command, options.reading);
-  command.add_flag("--quiet", options.quiet, "Print only warnings of check and errors, no progress and no summary");
+  add_message_options(command, options.progress, options.quiet,
+                      "Print only warnings of check and errors, no progress and no summary");
 }
 
 }  // namespace lichtmc::app

@@ -191,7 +191,7 @@ void print_findings(const Inspection& facts) {
 
 int check(const CheckOptions& options) {
   const double tile_edge_m = parse_number(options.tile, "--tile");
-  StepLine line(ProgressLine::Show::yes);
+  StepLine line(ProgressForm::bar);
   line.update("Reading the room");
   const Room room = read_room(options.reading);
   const Inspection facts =

@@ -24,11 +24,12 @@ void run(const RunOptions& options, const Invocation& invocation) {
   job.checkpoint_seconds = parse_checkpoint(options.checkpoint);
   job.note = note_of(invocation.arguments);
   job.quiet = options.quiet;
+  job.progress = parse_progress(options.progress, options.quiet);
   job.folder = options.output.empty() ? std::filesystem::path(options.reading.file).stem().concat(".out")
                                       : std::filesystem::path(options.output);
   job.communicator = invocation.communicator;
   {
-    StepLine line(job.quiet || !is_rank_0(job.communicator) ? ProgressLine::Show::no : ProgressLine::Show::yes);
+    StepLine line(is_rank_0(job.communicator) ? job.progress : ProgressForm::none);
     line.update("Reading the room");
     job.room = read_run_room(options, job.notes);
   }

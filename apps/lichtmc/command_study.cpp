@@ -1,4 +1,5 @@
 // lichtmc study: computing time against error in a room.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -18,8 +19,10 @@
 #include "lichtmc/output.hpp"
 #include "lichtmc/study.hpp"
 #include "lichtmc/visible_text.hpp"
+#include "progress_line.hpp"
 #include "quantities.hpp"
 #include "room_options.hpp"
+#include "run_options.hpp"
 #include "stop_options.hpp"
 
 namespace lichtmc::app {
@@ -32,6 +35,7 @@ struct StudyCommand {
   std::optional<std::string> max_time, tile, error_floor;
   std::string seed = "1";
   std::optional<int> threads;
+  std::optional<std::string> progress;
   bool quick = false;
   bool quiet = false;
 };
@@ -69,7 +73,19 @@ std::function<void(const StudyProgress&)> progress_printer(bool terminal) {
   };
 }
 
+ProgressFacts facts_of(const StudyProgress& progress) {
+  ProgressFacts facts;
+  facts.stage = "study";
+  facts.step = progress.what;
+  if (progress.of_seconds > 0.0) {
+    facts.fraction = std::min(1.0, progress.seconds / progress.of_seconds);
+    facts.seconds_left = std::max(0.0, progress.of_seconds - progress.seconds);
+  }
+  return facts;
+}
+
 void run(const StudyCommand& command) {
+  const ProgressForm form = parse_progress(command.progress, command.quiet);
   StudyOptions options = parse_options(command);
   const Room room = read_room(command.reading);
   check_room(room);
@@ -83,10 +99,17 @@ void run(const StudyCommand& command) {
   for (const std::string& line : warning_lines(room, inspect(room, std::numeric_limits<double>::max())))
     std::cerr << "Warning: " << visible_text(line) << '\n';
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (!command.quiet) options.progress = progress_printer(terminal);
+  if (form == ProgressForm::bar) options.progress = progress_printer(terminal);
+  std::optional<ProgressJson> json;
+  if (form == ProgressForm::json) {
+    json.emplace();
+    options.progress = [&json](const StudyProgress& progress) { json->tell(facts_of(progress)); };
+  }
   const Study found = study(room, options);
-  if (!command.quiet && terminal) bar_stream() << "\r\x1b[K";
+  if (form == ProgressForm::bar && terminal) bar_stream() << "\r\x1b[K";
   write_study(found, folder);
+  json.reset();
+  if (form == ProgressForm::json) tell_done(std::nullopt, std::nullopt);
   std::cout << advice_text(found);
   if (!command.quiet) {
     std::cerr << "\nResults are in " << visible_text(folder.string())
@@ -116,7 +139,8 @@ void add_study_command(CLI::App& program, const Invocation& /*invocation*/) {
       ->capture_default_str();
   command->add_option("--threads", options->threads, "Number of threads [one per processor]")->type_name("N");
   add_room_options(*command, options->reading);
-  command->add_flag("--quiet", options->quiet, "Print only the advice, the warnings of check and errors, no progress");
+  add_message_options(*command, options->progress, options->quiet,
+                      "Print only the advice, the warnings of check and errors, no progress");
   command->footer(
       "The study runs every estimator, forward and backward, with direct light sampled and integrated, with "
       "increasing\n"

@@ -27,7 +27,8 @@ void add_override_options(CLI::App& command, OverrideOptions& options, const std
       ->type_name("FILE.csv");
   add_threads_option(command, options.threads, machine_group);
   add_report_options(command, options.report_arguments);
-  command.add_flag("--quiet", options.quiet, "Print only warnings of check and errors, no progress and no summary");
+  add_message_options(command, options.progress, options.quiet,
+                      "Print only warnings of check and errors, no progress and no summary");
 }
 
 namespace {
@@ -99,6 +100,7 @@ RunJob job_of(const State& state, const RunOptions& run, const OverrideOptions& 
   job.files.tile_images = wants_images(run.report_arguments);
   job.note = state.note();
   job.quiet = overrides.quiet;
+  job.progress = parse_progress(overrides.progress, overrides.quiet);
   job.room = read_run_room(run, job.notes);
   return job;
 }

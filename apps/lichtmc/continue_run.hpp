@@ -22,6 +22,7 @@ struct OverrideOptions {
   std::optional<std::string> receivers;
   std::optional<int> threads;
   ReportArguments report_arguments;
+  std::optional<std::string> progress;
   bool quiet = false;
 };
 void add_override_options(CLI::App& command, OverrideOptions& options, const std::string& output_help,

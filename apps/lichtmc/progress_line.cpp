@@ -1,6 +1,7 @@
 #include "progress_line.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -9,6 +10,7 @@
 #include <unistd.h>
 
 #include "console.hpp"
+#include "lichtmc/error.hpp"
 
 namespace lichtmc::app {
 
@@ -39,11 +41,18 @@ std::string short_time(double seconds) {
   return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
 }
 
-ProgressLine::ProgressLine(Show show, const Settings& settings)
-    : show_(show),
-      terminal_(isatty(STDERR_FILENO) != 0),
-      settings_(settings),
-      last_(std::chrono::steady_clock::now()) {}
+ProgressForm parse_progress(const std::optional<std::string>& form, bool quiet) {
+  if (!form) return quiet ? ProgressForm::none : ProgressForm::bar;
+  if (*form == "bar") return ProgressForm::bar;
+  if (*form == "json") return ProgressForm::json;
+  if (*form == "none") return ProgressForm::none;
+  throw InputError("--progress is '" + *form + "' (allowed: bar, json, none). Choose one of them.");
+}
+
+ProgressLine::ProgressLine(ProgressForm form, const Settings& settings)
+    : form_(form), terminal_(isatty(STDERR_FILENO) != 0), settings_(settings), last_(std::chrono::steady_clock::now()) {
+  if (form_ == ProgressForm::json) json_.emplace();
+}
 
 ProgressLine::~ProgressLine() {
   if (drawn_ && terminal_) bar_stream() << "\r\x1b[K";  // removes the bar; results follow
@@ -97,8 +106,29 @@ std::string ProgressLine::describe(const Progress& progress) const {
   return text;
 }
 
+ProgressFacts ProgressLine::facts(const Progress& progress) const {
+  constexpr std::array<const char*, 5> stages{"preparation", "direct_light", "pilot", "tiles", "receivers"};
+  ProgressFacts facts;
+  facts.stage = stages.at(static_cast<std::size_t>(progress.stage));
+  facts.step = progress.step;
+  facts.target_error = settings_.target_error;
+  if (progress.stage == Progress::Stage::preparation || progress.stage == Progress::Stage::pilot) return facts;
+  if (const double left = seconds_left(progress); std::isfinite(left)) {
+    facts.seconds_left = left;
+    facts.fraction = fraction_done(progress);
+  }
+  if (progress.stage == Progress::Stage::direct_light) return facts;
+  facts.error = progress.rms_relative_error;
+  facts.histories = progress.histories;
+  return facts;
+}
+
 void ProgressLine::update(const Progress& progress) {
-  if (show_ == Show::no) return;
+  if (form_ == ProgressForm::none) return;
+  if (json_) {
+    json_->tell(facts(progress));
+    return;
+  }
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < (terminal_ ? bar_interval : line_interval)) return;
   last_ = now;
@@ -113,8 +143,9 @@ void ProgressLine::update(const Progress& progress) {
                       "\x1b[K";
 }
 
-StepLine::StepLine(ProgressLine::Show show) : show_(show), terminal_(isatty(STDERR_FILENO) != 0) {
-  if (show_ == ProgressLine::Show::yes && !terminal_)
+StepLine::StepLine(ProgressForm form) : form_(form), terminal_(isatty(STDERR_FILENO) != 0) {
+  if (form_ == ProgressForm::json) json_.emplace();
+  if (form_ == ProgressForm::bar && !terminal_)
     watcher_ = std::jthread([this](const std::stop_token& ended) { watch(ended); });
 }
 
@@ -136,7 +167,14 @@ void StepLine::watch(const std::stop_token& ended) {
 }
 
 void StepLine::update(std::string_view what) {
-  if (show_ == ProgressLine::Show::no) return;
+  if (form_ == ProgressForm::none) return;
+  if (json_) {
+    ProgressFacts facts;
+    facts.stage = stage_;
+    facts.step = what;
+    json_->tell(facts);
+    return;
+  }
   const std::lock_guard lock(mutex_);
   if (terminal_) {
     drawn_ = true;
@@ -149,6 +187,7 @@ void StepLine::update(std::string_view what) {
 }
 
 void StepLine::clear() {
+  if (json_) json_->pause();
   const std::lock_guard lock(mutex_);
   if (drawn_) bar_stream() << "\r\x1b[K" << std::flush;
   drawn_ = false;

@@ -43,8 +43,8 @@ void write_checkpoint(const State& state, RunJob& job) {
 
 // prepared: of the room, or null.
 Result simulate_with(RunJob& job, const std::shared_ptr<PreparedRoom>& prepared, const std::stop_token& stop,
-                     ProgressLine::Show show, const std::function<Result(const Control&)>& simulate) {
-  ProgressLine line(is_rank_0(job.communicator) ? show : ProgressLine::Show::no, job.settings);
+                     ProgressForm form, const std::function<Result(const Control&)>& simulate) {
+  ProgressLine line(is_rank_0(job.communicator) ? form : ProgressForm::none, job.settings);
   Control control;
   control.stop = stop;
   control.communicator = job.communicator;
@@ -121,24 +121,35 @@ std::vector<std::string> without(std::vector<std::string> warnings, const std::v
   return warnings;
 }
 
-void write_all(RunJob& job, Result& result, const std::vector<std::string>& printed, ProgressLine::Show show) {
+// The greater error of those of tiles and receivers.
+std::optional<double> error_of(const Result& result) {
+  std::optional<double> error;
+  if (!result.tiles.empty()) error = result.walk.rms_relative_error;
+  if (!result.receiver_results.empty()) error = std::max(error.value_or(0.0), result.receiver_walk.rms_relative_error);
+  return error;
+}
+
+void write_all(RunJob& job, Result& result, const std::vector<std::string>& printed, ProgressForm form) {
   hold_folder(job);
   hold_folder(job);
   const std::vector<std::string> of_the_run = without(result.warnings, printed);
   result.warnings = of_the_run;
   result.warnings.insert(result.warnings.end(), printed.begin(), printed.end());
   {
-    StepLine line(show);
+    StepLine line(form);
+    line.set_stage("writing");
     line.update("Writing the results");
     write_state(result.state, job.folder / "state.h5", job.note);
     result.state = {};  // frees as much memory as the tiles need
     write_results(job.room, result, job.folder, job.files);
   }
   if (job.with_report) {
-    StepLine line(show);
+    StepLine line(form);
+    line.set_stage("writing");
     job.report.progress = [&line](std::string_view what) { line.update(what); };
     write_report(job.room, result, job.folder, job.report);
   }
+  if (form == ProgressForm::json) tell_done(error_of(result), result.settings.target_error);
   result.warnings = of_the_run;
   for (std::string& note : files_left_out(result)) result.warnings.push_back(std::move(note));
   if (!job.quiet) print_outcome(result, job.folder, job.with_report, job.files.tile_images);
@@ -195,26 +206,26 @@ bool is_rank_0(const Communicator* communicator) {
 
 void carry_out_run(RunJob& job, const std::function<Result(const Control&)>& simulate) {
   const InterruptWatch interrupt;
-  const auto show = job.quiet ? ProgressLine::Show::no : ProgressLine::Show::yes;
+  const ProgressForm form = job.progress;
   if (!is_rank_0(job.communicator)) {
-    simulate_with(job, nullptr, interrupt.token(), show, simulate);
+    simulate_with(job, nullptr, interrupt.token(), form, simulate);
   } else {
     NewFolders created(job.folder);
     const ReleaseAtEnd release(job.lock);
     hold_folder(job);
     print_notes(job);
     tell_memory(job);
-    StepLine line(show);
+    StepLine line(form);
     const auto prepared = prepare(job.room, job.report.threads, [&line](std::string_view step) { line.update(step); });
     const double edge_m = job.settings.tile_edge_m;
     const auto inspection = std::make_shared<const Inspection>(inspect(job.room, edge_m, prepared));
     line.clear();
     const std::vector<std::string> warnings = print_warnings_of_check(job, *inspection);
-    Result result = simulate_with(job, prepared, interrupt.token(), show, simulate);
+    Result result = simulate_with(job, prepared, interrupt.token(), form, simulate);
     created.keep();
     job.report.prepared = prepared;
     if (result.settings.tile_edge_m == edge_m) job.report.inspection = inspection;
-    write_all(job, result, warnings, show);
+    write_all(job, result, warnings, form);
   }
   // All ranks wait until rank 0 has written: mpirun ends all processes if a signal ends one of them.
   std::byte written{};

@@ -9,6 +9,7 @@
 
 #include "lichtmc/output.hpp"
 #include "lichtmc/simulate.hpp"
+#include "progress_line.hpp"
 #include "run_options.hpp"
 
 namespace lichtmc::app {
@@ -25,6 +26,7 @@ struct RunJob {
   std::optional<FolderLock> lock;  // of the folder, if it is held already
   std::vector<std::string> notes;  // printed before the simulation
   bool quiet = false;
+  ProgressForm progress = ProgressForm::bar;
   Communicator* communicator = nullptr;
 };
 

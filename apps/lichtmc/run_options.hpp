@@ -44,12 +44,16 @@ struct RunOptions {
   ChannelOptions channel;
   ReportArguments report_arguments;
   std::string checkpoint = "60s";
+  std::optional<std::string> progress;
   bool quiet = false;
 };
 
 void add_run_options(CLI::App& command, RunOptions& options);
 void add_report_options(CLI::App& command, ReportArguments& options);
 void add_threads_option(CLI::App& command, std::optional<int>& threads, const std::string& group);
+// --progress and --quiet.
+void add_message_options(CLI::App& command, std::optional<std::string>& progress, bool& quiet,
+                         const std::string& quiet_help);
 void add_checkpoint_option(CLI::App& command, std::string& checkpoint, const std::string& group);
 
 // The values of the options. Throw InputError that names the option.
