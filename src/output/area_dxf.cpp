@@ -15,7 +15,6 @@
 #include "base/message.hpp"
 #include "base/utf8.hpp"
 #include "lichtmc/area_drawing.hpp"
-#include "lichtmc/output.hpp"
 #include "output/area_numbers.hpp"
 #include "output/area_words.hpp"
 
@@ -23,10 +22,11 @@ namespace lichtmc {
 
 namespace {
 
-// Colour numbers of AutoCAD: 1 red … 6 magenta; 7 is black or white, whichever is not the background; 8 grey.
+// Colour numbers of AutoCAD: 7 is black or white, whichever is not the background; 8 grey. The others can be seen on
+// both: red, orange, dark green, light blue, blue, magenta.
 constexpr int dxf_ink = 7;
 constexpr int dxf_grey = 8;
-constexpr int dxf_colours = 6;
+constexpr std::array<int, 6> dxf_colours{1, 30, 94, 140, 5, 6};
 
 // A text: characters beyond ASCII by their numbers, which readers since Release 13 understand, except "±".
 std::string dxf_text(std::string_view text) {
@@ -177,6 +177,24 @@ void write_tables(DxfFile& dxf, const std::vector<Layer>& layers) {
   dxf.end_section();
 }
 
+// The place of a line's value, farthest from the numbers: between two rows of them, if it gets there.
+glm::dvec2 label_place(const AreaDrawing& drawing, const Isoline& line) {
+  glm::dvec2 best = line.points.front();
+  double farthest = -1.0;
+  const auto consider = [&](const glm::dvec2& p) {
+    const glm::dvec2 cells = (p - drawing.corner) / drawing.cell - 0.5;
+    const glm::dvec2 away = glm::abs(cells - glm::round(cells));
+    const double distance = away.y + 0.5 * away.x;
+    if (distance <= farthest) return;
+    farthest = distance;
+    best = p;
+  };
+  for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+    for (const double share : {0.0, 0.25, 0.5, 0.75}) consider(glm::mix(line.points[k], line.points[k + 1], share));
+  }
+  return best;
+}
+
 // From the sheet to the coordinates of the drawing.
 class DrawingPlaces {
  public:
@@ -207,7 +225,7 @@ std::string area_dxf(const Room& room, const Result& result, std::size_t k) {
   std::map<double, std::string> layer_of_level;
   for (const Isoline& line : drawing.isolines) {
     if (!layer_of_level.emplace(line.level, isolux_layer(line.level)).second) continue;
-    layers.push_back({layer_of_level[line.level], 1 + static_cast<int>(layer_of_level.size() - 1) % dxf_colours});
+    layers.push_back({layer_of_level[line.level], dxf_colours[(layer_of_level.size() - 1) % dxf_colours.size()]});
   }
 
   DxfFile dxf;
@@ -227,7 +245,8 @@ std::string area_dxf(const Room& room, const Result& result, std::size_t k) {
     std::vector<glm::dvec2> points;
     for (const glm::dvec2& p : line.points) points.push_back(places(p));
     dxf.polyline(layer, points);
-    dxf.text(layer, points[points.size() / 2], 0.8 * height, places.angle_deg(), short_number(line.level), true);
+    dxf.text(layer, places(label_place(drawing, line)), 0.8 * height, places.angle_deg(), short_number(line.level),
+             true);
   }
   for (std::size_t c = 0; c < drawing.values.size(); ++c) {
     if (drawing.has_point[c])
@@ -235,8 +254,14 @@ std::string area_dxf(const Room& room, const Result& result, std::size_t k) {
   }
   const SheetLine box = drawing.box();
   const double title_height = std::clamp(0.03 * (box[1].x - box[0].x), 0.02, 0.5);
-  dxf.text("TITLE", places({box[0].x, box[1].y + 2.0 * title_height}), title_height, places.angle_deg(),
-           area_line(figures, result.quantity) + " (numbers in " + numbers.unit() + ")", false);
+  double below = box[1].y;
+  const std::string target = area_target_text(figures, result.quantity);
+  for (const std::string& line : {area_title(figures.area), area_figures_text(figures, result.quantity), target,
+                                  "Numbers in " + numbers.unit() + "; lengths in m"}) {
+    if (line.empty()) continue;
+    below += 2.0 * title_height;
+    dxf.text("TITLE", places({box[0].x, below}), title_height, places.angle_deg(), line, false);
+  }
   dxf.end_section();
   dxf.pair(0, "EOF");
   return dxf.content();

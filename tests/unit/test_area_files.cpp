@@ -249,10 +249,10 @@ TEST_CASE("a drawing for CAD programs has isolux lines at their levels, in the c
         std::set<std::string>{"0", "AREA", "ISOLUX_150", "ISOLUX_200", "ISOLUX_250", "NUMBERS", "ROOM", "TITLE"});
   CHECK(entities["POLYLINE"] == 3);
   CHECK(entities["SEQEND"] == 3);
-  CHECK(entities["TEXT"] == 40 + 3 + 1);  // numbers, levels, title
+  CHECK(entities["TEXT"] == 40 + 3 + 3);  // numbers, levels, title
   CHECK(entities["LINE"] >= 4 + 4);       // outline, walls
   CHECK(entities["EOF"] == 1);
-  CHECK_THAT(dxf, ContainsSubstring("b\\U+00FCro %%p (task): Em 200.0 %%p 0.5 lx"));
+  CHECK_THAT(dxf, ContainsSubstring("\nb\\U+00FCro %%p (task)\n"));
 }
 
 TEST_CASE("areas.csv has the documented columns") {
