@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
 # Tests with Node.js and a browser: the Khronos validator on every glTF file that the project ships or writes; lit rooms in
-# three.js; reports in headless Chromium. Installs the requirements (Node.js and Chromium as Debian packages, the rest
-# from npm into build/web) and builds the program.
+# three.js; reports in headless Chromium, on screen and on paper. Installs the requirements (Node.js, Chromium and
+# poppler-utils, which reads printed pages, as Debian packages, the rest from npm into build/web) and builds the program.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# The packages have the names of the programs, except that of node. Programs from other sources are used if present.
+# The packages have the names of the programs, except those of node and pdftotext. Programs from other sources are used if present.
 install_packages() {
   local missing=()
   command -v node >/dev/null || missing+=(nodejs)
   command -v npm >/dev/null || missing+=(npm)
   command -v chromium >/dev/null || missing+=(chromium)
+  command -v pdftotext >/dev/null || missing+=(poppler-utils)
   [ ${#missing[@]} -eq 0 ] && return
   local as_root=()
   if [ "$(id -u)" -ne 0 ]; then
@@ -57,6 +58,10 @@ done
 build/release/bin/lichtmc run scenes/cube_paper.gltf --tile 0.00775 --scale-type log --colormap inferno --quiet \
   -o build/web/out/many_tiles
 results+=(build/web/out/many_tiles)
+# A lighting report without calculation areas.
+words=(--project "House in <Elm> Street" --author "A. B. Cooper" --date "1 May 2026")
+build/release/bin/lichtmc run scenes/living_room.glb --photons 2e5 --report-style lighting "${words[@]}" --quiet -o build/web/out/lighting
+printed=(build/web/out/living_room build/web/out/lighting)
 build/release/bin/lichtmc paths scenes/living_room.glb --quiet -o build/web/out/paths
 lit=("${results[@]/%//room_lit.glb}")
 
@@ -72,5 +77,6 @@ check() {
 check node tools/web/validate.mjs build/web scenes/*.gltf scenes/*.glb "${written[@]}" "${lit[@]}" build/web/out/paths/paths.glb
 check node tools/web/check_lit_room.mjs build/web "${lit[@]}"
 check node tools/web/check_report.mjs build/web "${results[@]}"
+check node tools/web/check_print.mjs build/web "${printed[@]}"
 awk '{ passed += $1; failed += $3 } END { printf "%d passed, %d failed\n", passed, failed }' "$counts"
 exit "$status"

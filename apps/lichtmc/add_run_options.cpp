@@ -52,6 +52,21 @@ void add_report_options(CLI::App& command, ReportArguments& options) {
   command.add_option("--paths", options.paths, "Show the paths of the first N photons, up to 10000 [none]")
       ->type_name("N")
       ->group(group);
+  command
+      .add_option("--report-style", options.style,
+                  "lighting: pages for a client, the technical report behind them; or technical alone [lighting where "
+                  "the room has calculation areas]")
+      ->type_name("STYLE")
+      ->group(group);
+  command.add_option("--project", options.project, "Name of the project, for the first page of a lighting report")
+      ->type_name("TEXT")
+      ->group(group);
+  command.add_option("--author", options.author, "Who answers for it, for the first page")
+      ->type_name("TEXT")
+      ->group(group);
+  command.add_option("--date", options.date, "Date for the first page, in any form [none]")
+      ->type_name("TEXT")
+      ->group(group);
   command.add_option("--pictures", options.pictures, "exr: also write the pictures as OpenEXR")
       ->type_name("FORM")
       ->group(group);

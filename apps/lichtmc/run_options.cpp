@@ -177,6 +177,26 @@ ColourMap parse_colour_map(const std::string& text) {
                    "' is not known (allowed: viridis, inferno). Give one of these to --colormap.");
 }
 
+ReportStyle parse_report_style(const std::string& text) {
+  if (text == "lighting") return ReportStyle::lighting;
+  if (text == "technical") return ReportStyle::technical;
+  throw InputError(
+      "The report style '" + text +
+      "' is not known (allowed: lighting, technical). Give one of these to --report-style, or leave it out: "
+      "lighting where the room has calculation areas, else technical.");
+}
+
+// The first option given that has no meaning without a report.
+const char* option_for_report(const ReportArguments& report_arguments) {
+  if (report_arguments.scale_max) return "--scale-max";
+  if (report_arguments.pictures) return "--pictures";
+  if (report_arguments.paths) return "--paths";
+  if (report_arguments.style) return "--report-style";
+  if (report_arguments.project) return "--project";
+  if (report_arguments.author) return "--author";
+  return report_arguments.date ? "--date" : nullptr;
+}
+
 }  // namespace
 
 ReportOptions parse_report(const ReportArguments& report_arguments, const std::optional<int>& threads,
@@ -202,11 +222,14 @@ ReportOptions parse_report(const ReportArguments& report_arguments, const std::o
   if (report.paths > most_paths)
     throw InputError("The number of photon paths is " + *report_arguments.paths +
                      " (allowed: 1 to 10000). Give --paths a smaller number.");
-  const bool needs_report = report_arguments.scale_max || report_arguments.pictures || report_arguments.paths;
-  if (!wants_report(report_arguments) && needs_report)
-    throw InputError(
-        "--scale-max, --pictures and --paths require the report, but --no-report is given (allowed: one of the two). "
-        "Leave one out.");
+  if (report_arguments.style) report.style = parse_report_style(*report_arguments.style);
+  report.project = report_arguments.project.value_or("");
+  report.author = report_arguments.author.value_or("");
+  report.date = report_arguments.date.value_or("");
+  const char* option = option_for_report(report_arguments);
+  if (!wants_report(report_arguments) && option != nullptr)
+    throw InputError(std::string(option) +
+                     " requires the report, but --no-report is given (allowed: one of the two). Leave one out.");
   report.threads = parse_threads(threads);
   return report;
 }
@@ -240,6 +263,10 @@ void ReportArguments::override_with(const ReportArguments& other) {
   take(scale_max, other.scale_max);
   take(scale_type, other.scale_type);
   take(colour_map, other.colour_map);
+  take(style, other.style);
+  take(project, other.project);
+  take(author, other.author);
+  take(date, other.date);
 }
 
 }  // namespace lichtmc::app

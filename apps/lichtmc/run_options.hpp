@@ -20,6 +20,7 @@ struct ReportArguments {
   std::string report;  // "true" or "false"
   std::string images;  // the same, for the tile maps as images
   std::optional<std::string> pictures, paths, scale_max, scale_type, colour_map;
+  std::optional<std::string> style, project, author, date;
 
   // Options that are given in `other` replace those given here.
   void override_with(const ReportArguments& other);

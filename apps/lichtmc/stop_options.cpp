@@ -31,10 +31,10 @@ void check_error_floor(const std::optional<std::string>& error_floor, const Room
   if (!error_floor) return;
   const ErrorFloor floor = parse_error_floor(*error_floor, "--error-floor");
   if (!floor.unit || *floor.unit == room.quantity) return;
-  throw InputError("The error floor is " + *error_floor + ", the irradiances of " + room.source + " are in " +
-                   std::string(irradiance_unit(room.quantity)) + " (allowed: the unit of the room, or a share of the " +
-                   "mean). Give --error-floor a number of " + std::string(irradiance_unit(room.quantity)) +
-                   ", or for example 1%.");
+  throw InputError("The error floor is " + *error_floor + ", the " + std::string(irradiance_word(room.quantity)) +
+                   "s of " + room.source + " are in " + std::string(irradiance_unit(room.quantity)) +
+                   " (allowed: the unit of the room, or a share of the " + "mean). Give --error-floor a number of " +
+                   std::string(irradiance_unit(room.quantity)) + ", or for example 1%.");
 }
 
 void add_error_floor_option(CLI::App& command, std::optional<std::string>& error_floor, const std::string& group) {

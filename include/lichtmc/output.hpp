@@ -50,7 +50,20 @@ void write_results(const Room& room, const Result& result, const std::filesystem
 // what to do. summary.json and the report have them too.
 std::vector<std::string> files_left_out(const Result& result);
 
+// For whom the report is.
+enum class ReportStyle {
+  automatic,  // lighting if the result has calculation areas, else technical
+  // Pages for a client: title, calculation areas with their targets and plans, luminaires, pictures, surfaces, how sure
+  // the figures are. The technical report follows as an appendix.
+  lighting,
+  technical,  // how the run went: figures, pictures, tables, balance of powers, convergence, settings
+};
+
 struct ReportOptions {
+  ReportStyle style = ReportStyle::automatic;
+  // For the title of lighting pages, any text; what is empty is left out. The date is text too: a date that the program
+  // added by itself would differ from run to run.
+  std::string project, author, date;
   ScaleOptions scale;         // colour scale of all pictures
   bool exr_pictures = false;  // also write the pictures as OpenEXR
   bool tile_images = true;    // as in ResultFiles: the page says if there are none
@@ -64,9 +77,10 @@ struct ReportOptions {
 };
 
 // Writes a report: the room in false colour (room_lit.glb); pictures/room.svg, above.svg and one per large surface
-// (with .png files of the pixels only); and report.html, one page with the pictures, tables, power balance,
-// convergence, the findings of inspect(), and the command that reproduces the run. report.html needs no other file and
-// no network. Without results of tiles the report has no pictures.
+// (with .png files of the pixels only); and report.html, one page with the pictures, plans of the calculation areas,
+// tables, power balance, convergence, the findings of inspect(), and the command that reproduces the run. report.html
+// needs no other file and no network. Without results of tiles there is no room_lit.glb and no picture of a surface,
+// and the pictures of the room are grey, with the receivers and the cells of the areas in false colour.
 //
 // Call it after write_results(). Files are replaced atomically; files of an earlier report are removed. Throws
 // InputError if an option is out of range, RuntimeError if a picture cannot be drawn or a file cannot be written.
@@ -97,7 +111,8 @@ std::string luminaire_svg(const Photometry& photometry);
 // Writes it to a file, atomically. Throws RuntimeError if that fails.
 void write_luminaire_svg(const Photometry& photometry, const std::filesystem::path& file);
 
-// The figures of a calculation area, for readers: "desk (task): Em 349 ± 2 lx, U0 0.55 ± 0.01, target 500 lx, 0.60: fail".
+// The figures of a calculation area, for readers: "desk (task): Em 349 ± 2 lx, U0 0.55 ± 0.01, target 500 lx, 0.60:
+// fail".
 std::string area_line(const AreaResult& result, Quantity quantity);
 
 // The content of summary.json.

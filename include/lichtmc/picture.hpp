@@ -97,9 +97,9 @@ struct Picture {
 // The oblique view of a whole room, for other drawings: Picture::to_pixel of such a picture.
 glm::dmat4 view_onto(const Room& room, std::size_t width, std::size_t height);
 
-// Draws a room with the irradiance of a result, by ray tracing with Embree. Room and result must outlive the painter.
-// threads 0: one per processor. prepared: see prepare(). Throws InputError if the result has no tiles, RuntimeError if
-// memory or the tracing device fails.
+// Draws a room with the irradiance of a result, by ray tracing with Embree; in grey if its tiles were not measured.
+// Room and result must outlive the painter. threads 0: one per processor. prepared: see prepare(). Throws InputError if
+// the result has no tiling, RuntimeError if memory or the tracing device fails.
 class RoomPainter {
  public:
   RoomPainter(const Room& room, const Result& result, unsigned threads = 0,

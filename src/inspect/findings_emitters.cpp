@@ -67,7 +67,7 @@ void find_receivers(const Room& room, const Enclosure& enclosure, Inspection& fa
   if (room.receivers.empty()) return;
   add(facts, Severity::note, "receivers",
       to_text(room.receivers.size(), "receiver") + ", the first is " + in_quotes(room.receivers.front().name) + ".",
-      "A run computes the irradiance of the tiles and at the receivers.");
+      "A run computes the " + std::string(irradiance_word(room.quantity)) + " of the tiles and at the receivers.");
   for (const Advised& outside : receivers_outside(room, &enclosure))
     add(facts, Severity::warning, "receivers", outside.what, outside.advice);
 }

@@ -34,7 +34,7 @@ std::string text_cell(std::string_view text) {
   return "<td class=\"text\">" + escaped(text) + "</td>";
 }
 
-std::string table_head(std::initializer_list<std::string> names) {
+std::string table_head(const std::vector<std::string>& names) {
   std::string row;
   for (const std::string& name : names) row += "<th>" + escaped(name) + "</th>";
   return "<thead><tr>" + row + "</tr></thead>\n";

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +20,7 @@ std::string heading(std::string_view text);
 std::string list_of(const std::vector<std::string>& sentences);
 
 // The header row of a table.
-std::string table_head(std::initializer_list<std::string> names);
+std::string table_head(const std::vector<std::string>& names);
 
 // A cell with a number, sortable; "–" if the number is not finite.
 std::string number_cell(double value);

@@ -15,6 +15,8 @@ namespace lichtmc {
 namespace {
 
 constexpr std::size_t max_marks = 3000;  // more are not distinguishable, and slow to show
+constexpr std::size_t max_labels = 8;
+constexpr std::size_t max_cells = 20'000;
 constexpr std::size_t many_emitters = 50;
 constexpr std::size_t many_receivers = 300;
 
@@ -29,10 +31,15 @@ PictureMarks::PictureMarks(const Picture& picture, double unit, const glm::dvec2
   area_ = {origin, origin + unit * glm::dvec2(static_cast<double>(picture.width), static_cast<double>(picture.height))};
 }
 
-bool PictureMarks::is_in_picture(const glm::dvec3& place, glm::dvec2& at) const {
-  if (!((picture_->to_pixel * glm::dvec4(place, 1.0)).w > 0.0)) return false;  // behind the eye
+bool PictureMarks::is_before_eye(const glm::dvec3& place, glm::dvec2& at) const {
+  if (!((picture_->to_pixel * glm::dvec4(place, 1.0)).w > 0.0)) return false;
   at = area_.low + unit_ * pixel_of(picture_->to_pixel, place);
-  return at.x > area_.low.x && at.y > area_.low.y && at.x < area_.high.x && at.y < area_.high.y;
+  return true;
+}
+
+bool PictureMarks::is_in_picture(const glm::dvec3& place, glm::dvec2& at) const {
+  return is_before_eye(place, at) && at.x > area_.low.x && at.y > area_.low.y && at.x < area_.high.x &&
+         at.y < area_.high.y;
 }
 
 bool PictureMarks::is_free(const Box& box) const {
@@ -58,7 +65,6 @@ std::string PictureMarks::label(const glm::dvec2& at, const std::string& text) {
 }
 
 std::string PictureMarks::emitters(const Room& room) {
-  constexpr std::size_t max_labels = 8;
   const std::size_t n = room.emitters.size();
   const double size = n > many_emitters ? 0.5 : 1.0;
   const std::string stroke = "stroke=\"#000\" stroke-width=\"" + fixed(1.5 * size) + "\"";
@@ -91,20 +97,89 @@ std::string PictureMarks::emitters(const Room& room) {
 }
 
 std::string PictureMarks::receivers(const Result& result, const ColourScale& scale) {
+  const std::vector<bool> of_areas = points_of_areas(result);
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k < result.receiver_results.size(); ++k) {
+    if (!of_areas[k]) shown.push_back(k);
+  }
   std::string svg;
-  const std::size_t n = result.receiver_results.size();
+  const std::size_t n = shown.size();
   const double radius = n > many_receivers ? 2.5 : 5.0;
   const std::string stroke = n > many_receivers ? "0.5" : "1";
   for (std::size_t k = 0; k < std::min(n, max_marks); ++k) {
+    const Receiver& receiver = result.receivers[shown[k]];
     glm::dvec2 p(0.0);
-    if (!is_in_picture(result.receivers[k].position, p)) continue;
-    const double value = result.receiver_results[k].irradiance;
-    svg += svg_circle(
-        p, radius, "fill=\"" + css(colour_of(scale, value)) + "\" stroke=\"#fff\" stroke-width=\"" + stroke + "\"",
-        result.receivers[k].name + ": " + short_number(value) + " " + std::string(irradiance_unit(result.quantity)));
+    if (!is_in_picture(receiver.position, p)) continue;
+    const double value = result.receiver_results[shown[k]].irradiance;
+    svg += svg_circle(p, radius,
+                      "fill=\"" + css(colour_of(scale, value)) + "\" stroke=\"#fff\" stroke-width=\"" + stroke + "\"",
+                      receiver.name + ": " + short_number(value) + " " + std::string(irradiance_unit(result.quantity)));
   }
   left_out_ += count_of(std::min(n, max_marks), n, "receiver");
   return svg;
+}
+
+std::string PictureMarks::cells(const Result& result, const AreaResult& one, const ColourScale& scale) const {
+  const Area& area = one.area;
+  std::string svg;
+  for (std::size_t k = 0; k < area.cells.size(); ++k) {
+    const glm::dvec3 centre = area.centre(area.cells[k]);
+    std::string points;
+    for (const glm::dvec2& corner :
+         {glm::dvec2(-0.5, -0.5), glm::dvec2(0.5, -0.5), glm::dvec2(0.5, 0.5), glm::dvec2(-0.5, 0.5)}) {
+      glm::dvec2 p(0.0);
+      if (!is_before_eye(centre + corner.x * area.u + corner.y * area.v, p)) {
+        points.clear();
+        break;
+      }
+      points += fixed(p.x) + "," + fixed(p.y) + " ";
+    }
+    if (points.empty()) continue;
+    const std::string colour = css(colour_of(scale, result.receiver_results[area.first_receiver + k].irradiance));
+    svg += "<polygon points=\"" + points + "\" fill=\"" + colour + "\" stroke=\"" + colour + "\"/>\n";
+  }
+  return svg;
+}
+
+std::string PictureMarks::areas(const Result& result, const ColourScale& scale, bool cells_too) {
+  if (result.areas.empty()) return {};
+  // Cells that extend beyond the picture are cut off at its border.
+  const glm::dvec2 size = area_.high - area_.low;
+  const std::string frame = fixed(area_.low.x) + " " + fixed(area_.low.y) + " " + fixed(size.x) + " " + fixed(size.y);
+  std::string svg = "<svg x=\"" + fixed(area_.low.x) + "\" y=\"" + fixed(area_.low.y) + "\" width=\"" + fixed(size.x) +
+                    "\" height=\"" + fixed(size.y) + "\" viewBox=\"" + frame + "\">\n";
+  std::size_t all = 0;
+  for (const AreaResult& area : result.areas) all += area.area.cells.size();
+  std::string labels;
+  for (const AreaResult& area : result.areas) {
+    if (cells_too && all <= max_cells) svg += cells(result, area, scale);
+    glm::dvec2 lowest(0.0, -1.0);  // the end of a line that is nearest to the viewer
+    for (const std::array<glm::dvec3, 2>& line : area.area.outline) {
+      glm::dvec2 from(0.0);
+      glm::dvec2 to(0.0);
+      if (!is_before_eye(line[0], from) || !is_before_eye(line[1], to)) continue;
+      svg += svg_line(from.x, from.y, to.x, to.y, "stroke=\"#fff\" stroke-opacity=\"0.7\" stroke-width=\"3\"");
+      svg += svg_line(from.x, from.y, to.x, to.y, "stroke=\"#000\" stroke-width=\"1.2\" stroke-dasharray=\"7 3\"");
+      for (const glm::dvec2& end : {from, to}) {
+        if (end.y > lowest.y) lowest = end;
+      }
+    }
+    if (result.areas.size() <= max_labels && lowest.y >= 0.0)
+      labels += label(lowest, shortened(area.area.properties.name, note_size, 220.0));
+  }
+  if (cells_too && all > max_cells) left_out_ += "; cells of areas are too many to be drawn";
+  return svg + "</svg>\n" + labels;
+}
+
+std::vector<bool> points_of_areas(const Result& result) {
+  std::vector<bool> of_areas(result.receiver_results.size());
+  for (const AreaResult& area : result.areas) {
+    const std::size_t first = std::min(area.area.first_receiver, of_areas.size());
+    const std::size_t last = std::min(first + area.area.cells.size(), of_areas.size());
+    std::fill(of_areas.begin() + static_cast<std::ptrdiff_t>(first),
+              of_areas.begin() + static_cast<std::ptrdiff_t>(last), true);
+  }
+  return of_areas;
 }
 
 }  // namespace lichtmc

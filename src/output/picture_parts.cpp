@@ -20,7 +20,7 @@ namespace {
 
 constexpr double legend_distance = 16.0;  // from the picture
 constexpr double bar_width = 18.0;
-constexpr double line_height = 15.0;  // of the values
+constexpr double value_height = 15.0;  // of the values
 
 // The values step · 10ⁿ on a logarithmic scale.
 std::vector<double> decades_of(const ColourScale& scale, const std::vector<double>& steps) {
@@ -38,7 +38,7 @@ std::vector<double> decades_of(const ColourScale& scale, const std::vector<doubl
 // Whether the values have room for their text.
 bool fit(const std::vector<double>& ticks, const ColourScale& scale, double height) {
   for (std::size_t k = 1; k < ticks.size(); ++k) {
-    if (height * (scale.share(ticks[k]) - scale.share(ticks[k - 1])) < line_height) return false;
+    if (height * (scale.share(ticks[k]) - scale.share(ticks[k - 1])) < value_height) return false;
   }
   return true;
 }

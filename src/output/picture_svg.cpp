@@ -32,6 +32,7 @@ std::string scale_words(const ColourScale& scale) {
 // The kind of view, and what it leaves out.
 std::string title_of(const Result& result, const Picture& picture, View view) {
   std::string title = result.quantity == Quantity::photometric ? "Illuminance" : "Irradiance";
+  if (result.tiles.empty()) title += result.areas.empty() ? " at the receivers" : " on the calculation areas";
   title += picture.from_inside ? ", view from inside" : view == View::corner ? ", oblique view" : ", view from above";
   if (picture.cut_y_m) title += ", cut open: what lies above y = " + short_number(*picture.cut_y_m) + " m is not drawn";
   return title;
@@ -87,13 +88,17 @@ std::string room_svg(const Room& room, const Result& result, const Picture& pict
   std::string svg;  // of all but the head, which needs the height
   svg += svg_image(png, picture_side, picture_top, width, height, false);
   PictureMarks marks(picture, unit, {picture_side, picture_top});
+  svg += marks.areas(result, scale, result.tiles.empty());
   svg += marks.receivers(result, scale);
   svg += marks.emitters(room);
   svg += colour_legend(scale, written_irradiance_unit(result.quantity), picture_side + width, picture_top + 20.0,
                        legend_height);
 
   std::string note = scale_words(scale) + "sides of surfaces without light are not drawn" +
-                     (measures_all(room) ? "" : "; grey: surfaces that are not measured") + marks.left_out();
+                     (result.tiles.empty() ? "; grey: the room, whose surfaces are not measured"
+                      : measures_all(room) ? ""
+                                           : "; grey: surfaces that are not measured") +
+                     (result.areas.empty() ? "" : "; dashed: calculation areas") + marks.left_out();
   double y = picture_top + height + 18.5;
   double start = picture_side;
   if (view == View::above) {

@@ -1,32 +1,30 @@
 #include "output/report.hpp"
 
-#include <algorithm>
+#include <cctype>
 #include <string_view>
-#include <utility>
 
-#include "base/base64.hpp"
 #include "base/message.hpp"
 #include "lichtmc/output.hpp"
 #include "lichtmc/units.hpp"
+#include "lichtmc/visible_text.hpp"
 #include "output/assets.hpp"
 #include "output/html.hpp"
 #include "output/readable.hpp"
+#include "output/report_areas.hpp"
 #include "output/report_channels.hpp"
 #include "output/report_figures.hpp"
+#include "output/report_lighting.hpp"
 #include "output/report_luminaires.hpp"
 #include "output/report_origin.hpp"
+#include "output/report_pictures.hpp"
+#include "output/report_receivers.hpp"
+#include "output/report_remarks.hpp"
 #include "output/svg.hpp"
 #include "room/measured_surfaces.hpp"
 
 namespace lichtmc {
 
 namespace {
-
-constexpr std::size_t max_embedded_bytes = std::size_t{24} << 20;  // of room_lit.glb
-
-bool embeds_room(const ReportContent& content) {
-  return !content.lit_room.empty() && content.lit_room.size() <= max_embedded_bytes;
-}
 
 std::string mean_of_what(const Room& room, const Result& result) {
   if (!measures_all(room)) return "mean over the measured surfaces";
@@ -79,87 +77,55 @@ std::string key_figures(const Room& room, const Result& result) {
          element("div", figures, " class=\"figures\"");
 }
 
-// Warnings and faults: everything that changes the meaning of the figures.
-std::string warnings_section(const ReportContent& content) {
+// The technical report; in a lighting report behind the pages for the client, without what these contain.
+std::string technical_report(const ReportContent& content) {
+  const Room& room = *content.room;
   const Result& result = *content.result;
-  std::vector<std::string> sentences = result.warnings;
-  for (std::string& sentence : files_left_out(result)) sentences.push_back(std::move(sentence));
-  for (std::string& line : warning_lines(*content.room, content.inspection)) {
-    if (std::find(sentences.begin(), sentences.end(), line) == sentences.end()) sentences.push_back(std::move(line));
+  const bool whole = content.style == ReportStyle::technical;
+  std::string html = key_figures(room, result) + remarks_section(content);
+  if (whole)
+    html += area_verdicts(content) + area_plans(content) + pictures_section(content) + view_section(content) +
+            luminaires_section(content);
+  html += area_details(content) + surfaces_section(content);
+  if (whole) html += receivers_section(content);
+  return html + channels_section(content) + balance_section(room, result) + convergence_section(result) +
+         settings_section(room, result, content.tile_images) + left_out_section(result) +
+         reproduction_section(result, content.command);
+}
+
+// A text as a string of CSS, also within the style element of a page.
+std::string css_string(std::string_view text) {
+  std::string css;
+  for (const char letter : visible_text(text)) {
+    const auto byte = static_cast<unsigned char>(letter);
+    const bool plain = byte >= 0x80 || std::isalnum(byte) != 0 || letter == ' ' || letter == '.' || letter == ',';
+    constexpr const char* digits = "0123456789abcdef";
+    css += plain ? std::string(1, letter) : std::string("\\") + digits[byte / 16] + digits[byte % 16] + ' ';
   }
-  std::size_t ignored = 0;
-  for (const Ignored& thing : result.ignored) ignored += thing.effect == Effect::figures ? 1 : 0;
-  if (ignored > 0)
-    sentences.push_back(to_text(ignored, "item") + " of the file " + (ignored == 1 ? "was" : "were") +
-                        " not modelled and may change the figures: see the list below.");
-  if (result.walk.stopped_by == StopReason::interrupt)
-    sentences.emplace_back("The run was interrupted: the figures are from the histories simulated until then.");
-  if (sentences.empty()) return {};
-  return element("section", text_element("h2", "Before you use these figures") + list_of(sentences),
-                 " class=\"attention\"");
+  return "\"" + css + "\"";
 }
 
-std::string pictures_section(const ReportContent& content) {
-  if (content.room_picture.empty()) return {};
-  std::string html = heading("The room") + element("figure", content.room_picture, " id=\"picture-room\"") +
-                     element("figure", content.above_picture, " id=\"picture-above\"");
-  if (!content.paths_picture.empty()) html += element("figure", content.paths_picture, " id=\"picture-paths\"");
-  return html;
-}
-
-std::string view_section(const ReportContent& content) {
-  if (content.lit_room.empty()) return {};
-  if (!embeds_room(content)) {
-    return heading("3-D view") +
-           text_element("p", "The file room_lit.glb, in the folder of this page, has " +
-                                 short_number(static_cast<double>(content.lit_room.size()) / 1e6) +
-                                 " MB (limit for this page: 25 MB). Open it in a glTF viewer.");
-  }
-  return element(
-      "section",
-      heading("3-D view") +
-          text_element(
-              "p",
-              "Drag to rotate, use the wheel or pinch to zoom, shift and drag to pan. Point at a surface to read its " +
-                  std::string(irradiance_word(content.result->quantity)) +
-                  ". The file room_lit.glb contains the same room for any glTF viewer.",
-              " class=\"muted\"") +
-          element("div", "", " id=\"view3d\" tabindex=\"0\""),
-      " class=\"screen-only\"");
-}
-
-std::string scripts(const ReportContent& content) {
-  std::string html = element("script", report_js);
-  if (!embeds_room(content)) return html;
-  html += element("script", base64(content.lit_room), " type=\"application/octet-stream\" id=\"room-lit\"");
-  html += element("script", viewer_js);
-  // Starts after the page has loaded, so that it does not delay the text.
-  return html + element("script", R"(
-addEventListener("load", () => {
-  const bytes = Uint8Array.from(atob(document.getElementById("room-lit").textContent), c => c.charCodeAt(0));
-  lichtmcView(document.getElementById("view3d"), bytes.buffer);
-});
-)");
+// The foot of each printed page.
+std::string page_foot(const ReportContent& content) {
+  return "@page { @bottom-left { content: " + css_string(shortened(subject_of(content), 13.0, 500.0)) + "; } }\n";
 }
 
 }  // namespace
 
 std::string report_html(const ReportContent& content) {
-  const Room& room = *content.room;
   const Result& result = *content.result;
+  const bool lighting = content.style == ReportStyle::lighting;
+  const std::string word = result.quantity == Quantity::photometric ? "Illuminance in " : "Irradiance in ";
   std::string head = "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n";
-  head += text_element("title", "lichtmc: " + result.room);
-  head += element("style", std::string(report_css) + std::string(viewer_css));
-  const std::string body =
-      text_element("h1",
-                   (result.quantity == Quantity::photometric ? "Illuminance in " : "Irradiance in ") + result.room) +
-      key_figures(room, result) + warnings_section(content) + pictures_section(content) + view_section(content) +
-      luminaires_section(content) + surfaces_section(content) + receivers_section(result) + channels_section(content) +
-      balance_section(room, result) + convergence_section(result) +
-      settings_section(room, result, content.tile_images) + left_out_section(result) +
-      reproduction_section(result, content.command);
+  head += text_element("title", lighting ? subject_of(content) : "lichtmc: " + result.room);
+  head += element("style", std::string(report_css) + std::string(viewer_css) + page_foot(content));
+  const std::string body = lighting
+                               ? lighting_pages(content) +
+                                     element("div", text_element("h1", "Technical details") + technical_report(content),
+                                             " class=\"appendix\"")
+                               : text_element("h1", word + result.room) + technical_report(content);
   return "<!DOCTYPE html>\n<html lang=\"en\">\n" + element("head", head) +
-         element("body", element("main", body) + scripts(content)) + "</html>\n";
+         element("body", element("main", body) + scripts_of_page(content)) + "</html>\n";
 }
 
 }  // namespace lichtmc

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lichtmc/inspect.hpp"
+#include "lichtmc/output.hpp"
 #include "lichtmc/picture.hpp"
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
@@ -16,6 +17,8 @@ namespace lichtmc {
 struct ReportContent {
   const Room* room = nullptr;
   const Result* result = nullptr;
+  ReportStyle style = ReportStyle::technical;  // not automatic
+  std::string project, author, date;
   ColourScale scale;
   std::string command;
   bool tile_images = true;  // tiles/*.exr were written
@@ -26,7 +29,9 @@ struct ReportContent {
   std::vector<SurfacePlan> plans;
   std::vector<std::string> without_plan;  // sentences: which large surfaces have no plan, and why
   std::vector<std::string> plan_pictures;
-  std::string lit_room;  // room_lit.glb
+  std::vector<std::string> area_plans;  // of Result::areas
+  std::vector<std::string> lit_sides;   // which sides of each tile map get light, in words; empty: unknown
+  std::string lit_room;                 // room_lit.glb
   std::vector<ChannelPictures> channels;
 };
 

@@ -17,8 +17,6 @@ namespace lichtmc {
 
 namespace {
 
-constexpr std::size_t max_receiver_rows = 2000;  // browsers open a page of this size without delay
-
 std::string attribute(std::string_view name, const std::string& value) {
   return " data-" + std::string(name) + "=\"" + escaped(value) + "\"";
 }
@@ -54,7 +52,8 @@ std::string shares_svg(const std::vector<Share>& shares, double emitted, const s
   constexpr double row = 26.0;
   constexpr double names_end = 300.0;
   constexpr double bar_width = 520.0;
-  std::string svg = svg_head(1080.0, 44.0 + row * static_cast<double>(shares.size()) + 10.0, "Power balance", 14.0);
+  std::string svg =
+      svg_head(1080.0, 44.0 + row * static_cast<double>(shares.size()) + 10.0, "Where the light goes", 14.0);
   for (std::size_t k = 0; k < shares.size(); ++k) {
     const double y = 44.0 + row * static_cast<double>(k);
     const double width = bar_width * std::clamp(shares[k].power / emitted, 0.0, 1.0);
@@ -100,20 +99,33 @@ std::string surfaces_section(const ReportContent& content) {
   if (result.tiles.empty()) return {};
   const std::string power(power_unit(result.quantity));
   const std::string irradiance = written_irradiance_unit(result.quantity);
+  const bool sides = content.style == ReportStyle::technical;  // lighting pages say which side is lit
   std::string rows;
   for (const SurfaceResult& s : result.surfaces) {
     rows += "<tr>" + text_cell(s.name) + text_cell(s.material) + number_cell(s.reflectance) + number_cell(s.area_m2) +
             number_cell(s.mean_irradiance) + number_cell(s.standard_error) + number_cell(s.min_irradiance) +
-            number_cell(s.max_irradiance) + number_cell(s.power) + number_cell(100.0 * s.behind_share) +
+            number_cell(s.max_irradiance) + number_cell(s.power) + (sides ? number_cell(100.0 * s.behind_share) : "") +
             count_cell(s.tiles) + "</tr>\n";
   }
+  std::vector<std::string> names{"surface",
+                                 "material",
+                                 "reflectance",
+                                 "area, m²",
+                                 "mean, " + irradiance,
+                                 "standard error, " + irradiance,
+                                 "lowest, " + irradiance,
+                                 "highest, " + irradiance,
+                                 "incident " + std::string(power_word(result.quantity)) + ", " + power};
+  if (sides) names.emplace_back("on the back, %");
+  names.emplace_back("tiles");
   const std::string left_out = unreached_text(result);
-  std::string html = heading("Surfaces");
-  html += text_element("p",
-                       "Click a heading to sort. Lowest and highest are values of single tiles and include their "
-                       "statistical errors. tiles.csv contains all tiles." +
-                           (left_out.empty() ? left_out : ' ' + left_out),
-                       " class=\"muted\"");
+  std::string html = heading(sides ? "Surfaces" : "Surfaces in detail");
+  html += element("p",
+                  text_element("span", "Click a heading to sort. ", " class=\"screen-only\"") +
+                      "Lowest and highest are values of single tiles and include their statistical errors. tiles.csv "
+                      "contains all tiles." +
+                      (left_out.empty() ? left_out : ' ' + escaped(left_out)),
+                  " class=\"muted\"");
   if (const std::string covered = covered_text(result); !covered.empty()) {
     html += text_element("p",
                          "Other surfaces in the same plane cover a part of these, which receives nothing and lowers "
@@ -121,12 +133,7 @@ std::string surfaces_section(const ReportContent& content) {
                              covered + ".");
   }
   html += element("div",
-                  element("table",
-                          table_head({"surface", "material", "reflectance", "area, m²", "mean, " + irradiance,
-                                      "standard error, " + irradiance, "lowest, " + irradiance,
-                                      "highest, " + irradiance, "incident, " + power, "on the back, %", "tiles"}) +
-                              element("tbody", rows),
-                          " class=\"sortable\" id=\"surfaces\""),
+                  element("table", table_head(names) + element("tbody", rows), " class=\"sortable\" id=\"surfaces\""),
                   " class=\"scroll\"");
   html += heading("Plans of the surfaces");
   std::string note =
@@ -143,36 +150,10 @@ std::string surfaces_section(const ReportContent& content) {
   return html + element("div", figures, " class=\"plans\"");
 }
 
-std::string receivers_section(const Result& result) {
-  const std::size_t n = result.receiver_results.size();
-  if (n == 0) return {};
-  const std::string irradiance = written_irradiance_unit(result.quantity);
-  const std::string word(irradiance_word(result.quantity));
-  std::string rows;
-  for (std::size_t k = 0; k < std::min(n, max_receiver_rows); ++k) {
-    const Receiver& receiver = result.receivers[k];
-    const ReceiverResult& one = result.receiver_results[k];
-    rows += "<tr>" + text_cell(receiver.name) + number_cell(receiver.position.x) + number_cell(receiver.position.y) +
-            number_cell(receiver.position.z) + number_cell(one.irradiance) + number_cell(one.standard_error) +
-            number_cell(one.direct) + number_cell(one.indirect) + number_cell(10.0 * std::log10(one.gain)) + "</tr>\n";
-  }
-  std::string html = heading("Receivers");
-  if (n > max_receiver_rows)
-    html += text_element("p", "The first " + std::to_string(max_receiver_rows) + " of " + std::to_string(n) +
-                                  " receivers. receivers.csv contains all of them.");
-  return html + element("div",
-                        element("table",
-                                table_head({"receiver", "x, m", "y, m", "z, m", word + ", " + irradiance,
-                                            "standard error, " + irradiance, "direct, " + irradiance,
-                                            "indirect, " + irradiance, "gain, dB"}) +
-                                    element("tbody", rows),
-                                " class=\"sortable\" id=\"receivers\""),
-                        " class=\"scroll\"");
-}
-
 std::string balance_section(const Room& room, const Result& result) {
   if (result.tiles.empty()) return {};
   const std::string power(power_unit(result.quantity));
+  const std::string word(power_word(result.quantity));
   const Balance& b = result.balance;
   constexpr std::size_t max_surfaces = 8;
   constexpr const char* absorbed = "#0072B2";
@@ -197,11 +178,11 @@ std::string balance_section(const Room& room, const Result& result) {
   }
   if (!measures_all(room) && std::isfinite(b.absorbed))
     shares.push_back({"absorbed by surfaces that are not measured", b.absorbed - of_measured, "#56B4E9"});
-  std::string note =
-      "The power that a surface absorbs is its incident power times (1 − reflectance); its relative standard error is "
-      "that of the mean in the table of the surfaces. In rooms with textures it is counted photon by photon.";
+  std::string note = "The " + word + " that a surface absorbs is its incident " + word +
+                     " times (1 − reflectance); its relative standard error is that of the mean in the table of the "
+                     "surfaces. In rooms with textures it is counted photon by photon.";
   if (unknown > 0)
-    note += " Backward walks do not determine the power that " + to_text(unknown, "surface") +
+    note += " Backward walks do not determine the " + word + " that " + to_text(unknown, "surface") +
             " with a texture absorb" + (unknown == 1 ? "s." : ".");
   if (std::isfinite(b.absorbed)) {
     if (b.escaped > 0.0) shares.push_back({"escaped through openings", b.escaped, "#E69F00"});
@@ -211,7 +192,7 @@ std::string balance_section(const Room& room, const Result& result) {
             short_number(b.absorbed) + " + escaped " + short_number(b.escaped) + " + residual " +
             short_number(b.residual) + " + lost " + short_number(b.lost) + ".";
   }
-  return heading("Power balance") + element("figure", shares_svg(shares, b.emitted, power)) +
+  return heading("Balance of the " + word) + element("figure", shares_svg(shares, b.emitted, power)) +
          text_element("p", note, " class=\"muted\"");
 }
 

@@ -11,9 +11,6 @@ namespace lichtmc {
 // A table of the surfaces, and the plans.
 std::string surfaces_section(const ReportContent& content);
 
-// A table of the first receivers.
-std::string receivers_section(const Result& result);
-
 // The power balance: absorbed, escaped, residual and lost power.
 std::string balance_section(const Room& room, const Result& result);
 

@@ -56,7 +56,8 @@ std::string emitters_table(const Room& room) {
   if (rows.empty()) return {};
   return heading(luminaire_schedule(room).empty() ? "Emitters" : "Emitters without a photometric file") +
          element("table",
-                 table_head({"emitter", "kind", "power, " + std::string(power_unit(room.quantity))}) +
+                 table_head({"emitter", "kind",
+                             std::string(power_word(room.quantity)) + ", " + std::string(power_unit(room.quantity))}) +
                      element("tbody", rows),
                  " class=\"sortable\" id=\"emitters\"");
 }
@@ -88,7 +89,7 @@ std::string settings_section(const Room& room, const Result& result, bool tile_i
     row("ended by (receivers)", std::string(to_string(result.receiver_walk.stopped_by)));
   }
   row("threads", std::to_string(result.threads));
-  std::string html = heading("What was simulated") + element("table", rows) + settings_table(s);
+  std::string html = heading("What was simulated") + element("table", rows, " class=\"whole\"") + settings_table(s);
   if (!result.choices.empty()) html += list_of(result.choices);
   if (!result.overrides.empty()) html += text_element("p", "Changed after reading:") + list_of(result.overrides);
   return html + emitters_table(room);

@@ -8,12 +8,15 @@
 
 #include "base/atomic_file.hpp"
 #include "base/parallel.hpp"
+#include "lichtmc/area_drawing.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/lit_room.hpp"
 #include "lichtmc/output.hpp"
 #include "lichtmc/paths.hpp"
+#include "output/area_plan.hpp"
 #include "output/channel_pictures.hpp"
 #include "output/folder.hpp"
+#include "output/lit_side_words.hpp"
 #include "output/luminaire_schedule.hpp"
 #include "output/picture_svg.hpp"
 #include "output/report.hpp"
@@ -38,12 +41,18 @@ class ReportWriter {
     content_.result = &result;
     content_.command = options.command;
     content_.tile_images = options.tile_images;
+    content_.style = options.style != ReportStyle::automatic ? options.style
+                     : result.areas.empty()                  ? ReportStyle::technical
+                                                             : ReportStyle::lighting;
+    content_.project = options.project;
+    content_.author = options.author;
+    content_.date = options.date;
   }
 
   void write() {
     draw_luminaires();
     if (result_->channels) draw_channels();
-    if (!result_->tiles.empty()) {
+    if (!result_->tiles.empty() || !result_->receiver_results.empty()) {
       content_.scale = choose_scale(*result_, options_->scale);
       draw();
     }
@@ -95,11 +104,11 @@ class ReportWriter {
     const RoomPainter painter(*room_, *result_, options_->threads, options_->prepared);
     const Picture room = painter.draw(View::corner, content_.scale, picture_width, picture_height);
     const Picture above = painter.draw(View::above, content_.scale, picture_width, picture_height);
-    announce("Drawing plans of the surfaces");
-    SurfacePlans plans = draw_plans(*room_, *result_, painter.lit_sides(), content_.scale);
-    content_.plans = std::move(plans.plans);
-    content_.without_plan = std::move(plans.left_out);
-    const std::vector<std::string> names = plan_names(*result_, content_.plans);
+    std::vector<std::string> names;
+    if (!result_->tiles.empty()) names = draw_surfaces(painter);
+    for (std::size_t k = 0; k < result_->areas.size(); ++k)
+      content_.area_plans.push_back(
+          area_plan_svg(*room_, *result_, k, choose_area_scale(*result_, k, options_->scale)));
     // The pictures of the room come first: a surface with the name "room" then gets another file name. Encoding takes
     // longer than drawing.
     std::vector<Drawn> all(2 + names.size());
@@ -113,9 +122,25 @@ class ReportWriter {
     content_.above_picture = all[1].svg;
     for (std::size_t k = 2; k < all.size(); ++k) content_.plan_pictures.push_back(all[k].svg);
     const std::vector<PhotonPath> paths = trace();
-
     announce("Writing pictures");
-    // Surfaces do not get the names of other pictures.
+    write_pictures(all);
+    if (result_->tiles.empty()) return;
+    content_.lit_room = lit_room_glb(*room_, *result_, painter.lit_sides(), content_.scale, paths);
+    folder_.write("room_lit.glb", content_.lit_room);
+  }
+
+  // Plans of the surfaces; returns their names.
+  std::vector<std::string> draw_surfaces(const RoomPainter& painter) {
+    announce("Drawing plans of the surfaces");
+    content_.lit_sides = lit_side_words(*room_, *result_, painter.lit_sides());
+    SurfacePlans plans = draw_plans(*room_, *result_, painter.lit_sides(), content_.scale);
+    content_.plans = std::move(plans.plans);
+    content_.without_plan = std::move(plans.left_out);
+    return plan_names(*result_, content_.plans);
+  }
+
+  // Surfaces do not get the names of other pictures.
+  void write_pictures(const std::vector<Drawn>& all) {
     std::vector<std::string> stems{"paths"};
     stems.insert(stems.end(), taken_files_.begin(), taken_files_.end());
     const std::size_t first = stems.size();
@@ -124,8 +149,6 @@ class ReportWriter {
     if (!content_.paths_picture.empty())
       folder_.write(fs::path("pictures") / (stems[0] + ".svg"), content_.paths_picture);
     for (std::size_t k = 0; k < all.size(); ++k) write_picture(stems[first + k], all[k]);
-    content_.lit_room = lit_room_glb(*room_, *result_, painter.lit_sides(), content_.scale, paths);
-    folder_.write("room_lit.glb", content_.lit_room);
   }
 
   // The picture of each photometric file.

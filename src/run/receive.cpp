@@ -9,6 +9,7 @@
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
+#include "lichtmc/units.hpp"
 #include "room/reflectance.hpp"
 #include "run/area_figures.hpp"
 #include "run/backward_work.hpp"
@@ -37,7 +38,8 @@ namespace {
 [[noreturn]] void refuse_on_emitter(const Room& room, std::size_t receiver, std::size_t emitter) {
   throw InputError("Receiver " + std::to_string(receiver) + ", " + in_quotes(room.receivers[receiver].name) + ", of " +
                    room.source + " lies on the emitter " + in_quotes(room.emitters[emitter].name) +
-                   " (allowed: some distance from it), where the irradiance is not defined. Move it away.");
+                   " (allowed: some distance from it), where the " + std::string(irradiance_word(room.quantity)) +
+                   " is not defined. Move it away.");
 }
 
 double error_at(const OriginEstimates& found, std::size_t k) {

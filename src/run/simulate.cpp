@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "chance/moments.hpp"
 #include "lichtmc/error.hpp"
+#include "lichtmc/units.hpp"
 #include "lichtmc/version.hpp"
 #include "run/collectives.hpp"
 #include "run/context.hpp"
@@ -73,8 +74,9 @@ void complete(Result& result, const Room& room, const Enclosure* enclosure) {
       "Nothing absorbs the light of the emitter " + in_quotes(room.emitters[enclosure.emitter].name) + " in " +
       room.source + ": it is enclosed by surfaces of reflectance 1, among them " +
       in_quotes(room.surfaces[enclosure.surface].name) +
-      " (allowed: at least one below 1, or an opening), so that the irradiance would be infinite. Give materials a "
-      "reflectance below 1, for example with --max-reflectance 0.9, or limit the number of flights with --estimator "
+      " (allowed: at least one below 1, or an opening), so that the " + std::string(irradiance_word(room.quantity)) +
+      " would be infinite. Give materials a reflectance below 1, for example with --max-reflectance 0.9, or limit the "
+      "number of flights with --estimator "
       "weight --max-bounces N. If a body about a lamp should let light through, leave it out of the room.");
 }
 

@@ -144,9 +144,10 @@ std::optional<Advised> high_reflectances(const Room& room) {
           " more than 95 % of the light, everywhere or in some places; hardly any real surface does (white, 1, is "
           "glTF's default): " +
           names.text() + ".",
-      "Set the custom property 'reflectance', or give --reflectance NAME=R or --max-reflectance 0.9. The "
-      "irradiance is proportional to 1/(1 − ρ) if all surfaces have the reflectance ρ: from 0.9 to 0.99 it increases "
-      "tenfold."};
+      "Set the custom property 'reflectance', or give --reflectance NAME=R or --max-reflectance 0.9. The " +
+          std::string(irradiance_word(room.quantity)) +
+          " is proportional to 1/(1 − ρ) if all surfaces have the reflectance ρ: from 0.9 to 0.99 it increases "
+          "tenfold."};
 }
 
 std::vector<std::string> warnings_of(const Room& room, const Result& result, const Enclosure* enclosure) {

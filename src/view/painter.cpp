@@ -35,6 +35,13 @@ constexpr double crease_cosine = 0.94;  // cos 20°: a larger angle between neig
 constexpr float line_opacity = 0.62F;
 const glm::vec3 unmeasured_light(0.62F);  // a grey that no scale has
 
+// The grey of a surface in a room without results of tiles: level surfaces are brightest, so that floor, walls and
+// furniture differ. `up`: the vertical in the coordinates of the normal.
+glm::vec3 light_without_tiles(const glm::vec3& normal, const glm::vec3& up) {
+  const glm::vec3 across(up.y, up.z, up.x);  // any direction at a right angle to it
+  return glm::vec3(0.5F + 0.3F * std::abs(glm::dot(normal, up)) + 0.1F * std::abs(glm::dot(normal, across)));
+}
+
 // Whether two neighbouring rays have an edge between them: another surface, another normal, or a step in depth.
 bool is_edge(const VisibleHit& a, const VisibleHit& b, const std::vector<Facet>& facets, float reach) {
   if (a.facet == b.facet) return false;
@@ -162,8 +169,8 @@ glm::vec3 with_line(const glm::vec3& light) {
   return glm::mix(light, line, line_opacity);
 }
 
-void finish_rows(const Band& samples_of, const Result& result, const ColourScale& scale, std::size_t first_row,
-                 std::size_t rows, Picture& picture) {
+void finish_rows(const Band& samples_of, const Result& result, const ColourScale& scale, const glm::vec3& up,
+                 std::size_t first_row, std::size_t rows, Picture& picture) {
   constexpr float share = 1.0F / (samples * samples);
   for (std::size_t y = 0; y < rows; ++y) {
     for (std::size_t x = 0; x < picture.width; ++x) {
@@ -173,7 +180,10 @@ void finish_rows(const Band& samples_of, const Result& result, const ColourScale
       for (std::size_t k = 0; k < samples * samples; ++k) {
         const std::size_t at = samples_of.sample_at(x, y, k);
         const VisibleHit& hit = samples_of.hit(at);
-        if (hit.tile == unmeasured) {
+        if (hit.tile != no_tile && result.tiles.empty()) {
+          const glm::vec3 light = light_without_tiles(hit.normal, up);
+          sum += glm::vec4(samples_of.on_line(at) ? with_line(light) : light, 1.0F);
+        } else if (hit.tile == unmeasured) {
           sum += glm::vec4(samples_of.on_line(at) ? with_line(unmeasured_light) : unmeasured_light, 1.0F);
         } else if (hit.tile != no_tile) {
           const double own = result.tiles[hit.tile].irradiance;
@@ -202,9 +212,8 @@ void check_size(std::size_t pixels) {
 
 RoomPainter::RoomPainter(const Room& room, const Result& result, unsigned threads,
                          std::shared_ptr<PreparedRoom> prepared) {
-  if (result.tiles.empty())
-    throw InputError("Cannot draw " + result.room +
-                     ": its result has no tiles (allowed: results with tiles). Omit --only receivers.");
+  if (result.tiling.tiles.empty())
+    throw InputError("Cannot draw " + result.room + ": its result has no tiling (allowed: results of simulate()).");
   impl_ = std::make_unique<Impl>(room, result, threads, std::move(prepared));
 }
 
@@ -238,6 +247,7 @@ Picture RoomPainter::draw(View view, const ColourScale& scale, std::size_t width
   picture.from_inside = viewpoint.inside;
   picture.cut_y_m = viewpoint.cut_y_m;
   const std::vector<Facet>& facets = impl.scene.tracer->facets();
+  const glm::vec3 up(glm::normalize(impl.scene.tracer->directions() * glm::dvec3(0.0, 1.0, 0.0)));
   constexpr float reach = 0.02F;  // a step in depth by a hundredth of the room is an edge
 
   const std::size_t bands = (height + band - 1) / band;
@@ -249,7 +259,7 @@ Picture RoomPainter::draw(View view, const ColourScale& scale, std::size_t width
     for (std::size_t b = next++; b < bands && !watch.should_stop(); b = next++) {
       own.trace(eye, viewpoint.camera, static_cast<double>(b * band));
       own.find_lines(facets, reach);
-      finish_rows(own, *impl.result, scale, b * band, std::min(band, height - b * band), picture);
+      finish_rows(own, *impl.result, scale, up, b * band, std::min(band, height - b * band), picture);
     }
   });
   return picture;

@@ -66,9 +66,9 @@ Viewpoints::Viewpoints(const Room& room, const Result& result, const Scene& scen
     area += result.tiling.tiles[t].area_m2;
   }
   const double mean = area > 0.0 ? power / area : 1.0;
-  for (std::size_t t = 0; t < result.tiles.size(); ++t) {
-    const double irradiance = std::max(0.0, result.tiles[t].irradiance);
-    weight_.push_back(area > 0.0 ? irradiance / (irradiance + mean) : 1.0);  // no light: all counts alike
+  for (std::size_t t = 0; t < result.tiling.tiles.size(); ++t) {
+    const double irradiance = result.tiles.empty() ? 0.0 : std::max(0.0, result.tiles[t].irradiance);
+    weight_.push_back(area > 0.0 ? irradiance / (irradiance + mean) : 1.0);  // none is known: all counts alike
     all_m2_ += weight_.back() * result.tiling.tiles[t].area_m2;
   }
   find_frame();

@@ -75,11 +75,32 @@ class Run(ProgramTest):
         self.assertFalse((out / "report.html").exists())
         self.assertEqual(list((out / "pictures").iterdir()), [])
 
+    def test_lighting_report(self):
+        out = self.folder / "out"
+        words = ["--project", "School <A>", "--author", "Jane Doe", "--date", "1 May"]
+        done = lichtmc("run", CUBE, "-o", out, "--photons", "20k", "--report-style", "lighting", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        first, technical = (out / "report.html").read_text().split("Technical details", 1)
+        for text in ("<dd>School &lt;A&gt;</dd>", "<dd>Jane Doe</dd>", "<dd>1 May</dd>", "<dd>cube_paper.gltf</dd>"):
+            self.assertIn(text, first)
+        self.assertIn("Balance of the power", technical)
+        # resume takes them as the run gave them, and as it is told otherwise.
+        done = lichtmc("resume", out, "--photons", "30k", "--date", "2 May")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (out / "report.html").read_text()
+        for text in ("<dd>Jane Doe</dd>", "<dd>2 May</dd>"):
+            self.assertIn(text, page)
+        done = lichtmc("resume", out, "--photons", "40k", "--report-style", "technical")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("Technical details", (out / "report.html").read_text())
+
     def test_report_options_are_checked(self):
         out = self.folder / "out"
         for options, says in ((["--scale-max", "0"], "number above 0"), (["--scale-type", "even"], "auto, linear, log"),
                               (["--colormap", "jet"], "viridis, inferno"), (["--pictures", "bmp"], "exr"),
-                              (["--paths", "20000"], "10000"), (["--no-report", "--paths", "5"], "--no-report")):
+                              (["--paths", "20000"], "10000"), (["--no-report", "--paths", "5"], "--no-report"),
+                              (["--report-style", "pretty"], "lighting, technical"), (["--no-report", "--author", "A. B."], "--author requires"),
+                              (["--no-report", "--report-style", "lighting"], "--report-style requires")):
             self.refused("run", CUBE, "-o", out, *options, says=[says])
         self.assertFalse(out.exists())
 

@@ -83,14 +83,23 @@ TEST_CASE("report: one page with pictures, tables and the command; names are esc
     CHECK(page.substr(at, 26) == "http://www.w3.org/2000/svg");
 }
 
-TEST_CASE("report: results of receivers alone have a page without pictures") {
-  const Room room = difficult_room();
+TEST_CASE("report: results of receivers alone have grey pictures of the room, with the receivers in false colour") {
+  Room room = difficult_room();
   Settings settings = settings_of(Estimator::collision, Engine::automatic, 5e3, 1, 0.25);
   settings.measured = Measured::receivers;
   const Folder folder;
   write_report(room, simulate(room, settings), folder.path());
-  CHECK(files_in(folder.path()) == std::set<std::string>{"report.html"});
-  CHECK(text_of(folder.path() / "report.html").find("id=\"receivers\"") != std::string::npos);
+  CHECK(files_in(folder.path()) == std::set<std::string>{"pictures", "report.html"});
+  CHECK(files_in(folder.path() / "pictures") ==
+        std::set<std::string>{"above.png", "above.svg", "room.png", "room.svg"});
+  const std::string page = text_of(folder.path() / "report.html");
+  CHECK(page.find("id=\"receivers\"") != std::string::npos);
+  CHECK(page.find("Irradiance at the receivers, ") != std::string::npos);
+  CHECK(page.find("here &amp; there: ") != std::string::npos);
+  CHECK(page.find("gain, dB") != std::string::npos);
+  room.quantity = Quantity::photometric;
+  write_report(room, simulate(room, settings), folder.path());
+  CHECK(text_of(folder.path() / "report.html").find("gain, dB") == std::string::npos);
 }
 
 TEST_CASE("report: an older report is removed, other files in its folder are not") {
