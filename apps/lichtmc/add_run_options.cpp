@@ -190,6 +190,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_execution_options(command, options, method);
   add_part_options(command, options);
   add_receiver_options(command, options);
+  add_area_options(command, options.areas);
   add_channel_options(command, options.channel);
   add_report_options(command, options.report_arguments);
   add_room_options(command, options.reading);

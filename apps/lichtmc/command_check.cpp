@@ -9,10 +9,13 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "commands.hpp"
+#include "lichtmc/error.hpp"
 #include "lichtmc/inspect.hpp"
+#include "lichtmc/lay_areas.hpp"
 #include "lichtmc/photometry.hpp"
 #include "lichtmc/visible_text.hpp"
 #include "light_spec.hpp"
@@ -136,6 +139,21 @@ void print_receivers(const Room& room) {
     std::cout << "  … and " << room.receivers.size() - shown << " more (--json lists all)\n";
 }
 
+void print_areas(const Room& room) {
+  constexpr std::size_t shown = 20;
+  if (room.areas.empty()) return;
+  std::cout << "\nCalculation areas (" << room.areas.size() << ")\n";
+  for (std::size_t k = 0; k < std::min(shown, room.areas.size()); ++k) {
+    const AreaProperties& asked = room.areas[k].properties;
+    std::cout << "  " << visible_text(description_of(room.areas[k]));
+    if (!asked.role.empty()) std::cout << " Role: " << visible_text(asked.role) << '.';
+    if (asked.target_lx) std::cout << " Target: " << four_digits(*asked.target_lx) << " lx.";
+    if (asked.target_uniformity) std::cout << " Target of U0: " << four_digits(*asked.target_uniformity) << '.';
+    std::cout << '\n';
+  }
+  if (room.areas.size() > shown) std::cout << "  … and " << room.areas.size() - shown << " more\n";
+}
+
 void print_facts(const Room& room, const Inspection& facts) {
   const glm::dvec3 size = facts.high - facts.low;
   std::cout << visible_text(room.source) << '\n';
@@ -152,6 +170,7 @@ void print_facts(const Room& room, const Inspection& facts) {
   print_materials(facts);
   print_emitters(room);
   print_receivers(room);
+  print_areas(room);
 }
 
 // A finding, and below it what to do.
@@ -189,11 +208,23 @@ void print_findings(const Inspection& facts) {
             << (warnings == 1 ? " warning.\n" : " warnings.\n");
 }
 
+// Areas without points remain requests: inspect() says what is wrong with them.
+void lay_areas_of_file(Room& room) {
+  Room laid = room;
+  try {
+    lay_areas(laid);
+  } catch (const InputError&) {
+    return;
+  }
+  room = std::move(laid);
+}
+
 int check(const CheckOptions& options) {
   const double tile_edge_m = parse_number(options.tile, "--tile");
   StepLine line(ProgressForm::bar);
   line.update("Reading the room");
-  const Room room = read_room(options.reading);
+  Room room = read_room(options.reading);
+  lay_areas_of_file(room);
   const Inspection facts =
       inspect(room, tile_edge_m, prepare(room, 0, [&line](std::string_view step) { line.update(step); }));
   line.clear();

@@ -48,11 +48,12 @@ void add_run_command(CLI::App& program, const Invocation& invocation) {
           "Photons are followed from the light sources until they are absorbed or leave through an opening. Results: "
           "the\n"
           "irradiance (W/m^2) or illuminance (lx) of every tile of every surface, each with its standard error.\n\n") +
-      light_forms +
+      light_forms + "\n" + area_forms +
       "\nExamples:\n"
       "  lichtmc run room.glb                      to an error of 5 % or for a minute, tiles of 0.1 m, in room.out/\n"
       "  lichtmc run room.glb --target-error 2% --max-time 5min --tile 0.25\n"
       "  lichtmc run office.glb --grid 0.85 --only receivers --target-error 2%     only at desk height\n"
+      "  lichtmc run office.glb --plane 0.75:0.5:target_lx=500:target_uniformity=0.6 --only receivers\n"
       "  lichtmc run hall.glb --light point:5,3,5:8000lm --max-reflectance 0.9 -o out/hall\n"
       "Ctrl-C ends a run early and writes the results so far; a second Ctrl-C ends the program at once.");
   command->callback([options, &invocation] { run(*options, invocation); });

@@ -87,7 +87,8 @@ ProgressFacts facts_of(const StudyProgress& progress) {
 void run(const StudyCommand& command) {
   const ProgressForm form = parse_progress(command.progress, command.quiet);
   StudyOptions options = parse_options(command);
-  const Room room = read_room(command.reading);
+  Room room = read_room(command.reading);
+  room.area_requests.clear();  // as receivers, areas are not studied
   check_room(room);
   check_error_floor(command.error_floor, room);
   const std::filesystem::path folder = command.output.empty()

@@ -248,6 +248,7 @@ Room read_run_room(const RunOptions& options, std::vector<std::string>& notes) {
   if (!options.measure.empty()) measure_only(room, options.measure);
   apply_delays(options.channel, room);
   add_receivers(room, options, notes);
+  lay_all_areas(options.areas, room, notes);
   check_room(room);
   return room;
 }

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "area_options.hpp"
 #include "channel_options.hpp"
 #include "lichtmc/output.hpp"
 #include "lichtmc/settings.hpp"
@@ -42,6 +43,7 @@ struct RunOptions {
   std::string tiles = "forward";
   std::string receiver_walk = "auto";
   std::optional<std::string> receivers, grid, grid_spacing, only;
+  AreaOptions areas;
   ChannelOptions channel;
   ReportArguments report_arguments;
   std::string checkpoint = "60s";
@@ -69,7 +71,8 @@ inline bool wants_images(const ReportArguments& report_arguments) {
 }
 double parse_checkpoint(const std::string& text);
 
-// The room of the file with the receivers of the command line. `notes`: what was not read of their table.
+// The room of the file with the receivers and areas of the command line. `notes`: what was not read of their table, and
+// where their points lie.
 Room read_run_room(const RunOptions& options, std::vector<std::string>& notes);
 
 }  // namespace lichtmc::app

@@ -18,8 +18,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 7> properties{"reflectance", "power",    "unit", "lambert_exponent",
-                                                     "delay_ns",    "receiver", "ies"};
+constexpr std::array<std::string_view, 10> properties{"reflectance", "power",
+                                                      "unit",        "lambert_exponent",
+                                                      "delay_ns",    "receiver",
+                                                      "ies",         "calculation_area",
+                                                      "target_lx",   "target_uniformity"};
+
+// Of nodes with 'calculation_area'; elsewhere these words mean other things.
+constexpr std::array<std::string_view, 5> area_properties{"spacing", "margin", "quantity", "direction", "cells"};
 
 struct Synonym {
   std::string_view word;  // in lower case, without spaces, hyphens and underscores
@@ -58,6 +64,16 @@ constexpr std::array synonyms{
     Synonym{"delay", "delay_ns"},
     Synonym{"latency", "delay_ns"},
     Synonym{"verzögerung", "delay_ns"},
+    Synonym{"berechnungsfläche", "calculation_area"},
+    Synonym{"calculationplane", "calculation_area"},
+    Synonym{"calculationsurface", "calculation_area"},
+    Synonym{"calcarea", "calculation_area"},
+    Synonym{"measurementarea", "calculation_area"},
+    Synonym{"workingplane", "calculation_area"},
+    Synonym{"targetilluminance", "target_lx"},
+    Synonym{"targetlux", "target_lx"},
+    Synonym{"targetem", "target_lx"},
+    Synonym{"targetu0", "target_uniformity"},
     Synonym{"calculationpoint", "receiver"},
     Synonym{"detector", "receiver"},
     Synonym{"empfänger", "receiver"},
@@ -92,6 +108,7 @@ enum class Place { node, light, material, mesh, camera, scene };
 bool fits(std::string_view property, const Json& value) {
   const std::string text = value.is_string() ? plain(value.get<std::string>()) : "";
   if (property == "unit") return text == "w" || text == "lm" || text == "watt" || text == "lumen";
+  if (property == "calculation_area") return value.is_string() || value.is_boolean() || value.is_number();
   if (property == "receiver") return value.is_object() || value.is_boolean() || value.is_number();
   if (property == "ies")
     return text.ends_with(".ies") || text.ends_with(".ldt") || (value.is_object() && value.contains("file"));
@@ -133,6 +150,9 @@ std::string right_place(std::string_view property, Place place, const Json& obje
   const bool at_node = place == Place::node;
   if (property == "reflectance") return place == Place::material ? "" : "the material";
   if (property == "receiver") return at_node ? "" : "a node (an empty)";
+  if (property == "calculation_area") return at_node ? "" : "the node (the object) that has the mesh";
+  if (property == "target_lx" || property == "target_uniformity")
+    return at_node && has_extra(object, "calculation_area") ? "" : "a node with 'calculation_area'";
   if (property == "ies") return at_node || place == Place::light ? "" : "a node or its light";
   if (property == "delay_ns" && at_node) return "";  // the reader of the room knows whether its mesh emits
   if (property == "lambert_exponent" && at_node) return "";
@@ -151,7 +171,9 @@ class Checker {
   void check(Json& object, Place place, const std::string& where) {
     if (!object.is_object() || !object.contains("extras") || !object["extras"].is_object()) return;
     Json& extras = object["extras"];
+    const bool area = place == Place::node && has_extra(object, "calculation_area");
     for (auto& [name, value] : extras.items()) {
+      if (area && check_of_area(name, value, extras, where)) continue;
       const std::string_view meant = meant_property(name);
       if (meant.empty() || (meant == "delay_ns" && name != meant && !may_emit(place, object))) continue;
       const std::string to = right_place(meant, place, object);
@@ -168,6 +190,21 @@ class Checker {
   bool changed = false;
 
  private:
+  // Whether a property of a calculation area has a name that only areas have.
+  bool check_of_area(const std::string& name, const Json& value, const Json& extras, const std::string& where) {
+    for (const std::string_view property : area_properties) {
+      if (name == property) {
+        if (value.is_null())
+          refuse(document_, "'" + name + "' of " + where + " has no value. Set this custom property.");
+        return true;
+      }
+      if (edit_distance(plain(name), property) > 1 || extras.contains(property)) continue;
+      note(name, property, "", where);
+      return true;
+    }
+    return false;
+  }
+
   // The parser drops null and empty objects.
   void check_value(const std::string& name, Json& value, const std::string& where) {
     if (value.is_null()) refuse(document_, "'" + name + "' of " + where + " has no value. Set this custom property.");

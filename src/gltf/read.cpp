@@ -9,6 +9,7 @@
 
 #include "base/luminance.hpp"
 #include "base/message.hpp"
+#include "gltf/areas.hpp"
 #include "gltf/deform.hpp"
 #include "gltf/document.hpp"
 #include "gltf/extensions.hpp"
@@ -95,7 +96,11 @@ class RoomReader {
   void read_node(std::size_t k) {
     const PlacedNode& placed = nodes_[k];
     const std::size_t first_emitter = room_.emitters.size();
-    read_mesh(k);
+    if (is_calculation_area(document_->model.nodes[placed.index])) {
+      read_area(k);
+    } else {
+      read_mesh(k);
+    }
     auto light = luminaires_.read(placed, room_.ignored);
     if (!light) light = read_light(*document_, placed, room_.ignored);
     if (light) {
@@ -146,6 +151,48 @@ class RoomReader {
       }
       for (const glm::dmat4& world : transforms) add_surface(place_primitive(*stored, world), name, material, *stored);
     }
+  }
+
+  // The mesh of a calculation area is no part of the room.
+  void read_area(std::size_t number) {
+    const PlacedNode& placed = nodes_[number];
+    const auto& model = document_->model;
+    const auto& node = model.nodes[placed.index];
+    AreaRequest request;
+    request.properties = read_area_properties(*document_, placed, root_transform(*document_, *options_));
+    const std::size_t index = checked_index(*document_, node.mesh, model.meshes.size(), "the mesh of " + placed.label);
+    const auto& mesh = model.meshes[index];
+    if (left_out_.mesh(mesh.name)) {
+      left_out_.count_surfaces(1);
+      return;
+    }
+    for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
+      const std::string where = label("mesh", mesh.name, index) + " (" + placed.label + ")";
+      const auto stored = read_primitive(*document_, mesh.primitives[k], Material{}, options_->uv_set,
+                                         morph_weights(node, mesh), where, room_.ignored);
+      if (!stored) continue;
+      for (const glm::dmat4& world : mesh_transforms(*document_, placed)) {
+        const Surface faces = place_primitive(*stored, world);
+        triangles_ += faces.triangles.size();
+        for (const glm::uvec3& t : faces.triangles)
+          request.triangles.push_back({faces.positions[t.x], faces.positions[t.y], faces.positions[t.z]});
+      }
+    }
+    if (request.triangles.empty())
+      refuse(*document_, "the calculation area " + placed.label +
+                             " has no face with an area (allowed: at least one). Draw its faces.");
+    request.properties.name = unique_area(names_of_scene_.nodes[number]);
+    room_.area_requests.push_back(std::move(request));
+  }
+
+  std::string unique_area(const std::string& name) const {
+    const auto is_used = [this](const std::string& candidate) {
+      return std::any_of(room_.area_requests.begin(), room_.area_requests.end(),
+                         [&](const AreaRequest& request) { return request.properties.name == candidate; });
+    };
+    std::string candidate = name;
+    for (int n = 2; is_used(candidate); ++n) candidate = name + "_" + std::to_string(n);
+    return candidate;
   }
 
   // Whether the reflectance of a material, or of a surface, will be set as a number.

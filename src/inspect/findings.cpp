@@ -20,6 +20,7 @@ void add_findings(const Room& room, const Enclosure& enclosure, Inspection& fact
   find_reflectances(room, facts);
   find_open_edges(room, facts);
   find_receivers(room, enclosure, facts);
+  find_areas(room, facts);
   find_area_lights(room, facts);
   find_zero_area(room, facts);
   find_texture_coordinates(room, facts);

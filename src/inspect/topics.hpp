@@ -18,6 +18,9 @@ void find_up_axis(const Room& room, Inspection& facts);
 void find_emitters(const Room& room, const Enclosure& enclosure, Inspection& facts);
 void find_receivers(const Room& room, const Enclosure& enclosure, Inspection& facts);
 
+// findings_areas.cpp: calculation areas
+void find_areas(const Room& room, Inspection& facts);
+
 // findings_area_lights.cpp: area lights of a shape that is seldom meant
 void find_area_lights(const Room& room, Inspection& facts);
 

@@ -26,27 +26,6 @@ void check_reflectance(double reflectance, const std::string& what) {
                    " (allowed: 0 to 1). Give the share of light that is reflected, for example 0.5.");
 }
 
-// "(allowed: …)" with the materials and surfaces that have similar names.
-std::string similar_names(const Room& room, const SurfaceChoice& choice) {
-  std::vector<std::string> materials;
-  std::vector<std::string> surfaces;
-  for (const Surface& surface : room.surfaces) {
-    materials.push_back(surface.material);
-    surfaces.push_back(surface.name);
-  }
-  std::string list;
-  if (choice.materials) list += "materials: " + nearest_names(choice.name, std::move(materials));
-  if (choice.surfaces)
-    list += (list.empty() ? "" : "; ") + std::string("surfaces: ") + nearest_names(choice.name, std::move(surfaces));
-  return "(allowed, among others: " + list + ")";
-}
-
-[[noreturn]] void refuse_unknown(const Room& room, const SurfaceChoice& choice) {
-  const std::string kind = !choice.surfaces ? "material " : !choice.materials ? "surface " : "material or surface ";
-  throw InputError("There is no " + kind + in_quotes(choice.name) + " in " + room.source + " " +
-                   similar_names(room, choice) + ". Give the name of a material or surface of the room.");
-}
-
 // Throws if a name without prefix means a material and also a surface that has another material.
 void check_one_meaning(const Room& room, const SurfaceChoice& choice) {
   const auto has = [&](auto fits) { return std::find_if(room.surfaces.begin(), room.surfaces.end(), fits); };

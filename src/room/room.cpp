@@ -308,6 +308,7 @@ void check_room(const Room& room) {
   check_surfaces(room);
   check_emitters(room);
   for (const Receiver& receiver : room.receivers) check_receiver(room, receiver);
+  check_areas(room);
 }
 
 double surface_area(const Surface& surface) {

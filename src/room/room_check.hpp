@@ -12,4 +12,7 @@ void check_surfaces(const Room& room);
 // Checks that there are emitters, and that they are valid.
 void check_emitters(const Room& room);
 
+// Checks that the points of calculation areas are receivers of the room.
+void check_areas(const Room& room);
+
 }  // namespace lichtmc

@@ -1,8 +1,10 @@
 // Surfaces that a user names: by their material or their own name.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lichtmc/room.hpp"
 
@@ -20,5 +22,11 @@ struct SurfaceChoice {
   bool materials = true;
   bool surfaces = true;
 };
+
+// Throws InputError: a room has no surface of this choice; with similar names.
+[[noreturn]] void refuse_unknown(const Room& room, const SurfaceChoice& choice);
+
+// The numbers of the surfaces that a text chooses. Throws InputError if there are none.
+std::vector<std::size_t> chosen_surfaces(const Room& room, const std::string& name);
 
 }  // namespace lichtmc

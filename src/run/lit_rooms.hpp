@@ -58,6 +58,12 @@ class LitRooms {
   bool is_lit(const Column& column, const Gap& gap, std::size_t room) const;
   // Whether floors of a room lie on both sides of a point, along x or z.
   bool is_between_floors(const glm::dvec2& at, std::size_t room) const;
+  // The raster: this many lines along x, and rows of them along z, row by row; each with its gaps.
+  std::size_t lines_along_x() const { return columns_; }
+  std::size_t lines_along_z() const { return rows_; }
+  const Column& line(std::size_t k) const { return raster_[k]; }
+  std::size_t first_gap(std::size_t k) const { return first_gap_[k]; }
+  std::size_t nearest_line(const glm::dvec2& at) const { return column_at(at); }
   // The difference in height between a floor's neighbouring points.
   double step() const { return step_; }
 

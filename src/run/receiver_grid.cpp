@@ -13,10 +13,8 @@
 #include "lichtmc/error.hpp"
 #include "room/bounds.hpp"
 #include "room/room_check.hpp"
-#include "run/columns.hpp"
-#include "run/lit_rooms.hpp"
-#include "walk/inside.hpp"
-#include "walk/scene.hpp"
+#include "run/floor_points.hpp"
+#include "run/lit_space.hpp"
 
 namespace lichtmc {
 
@@ -47,30 +45,14 @@ std::size_t points_along(double length_m, double spacing_m) {
   return static_cast<std::size_t>(std::max(1.0, std::floor(length_m / spacing_m + 1e-5)));
 }
 
-// The room, with an emitter if it has none.
-Room lit_room(const Room& room, const Tiling& tiling, const Bounds& bounds) {
-  Room lit = room;
-  lit.receivers.clear();
-  if (lit.emitters.empty()) {
-    const InsidePoint inside = find_inside(room, *make_embree_tracer(room, tiling), bounds.low, bounds.high);
-    lit.emitters = {{"inside", 1.0, IsotropicEmitter{inside.place}}};
-  }
-  check_room(lit);
-  return lit;
-}
-
-// What a point of a grid is.
-enum class PointPlace { free, on_surface, in_furniture, in_wall, no_floor };
-
 // The grids of all rooms.
 class GridMaker {
  public:
-  GridMaker(const Scene& scene, ColumnTracer& tracer, double height_m, double spacing_m)
-      : tracer_(tracer), lit_(scene, tracer), height_(height_m), spacing_(spacing_m) {}
+  GridMaker(LitSpace& space, double height_m, double spacing_m)
+      : tracer_(space.tracer), lit_(space.rooms), points_(space), height_(height_m), spacing_(spacing_m) {}
 
   ReceiverGrid make() {
-    number_rooms();
-    for (const std::size_t room : order_) add_room(room);
+    for (const std::size_t room : points_.order()) add_room(room);
     std::sort(grid_.floors_m.begin(), grid_.floors_m.end());
     constexpr double same_m = 1e-3;
     const auto same = [](double a, double b) { return b - a <= same_m; };
@@ -79,24 +61,6 @@ class GridMaker {
   }
 
  private:
-  // Rooms with a floor, from below, then by position.
-  void number_rooms() {
-    floors_of_.resize(lit_.rooms().size());
-    for (std::size_t f = 0; f < lit_.floors().size(); ++f) floors_of_[lit_.floors()[f].room].push_back(f);
-    for (std::size_t r = 0; r < floors_of_.size(); ++r) {
-      std::vector<std::size_t>& floors = floors_of_[r];
-      if (floors.empty()) continue;
-      std::sort(floors.begin(), floors.end(),
-                [this](std::size_t a, std::size_t b) { return lit_.floors()[a].lowest < lit_.floors()[b].lowest; });
-      order_.push_back(r);
-    }
-    const auto key = [this](std::size_t r) {
-      const LitRoom& room = lit_.rooms()[r];
-      return std::tuple(std::round(lit_.floors()[floors_of_[r].front()].lowest / lit_.step()), room.low.y, room.low.x);
-    };
-    std::sort(order_.begin(), order_.end(), [&key](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  }
-
   // Walls are where the bounds of all surfaces are, if nearly: a room of single faces extends exactly over them.
   void add_room(std::size_t number) {
     LitRoom room = lit_.rooms()[number];
@@ -121,11 +85,11 @@ class GridMaker {
     const std::vector<Column> lines = tracer_.columns(places);
     const std::size_t before = grid_.receivers.size();
     std::vector<bool> used(lines.size(), false);
-    for (std::size_t f = 0; f < floors_of_[number].size(); ++f) {
+    for (std::size_t f = 0; f < points_.floors_of(number).size(); ++f) {
       for (std::size_t k = 0; k < lines.size(); ++k) {
         const std::string name =
             "grid" + tag(number, f) + "_" + std::to_string(k % columns) + "_" + std::to_string(k / columns);
-        if (add_point(lines[k], number, floors_of_[number][f], name)) used[k] = true;
+        if (add_point(lines[k], number, points_.floors_of(number)[f], name)) used[k] = true;
       }
     }
     grid_.without_floor += static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
@@ -133,61 +97,20 @@ class GridMaker {
   }
 
   std::string tag(std::size_t room, std::size_t floor) const {
-    const bool several_floors = floors_of_[room].size() > 1;
+    const bool several_floors = points_.floors_of(room).size() > 1;
     std::string text;
-    if (order_.size() > 1 || several_floors) {
-      const auto place = std::find(order_.begin(), order_.end(), room);
-      text += std::to_string(place - order_.begin() + 1);
+    if (points_.order().size() > 1 || several_floors) {
+      const auto place = std::find(points_.order().begin(), points_.order().end(), room);
+      text += std::to_string(place - points_.order().begin() + 1);
     }
     if (several_floors) text += "f" + std::to_string(floor + 1);
     return text;
   }
 
-  // A floor at a line.
-  struct FloorHere {
-    double height = 0.0;    // m; beside the line if the line does not meet it
-    double distance = 0.0;  // m, from the line to the nearest one of the raster on this floor
-    bool under = false;     // the line meets it, and light gets there
-    bool covered = false;   // the line meets it below a body
-  };
-
-  std::optional<FloorHere> floor_at(const Column& line, std::size_t room, std::size_t floor) const {
-    constexpr double reach_m = 2.5;  // over furniture, the floor beside it counts
-    const std::size_t near = lit_.nearest_on_floor(floor, line.at, std::max(reach_m, 2.0 * lit_.spacing()));
-    if (near == no_number) return std::nullopt;
-    const double beside = lit_.gaps()[near].gap.low;
-    FloorHere here{beside, lit_.distance(near, line.at)};
-    double least = lit_.step();
-    for (const Gap& gap : line.gaps) {
-      if (std::abs(gap.low - beside) > least) continue;
-      least = std::abs(gap.low - beside);
-      here.height = gap.low;
-      here.under = here.distance <= 2.0 * lit_.spacing() && lit_.is_lit(line, gap, room);
-      here.covered = !here.under;
-    }
-    return here;
-  }
-
-  // Whether another floor of the room is the one below a line that does not meet this one: a podium, or a nearer floor
-  // less than a storey higher or lower.
-  bool is_over_other_floor(const Column& line, std::size_t room, std::size_t floor, const FloorHere& here) const {
-    const double storey = 8.0 * lit_.step();
-    return std::any_of(floors_of_[room].begin(), floors_of_[room].end(), [&](std::size_t other) {
-      if (other == floor) return false;
-      const std::optional<FloorHere> there = floor_at(line, room, other);
-      return there && std::abs(there->height - here.height) <= storey &&
-             (there->under || there->distance < here.distance);
-    });
-  }
-
   // Whether there is a floor at a line; a point above it that is free becomes a receiver.
   bool add_point(const Column& line, std::size_t room, std::size_t floor, const std::string& name) {
-    const std::optional<FloorHere> here = floor_at(line, room, floor);
-    if (!here || (!here->under && is_over_other_floor(line, room, floor, *here))) return false;
-    const double floor_height = here->height;
-    const bool floor_under = here->under || here->covered;
-    double y = floor_height + height_;
-    switch (place_of(line, room, floor_height, floor_under, y)) {
+    const FloorPoint point = points_.at(line, room, floor, height_);
+    switch (point.place) {
       case PointPlace::no_floor:
         return false;
       case PointPlace::in_wall:
@@ -202,35 +125,16 @@ class GridMaker {
       case PointPlace::free:
         break;
     }
-    grid_.floors_m.push_back(floor_height);
-    grid_.receivers.push_back({name, {line.at.x, y, line.at.y}, {0.0, 1.0, 0.0}, 90.0, 1.0});
+    grid_.floors_m.push_back(point.floor_m);
+    grid_.receivers.push_back({name, {line.at.x, point.y, line.at.y}, {0.0, 1.0, 0.0}, 90.0, 1.0});
     return true;
   }
 
-  // y: becomes the height of the surface if the point lies on one.
-  PointPlace place_of(const Column& line, std::size_t room, double floor_height, bool floor_under, double& y) const {
-    const double rounding = tracer_.rounding();
-    const auto under = std::find_if(line.gaps.rbegin(), line.gaps.rend(),
-                                    [&](const Gap& gap) { return y >= gap.low - rounding && y < gap.high - rounding; });
-    const PointPlace closed = floor_under || lit_.is_between_floors(line.at, room) ? PointPlace::in_furniture : PointPlace::in_wall;
-    if (under == line.gaps.rend()) return line.gaps.empty() ? PointPlace::no_floor : closed;
-    if (!lit_.is_lit(line, *under, room)) return under->open_above ? PointPlace::no_floor : closed;
-    // Over a stairwell, the next surface below is that of another floor.
-    if (under->low < floor_height - lit_.step()) return PointPlace::no_floor;
-    if (std::abs(y - under->low) <= rounding) {
-      const bool on_floor = std::abs(under->low - floor_height) <= rounding;
-      y = under->low;
-      return on_floor ? PointPlace::free : PointPlace::on_surface;
-    }
-    return tracer_.on_surface({line.at.x, y, line.at.y}) ? PointPlace::in_wall : PointPlace::free;
-  }
-
   ColumnTracer& tracer_;
-  LitRooms lit_;
+  const LitRooms& lit_;
+  FloorPoints points_;
   double height_;
   double spacing_;
-  std::vector<std::vector<std::size_t>> floors_of_;  // of each room, from below
-  std::vector<std::size_t> order_;                   // rooms with floors
   ReceiverGrid grid_;
 };
 
@@ -240,11 +144,8 @@ ReceiverGrid lay_receiver_grid(const Room& room, double height_m, double spacing
   check_surfaces(room);
   const Bounds bounds = bounds_of(room);
   check_grid(height_m, spacing_m, bounds.high - bounds.low);
-  const Tiling tiling = make_tiling(room, std::numeric_limits<double>::max());
-  const Room lit = lit_room(room, tiling, bounds);
-  const Scene scene(lit, tiling, Engine::embree);
-  ColumnTracer tracer(lit, *scene.tracer);
-  ReceiverGrid grid = GridMaker(scene, tracer, height_m, spacing_m).make();
+  LitSpace space(room);
+  ReceiverGrid grid = GridMaker(space, height_m, spacing_m).make();
   if (grid.receivers.empty()) {
     throw InputError("No point of the grid " + to_text(height_m) + " m above the floors of " + room.source +
                      " lies in a space that light reaches. Give --grid another height, or --grid-spacing a smaller "

@@ -283,12 +283,20 @@ void check_ranks_agree(Communicator* communicator, const StateData& data) {
         "same options and the same program for all, and put state.h5 on a file system shared by all machines.");
 }
 
+void check_areas_are_laid(const Room& room) {
+  if (room.area_requests.empty()) return;
+  throw InputError("The calculation area " + in_quotes(room.area_requests.front().properties.name) + " in " +
+                   room.source + " has no points (allowed: areas that lay_areas() has given points). Call lay_areas() "
+                   "after reading the room.");
+}
+
 // The common part of a new run and of a continued one.
 Result simulate_from(const Room& room, const Settings& settings, const Control& control, StateData data,
                      bool only_read) {
   try {
     check_settings(settings);
     check_room(room);
+    check_areas_are_laid(room);
     check_settings_for(room, settings);
     if (!(control.checkpoint_seconds >= 0.0)) {
       throw InputError("The time between checkpoints is " + to_text(control.checkpoint_seconds) +

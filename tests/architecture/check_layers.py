@@ -30,7 +30,7 @@ PUBLIC = {
     "room": "room", "area": "room", "figure": "room", "emitter_parts": "room", "photometry": "room", "cover": "room", "cuboid": "room", "overrides": "room", "tiles": "room", "receiver_table": "room",
     "settings": "room", "channel": "room", "fingerprint": "room",  # plain data that every layer may read
     "communicator": "run", "control": "run", "progress": "run", "state": "run", "mpi": "mpi",
-    "result": "run", "dimmed_scene": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
+    "result": "run", "dimmed_scene": "run", "lay_areas": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
     "prepared_room": "tracer", "paths": "walk", "picture": "view", "area_drawing": "view",
     "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output", "luminaire_figures": "output", "folder_lock": "output",
 }
