@@ -56,7 +56,7 @@ async function contentOf(page) {
       return copy.textContent;
     };
     return {
-      headings: [...document.querySelectorAll('main h1, main h2, main h3')].filter(shown).map((one) => ({ text: one.textContent, size: parseFloat(getComputedStyle(one).fontSize) })),
+      headings: [...document.querySelectorAll('main h1, main h2, main h3')].filter(shown).map((one) => ({ text: one.textContent, table: one.nextElementSibling?.matches('table, .scroll') ?? false })),
       tables: ids.filter((id) => document.getElementById(id)).map((id) => ({
         id,
         head: [...document.querySelectorAll(`#${id} thead th`)].map(text),
@@ -83,14 +83,14 @@ function checkTable(tally, name, pages, { id, head, rows }) {
   tally.check(`${name}: every column of #${id} has its heading wherever it goes on`, headless.length === 0, headless[0]);
 }
 
-// Below each heading, on the same page, something follows: two lines or more.
+// Below each heading something follows on the same page; of a table more than its head.
 function checkHeadings(tally, name, pages, headings) {
-  const orphans = headings.filter(({ text }) => {
+  const orphans = headings.filter(({ text, table }) => {
     const found = pages.flatMap((page) => placesOf(page, wordsOf(text)).map((place) => ({ page, place })));
     return !found.some(({ page, place }) => {
       const foot = page.height - 45; // the page's number is below
       const below = page.words.filter((word) => word.top > place.bottom && word.bottom < foot);
-      return new Set(below.map((word) => Math.round(word.bottom))).size >= 2;
+      return new Set(below.map((word) => Math.round(word.bottom))).size >= (table ? 2 : 1);
     });
   });
   tally.check(`${name}: no heading at the end of a page`, headings.length > 0 && orphans.length === 0, `${headings.length} headings${orphans.length > 0 ? `; not ${orphans[0].text}` : ''}`);
