@@ -26,7 +26,8 @@ void add_channel_options(CLI::App& command, ChannelOptions& options) {
       ->group(group);
   command
       .add_flag("--per-emitter", options.per_emitter,
-                "A channel from each emitter, instead of one from all together; emitters of the same name share one")
+                "Keep the part of each emitter (of those of one name together) at receivers and areas apart, for `lichtmc "
+                "scene`; with --impulse-response: a channel from each emitter, instead of one from all together")
       ->group(group);
   command
       .add_option("--frequencies", options.frequencies,
@@ -53,7 +54,8 @@ void apply_channel_options(const ChannelOptions& options, Settings& settings) {
   if (options.impulse_response) channel.bin_width_s = parse_delay(*options.impulse_response, "--impulse-response");
   if (options.time_span) channel.time_span_s = parse_delay(*options.time_span, "--time-span");
   if (options.orders) channel.orders = parse_orders(*options.orders, "--orders");
-  channel.per_emitter = options.per_emitter;
+  channel.per_emitter = options.per_emitter && channel.wanted();
+  settings.per_emitter = options.per_emitter && !channel.wanted();
   if (options.frequencies) channel.frequencies = parse_frequencies(*options.frequencies, "--frequencies");
   channel.squared_weights = options.squared_weights;
 }

@@ -9,6 +9,7 @@
 #include "chance/significance.hpp"
 #include "chance/stream.hpp"
 #include "run/jackknife.hpp"
+#include "walk/jackknife_groups.hpp"
 
 namespace lichtmc {
 
@@ -96,6 +97,23 @@ double error_at(const PointValues& points, std::size_t k) {
   return std::hypot(error_of_groups(deviations), points.direct_error[k]);
 }
 
+// The same random numbers for every area and every run: the figures depend on the sums of a run alone.
+constexpr std::uint32_t trials = 200;
+double normal_number(std::uint64_t number, std::uint32_t trial) {
+  return normal_quantile_above(unit_open(Stream(0).draw(number, trial, Purpose::bootstrap)[0]));
+}
+// Those of the groups of rounds: [trial][group]. They are needed at every error check.
+const std::vector<double>& normals_of_groups() {
+  static const std::vector<double> all = [] {
+    std::vector<double> normals;
+    for (std::uint32_t trial = 0; trial < trials; ++trial) {
+      for (std::uint32_t j = 0; j < jackknife_groups; ++j) normals.push_back(normal_number(j, trial));
+    }
+    return normals;
+  }();
+  return all;
+}
+
 // How much the lowest of some values, varied by their errors, lies below the lowest of the values (≤ 0, but for the
 // chance of 200 trials); sign −1: the highest in place of the lowest.
 double bias_of_lowest(const PointValues& points, std::size_t lowest, double sign) {
@@ -107,24 +125,18 @@ double bias_of_lowest(const PointValues& points, std::size_t lowest, double sign
     if (sign * points.value[k] - far * error_at(points, k) <= bound) candidates.push_back(k);
   }
   if (candidates.size() < 2) return 0.0;
-  // The same random words for every area and every run: the figures depend on the sums of a run alone.
-  constexpr std::uint32_t trials = 200;
-  const Stream stream(0);
-  const auto normal = [&stream](std::uint64_t number, std::uint32_t trial) {
-    return normal_quantile_above(unit_open(stream.draw(number, trial, Purpose::bootstrap)[0]));
-  };
   const auto groups = static_cast<double>(points.groups);
   const double scale = std::sqrt(groups / (groups - 1.0));
   double sum = 0.0;
   for (std::uint32_t trial = 0; trial < trials; ++trial) {
-    std::vector<double> of_group;
-    for (std::size_t j = 0; j < points.groups; ++j) of_group.push_back(scale * normal(j, trial));
+    const double* of_group = normals_of_groups().data() + std::size_t{trial} * jackknife_groups;
     double least = std::numeric_limits<double>::infinity();
     for (const std::size_t k : candidates) {
-      double varied = points.value[k];
-      for (std::size_t j = 0; j < points.groups; ++j) varied += points.deviation(k)[j] * of_group[j];
-      if (points.direct_error[k] > 0.0) varied += points.direct_error[k] * normal(points.groups + k, trial);
-      least = std::min(least, sign * varied);
+      double shift = 0.0;
+      for (std::size_t j = 0; j < points.groups; ++j) shift += points.deviation(k)[j] * of_group[j];
+      shift *= scale;
+      if (points.direct_error[k] > 0.0) shift += points.direct_error[k] * normal_number(jackknife_groups + k, trial);
+      least = std::min(least, sign * (points.value[k] + shift));
     }
     sum += least;
   }
@@ -221,17 +233,19 @@ std::vector<AreaResult> area_results(const std::vector<Area>& areas, const Emitt
   return results;
 }
 
-double largest_error_of_areas(const std::vector<Area>& areas, const EmitterParts& parts, double floor) {
-  double largest = 0.0;
+AreaErrors largest_errors(const std::vector<Area>& areas, const EmitterParts& parts, double floor) {
+  AreaErrors largest;
+  const std::vector<double> undimmed(parts.parts.size(), 1.0);
+  const auto raise = [](double& to, const Figure& figure, double least) {
+    if (figure.standard_error == 0.0 || std::isnan(to)) return;  // exact, also where there is no light
+    const double relative = figure.standard_error / std::max(figure.value, least);
+    to = std::isnan(relative) ? relative : std::max(to, relative);
+  };
   for (const Area& area : areas) {
-    const AreaResult result = area_figures(area, parts, std::vector<double>(parts.parts.size(), 1.0));
+    const AreaResult result = area_figures(area, parts, undimmed);
     for (const Figure* figure : {&result.mean, &result.minimum}) {
-      const double relative = figure->standard_error / std::max(figure->value, floor);
-      if (std::isnan(relative)) {
-        if (figure->value == 0.0 && figure->standard_error == 0.0) continue;  // no light, for certain
-        return relative;
-      }
-      largest = std::max(largest, relative);
+      raise(largest.relative, *figure, floor);
+      raise(largest.without_floor, *figure, 0.0);
     }
   }
   return largest;

@@ -26,8 +26,12 @@ AreaResult area_figures(const Area& area, const EmitterParts& parts, const std::
 std::vector<AreaResult> area_results(const std::vector<Area>& areas, const EmitterParts& parts,
                                      const std::vector<double>& factors);
 
-// What a run has to reach: the largest relative standard error of the means and the minima of all areas. Relative to
-// the figure or to the error floor, whichever is greater. NaN if an error is not known.
-double largest_error_of_areas(const std::vector<Area>& areas, const EmitterParts& parts, double floor);
+// What a run has to reach: the largest relative standard error of the means and the minima of all areas. NaN if one is
+// not known.
+struct AreaErrors {
+  double relative = 0.0;       // to the figure or to the error floor, whichever is greater
+  double without_floor = 0.0;  // to the figure
+};
+AreaErrors largest_errors(const std::vector<Area>& areas, const EmitterParts& parts, double floor);
 
 }  // namespace lichtmc

@@ -91,8 +91,9 @@ void add_error_of_areas(const Room& room, const EmitterParts& parts, RunError& e
   const auto larger = [](double receivers, double areas) {
     return std::isnan(receivers) || std::isnan(areas) ? areas : std::max(receivers, areas);
   };
-  error.relative = larger(error.relative, largest_error_of_areas(room.areas, parts, error.floor));
-  error.without_floor = larger(error.without_floor, largest_error_of_areas(room.areas, parts, 0.0));
+  const AreaErrors of_areas = largest_errors(room.areas, parts, error.floor);
+  error.relative = larger(error.relative, of_areas.relative);
+  error.without_floor = larger(error.without_floor, of_areas.without_floor);
 }
 
 // Each tile is the sum of its faces.

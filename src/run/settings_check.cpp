@@ -11,6 +11,7 @@
 #include "lichtmc/result.hpp"
 #include "lichtmc/simulate.hpp"
 #include "room/reflectance.hpp"
+#include "run/parts_check.hpp"
 #include "walk/channel_axes.hpp"
 #include "walk/channel_memory.hpp"
 #include "walk/choose_policy.hpp"
@@ -307,6 +308,7 @@ void check_receivers_for_channels(const Room& room, const Settings& settings) {
 
 void check_settings_for(const Room& room, const Settings& settings) {
   check_receivers_for_channels(room, settings);
+  check_parts(room, settings);
   if (settings.measured == Measured::receivers && room.receivers.empty()) {
     throw InputError("There is no receiver in " + room.source +
                      " (allowed: at least one if only receivers are measured). Give nodes of the room the custom "
