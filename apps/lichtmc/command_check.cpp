@@ -210,6 +210,7 @@ void print_findings(const Inspection& facts) {
 
 // Areas without points remain requests: inspect() says what is wrong with them.
 void lay_areas_of_file(Room& room) {
+  if (room.area_requests.empty()) return;
   Room laid = room;
   try {
     lay_areas(laid);

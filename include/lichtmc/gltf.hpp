@@ -54,7 +54,8 @@ struct ReadOptions {
 Room read_gltf(const std::filesystem::path& file, const ReadOptions& options = {});
 
 // Writes a room as a .glb (binary) or .gltf (JSON with embedded buffer) file; the extension of the name determines
-// which; photometric files are embedded. read_gltf() returns the same room, except that coordinates are rounded to float and reflectance maps to grey
+// which; photometric files are embedded. The points of calculation areas are written as receivers, areas without a grid as
+// areas. read_gltf() returns the same room, except that coordinates are rounded to float and reflectance maps to grey
 // images of 8 bits (their coordinates are then also used for the tiles of a surface without coordinates of its own).
 // The file is replaced atomically. Throws InputError for another extension, RuntimeError if the file cannot be written.
 void write_gltf(const Room& room, const std::filesystem::path& file);

@@ -26,7 +26,7 @@ enum class Severity {
   fault,    // the room cannot be simulated
 };
 
-// One finding. `topic` is a stable word for programs: "size", "up-axis", "emitters", "receivers",
+// One finding. `topic` is a stable word for programs: "size", "up-axis", "emitters", "receivers", "areas",
 // "not-modelled", "open-edges", "openings", "behind", "one-plane", "zero-area", "reflectance", "texture-coordinates",
 // "tiles", "shape", "trapped-light", "emitter-light", "luminaires", "luminaire-housing", "luminaire-size", "room".
 struct Finding {

@@ -48,6 +48,7 @@ class Writer {
           [](const auto& /*area_light*/) {});  // part of its material
     }
     for (const Receiver& receiver : room.receivers) add_receiver(receiver);
+    for (const AreaRequest& request : room.area_requests) add_area_request(request);
   }
 
   GltfBuilder& document() { return document_; }
@@ -61,6 +62,7 @@ class Writer {
   void add_luminaire(const Emitter& emitter, const MeasuredEmitter& shape);
   void add_power(const Emitter& emitter, Json& node) const;
   void add_receiver(const Receiver& receiver);
+  void add_area_request(const AreaRequest& request);
   std::size_t material_of(std::size_t surface);
 
   const Room* room_;
@@ -261,6 +263,28 @@ void Writer::add_receiver(const Receiver& receiver) {
   if (receiver.concentrator_index) extras["concentrator_index"] = *receiver.concentrator_index;
   if (receiver.filter_gain != 1.0) extras["filter_gain"] = receiver.filter_gain;
   document_.add_node(std::move(node));
+}
+
+void Writer::add_area_request(const AreaRequest& request) {
+  std::vector<glm::dvec3> positions;
+  for (const auto& triangle : request.triangles) positions.insert(positions.end(), triangle.begin(), triangle.end());
+  if (positions.empty()) return;
+  const AreaProperties& p = request.properties;
+  Json extras{{"calculation_area", p.role}};
+  const auto add = [&extras](const char* name, const std::optional<double>& value) {
+    if (value) extras[name] = *value;
+  };
+  add("spacing", p.spacing_m);
+  add("margin", p.margin_m);
+  add("target_lx", p.target_lx);
+  add("target_uniformity", p.target_uniformity);
+  if (p.quantity) extras["quantity"] = std::string(to_string(*p.quantity));
+  if (p.direction) extras["direction"] = {p.direction->x, p.direction->y, p.direction->z};
+  if (p.cells) extras["cells"] = true;
+  const Json attributes{{"POSITION", document_.add_positions(positions)}};
+  Json& meshes = document_.json["meshes"];
+  meshes.push_back({{"name", p.name}, {"primitives", {{{"attributes", attributes}}}}});
+  document_.add_node({{"name", p.name}, {"mesh", meshes.size() - 1}, {"extras", extras}});
 }
 
 // Values that a Room may have and glTF cannot represent.

@@ -70,6 +70,26 @@ Json receivers_of(const Room& room) {
   return receivers;
 }
 
+Json areas_of(const Room& room) {
+  Json areas = Json::array();
+  for (const Area& area : room.areas) {
+    Json left_out = Json::array();
+    for (const AreaLeftOut& one : area.left_out) left_out.push_back({{"why", one.why}, {"points", one.points}});
+    areas.push_back({{"name", area.properties.name},
+                     {"role", area.properties.role},
+                     {"quantity", std::string(to_string(area.quantity))},
+                     {"points", area.cells.size()},
+                     {"columns", area.columns},
+                     {"rows", area.rows},
+                     {"above_floor", area.above_floor_m ? number(*area.above_floor_m) : Json(nullptr)},
+                     {"corner", point(area.corner)},
+                     {"u", point(area.u)},
+                     {"v", point(area.v)},
+                     {"left_out", left_out}});
+  }
+  return areas;
+}
+
 Json findings_of(const Inspection& inspection) {
   Json findings = Json::array();
   for (const Finding& finding : inspection.findings) {
@@ -144,6 +164,7 @@ std::string inspection_json(const Room& room, const Inspection& inspection) {
                   {"emitters", emitters_of(room)},
                   {"luminaires", luminaires_of(inspection)},
                   {"receivers", receivers_of(room)},
+                  {"areas", areas_of(room)},
                   {"mended", room.overrides},
                   {"findings", findings_of(inspection)}};
   return json_text(json);

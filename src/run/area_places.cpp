@@ -28,9 +28,8 @@ FloorPoints::FloorBelow AreaPlaces::floor_below(const AreaPlace& place) const {
 const char* why_left_out(PointPlace place) {
   switch (place) {
     case PointPlace::in_furniture:
-      return "inside furniture or other bodies";
     case PointPlace::in_wall:
-      return "inside walls or where no light gets";
+      return "inside furniture, walls or other bodies";
     case PointPlace::no_floor:
       return "outside the rooms";
     case PointPlace::free:

@@ -41,7 +41,7 @@ class AreaPlaces {
   FloorPoints floors_;
 };
 
-// "inside furniture or other bodies", …; empty for places that light reaches.
+// "inside furniture, walls or other bodies", …; empty for places that light reaches.
 const char* why_left_out(PointPlace place);
 
 }  // namespace lichtmc

@@ -96,10 +96,7 @@ FloorPoints::Level FloorPoints::at_level(const Column& line, double y) const {
     if (std::abs(y - gap->low) <= rounding) return {PointPlace::on_surface, room, gap->low};
     return {tracer_.on_surface({line.at.x, y, line.at.y}) ? PointPlace::in_wall : PointPlace::free, room, y};
   }
-  if (gap->open_above) return {PointPlace::no_floor, no_number, y};
-  const bool in_room = std::any_of(order_.begin(), order_.end(),
-                                   [&](std::size_t room) { return floor_below(line, room, y).floor != no_number; });
-  return {in_room ? PointPlace::in_furniture : PointPlace::in_wall, no_number, y};
+  return {gap->open_above ? PointPlace::no_floor : PointPlace::in_wall, no_number, y};
 }
 
 FloorPoints::FloorBelow FloorPoints::floor_below(const Column& line, std::size_t room, double y) const {

@@ -31,7 +31,7 @@ class FloorPoints {
   // The point of a line at a height above a floor of a room. no_floor: also if another floor lies below it.
   FloorPoint at(const Column& line, std::size_t room, std::size_t floor, double height_m) const;
 
-  // The point of a line at a height y (m); a point on a surface is on its upper side.
+  // The point of a line at a height y (m); a point on a surface is on its upper side. in_wall: in any closed body.
   struct Level {
     PointPlace place = PointPlace::no_floor;
     std::size_t room = no_number;  // in which it is free or on a surface

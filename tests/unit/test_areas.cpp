@@ -166,6 +166,37 @@ TEST_CASE("areas: closed rooms, and rooms with a door between them, have working
   CHECK(room.areas[1].corner.z == Approx(0.7).margin(1e-5));
 }
 
+TEST_CASE("areas: storeys, podiums and galleries have working planes of their own, a ramp is followed") {
+  Room room = make_cuboid({6.0, 3.0, 5.0}, uniform_reflectance(0.5));
+  room.surfaces.push_back(box_at("podium", {0.0, 0.0, 0.0}, {6.0, 0.5, 2.0}));
+  Room above = make_cuboid({6.0, 3.0, 5.0}, uniform_reflectance(0.5));
+  for (Surface& surface : above.surfaces) {
+    for (glm::dvec3& p : surface.positions) p.y += 3.2;
+    surface.name += " above";
+    room.surfaces.push_back(surface);
+  }
+  room.emitters = {isotropic({3.0, 2.8, 2.5}), isotropic({3.0, 6.0, 2.5})};
+  lay_working_planes(room, 0.75, with_spacing("plane", 0.5));
+  REQUIRE(room.areas.size() == 3);
+  CHECK(room.areas[0].corner.y == Approx(0.75));
+  CHECK(room.areas[0].corner.z == Approx(2.5));
+  CHECK(room.areas[0].cells.size() == 10 * 4);
+  CHECK(room.areas[1].corner.y == Approx(1.25));
+  CHECK(room.areas[1].cells.size() == 10 * 2);
+  CHECK(room.areas[2].corner.y == Approx(3.95));
+  CHECK(room.areas[2].cells.size() == 10 * 8);
+
+  Room ramp = make_cuboid({6.0, 4.0, 3.0}, uniform_reflectance(0.5));
+  ramp.emitters = {isotropic({3.0, 3.8, 1.5})};
+  for (glm::dvec3& p : ramp.surfaces[surface_number(ramp, "floor")].positions) p.y = p.x / 6.0;
+  lay_working_planes(ramp, 0.5, with_spacing("plane", 0.5));
+  REQUIRE(ramp.areas.size() == 1);
+  CHECK(ramp.areas[0].cells.size() == 10 * 4);
+  for (const Receiver& point : ramp.receivers)
+    CHECK(point.position.y == Approx(0.5 + point.position.x / 6.0).margin(1e-6));
+  CHECK_THAT(description_of(ramp.areas[0]), ContainsSubstring("Its floor lies between y = "));
+}
+
 TEST_CASE("areas: furniture is no wall, and points in it are left out and told") {
   Room room = office();
   room.surfaces.push_back(box_at("table", {1.0, 0.71, 1.0}, {1.0, 0.04000001, 0.5}));
@@ -177,10 +208,11 @@ TEST_CASE("areas: furniture is no wall, and points in it are left out and told")
   const Area& area = room.areas[0];
   CHECK(area.columns == 20);
   CHECK(area.rows == 16);
-  CHECK(left_out(area, "inside furniture or other bodies") == 16);
+  CHECK(left_out(area, "inside furniture, walls or other bodies") == 16);
   CHECK(area.cells.size() == 320 - 16);
-  CHECK_THAT(description_of(area), ContainsSubstring("8 of its points lie on table tops or the like.") &&
-                                       ContainsSubstring("Left out: 16 points inside furniture or other bodies."));
+  CHECK_THAT(description_of(area),
+             ContainsSubstring("8 of its points lie on table tops or the like.") &&
+                 ContainsSubstring("Left out: 16 points inside furniture, walls or other bodies."));
   CHECK(area.outline.size() == 4);
 }
 

@@ -63,6 +63,23 @@ TEST_CASE("glTF: a node with calculation_area measures, and is no part of the ro
   CHECK_FALSE(read_document(document_with_area(task())).area_requests[0].properties.spacing_m);
 }
 
+TEST_CASE("glTF: areas without a grid are written and read back") {
+  const Room room = read_document(document_with_area(
+      {{"calculation_area", "wall"}, {"spacing", 0.25}, {"quantity", "semicylindrical"}, {"direction", {0, 0, -1}}}));
+  const TemporaryFolder folder;
+  write_gltf(room, folder.path() / "room.glb");
+  const Room again = read_gltf(folder.path() / "room.glb");
+  REQUIRE(again.area_requests.size() == 1);
+  const AreaRequest& request = again.area_requests[0];
+  CHECK(request.triangles == room.area_requests[0].triangles);
+  CHECK(request.properties.name == "task");
+  CHECK(request.properties.role == "wall");
+  CHECK(request.properties.spacing_m == 0.25);
+  CHECK(request.properties.quantity == AreaQuantity::semicylindrical);
+  CHECK(request.properties.direction == glm::dvec3(0.0, 0.0, -1.0));
+  CHECK_FALSE(request.properties.margin_m);
+}
+
 TEST_CASE("glTF: nodes below a calculation area, its names and its emissive material") {
   json document = document_with_area(task());
   document["materials"][0]["extras"]["power"] = 100;
