@@ -90,6 +90,12 @@ std::string delay_text(const Emitter& emitter) {
   return emitter.delay_s > 0.0 ? ", delay " + four_digits(1e9 * emitter.delay_s) + " ns" : std::string();
 }
 
+std::string maintenance_text(const Emitter& emitter, const std::string& unit) {
+  if (!emitter.own_maintenance && emitter.maintenance_factor == 1.0) return "";
+  return ", maintenance factor " + four_digits(emitter.maintenance_factor) +
+         " (new: " + four_digits(emitter.power / emitter.maintenance_factor) + ' ' + unit + ')';
+}
+
 // The photometric file of a luminaire, and the input power that it states.
 std::string file_text(const Emitter& emitter) {
   const Photometry* const photometry = std::visit(
@@ -112,7 +118,8 @@ void print_emitters(const Room& room) {
             << ")\n";
   for (std::size_t k = 0; k < std::min(shown, room.emitters.size()); ++k)
     std::cout << "  " << visible_text(room.emitters[k].name) << ": " << four_digits(room.emitters[k].power) << ' '
-              << unit << file_text(room.emitters[k]) << delay_text(room.emitters[k]) << '\n';
+              << unit << maintenance_text(room.emitters[k], unit) << file_text(room.emitters[k])
+              << delay_text(room.emitters[k]) << '\n';
   if (room.emitters.size() > shown)
     std::cout << "  … and " << room.emitters.size() - shown << " more (--json lists all)\n";
 }

@@ -62,6 +62,12 @@ void add_room_options(CLI::App& command, RoomOptions& options) {
       ->type_name("R")
       ->group(reading);
   command
+      .add_option("--maintenance-factor", options.maintenance_factor,
+                  "Share of their new power that the emitters keep, above 0 and up to 1: the figures are maintained "
+                  "values. Emitters with a factor of their own keep it [1]")
+      ->type_name("F")
+      ->group(reading);
+  command
       .add_option("--scale", options.scale,
                   "Length of one unit of the file in metres: 0.01 for centimetres, 0.0254 for inches [1]")
       ->type_name("F")
@@ -114,6 +120,8 @@ Room read_room(const RoomOptions& options) {
   for (const NewReflectance& change : reflectances) set_reflectance(room, change.name, change.value);
   if (options.max_reflectance) limit_reflectance(room, parse_number(*options.max_reflectance, "--max-reflectance"));
   add_lights(room, options.lights);
+  if (options.maintenance_factor)
+    set_maintenance_factor(room, parse_number(*options.maintenance_factor, "--maintenance-factor"));
   return room;
 }
 

@@ -13,7 +13,7 @@ namespace lichtmc::app {
 
 struct RoomOptions {
   std::string file;
-  std::optional<std::string> scale, unit, max_reflectance;
+  std::optional<std::string> scale, unit, max_reflectance, maintenance_factor;
   std::string up = "y";
   std::vector<std::string> lights;
   std::vector<std::string> reflectances;

@@ -28,7 +28,8 @@ enum class Severity {
 
 // One finding. `topic` is a stable word for programs: "size", "up-axis", "emitters", "receivers", "areas",
 // "not-modelled", "open-edges", "openings", "behind", "one-plane", "zero-area", "reflectance", "texture-coordinates",
-// "tiles", "shape", "trapped-light", "emitter-light", "luminaires", "luminaire-housing", "luminaire-size", "room".
+// "tiles", "shape", "trapped-light", "emitter-light", "luminaires", "luminaire-housing", "luminaire-size",
+// "maintenance", "room".
 struct Finding {
   Severity severity = Severity::note;
   std::string topic;

@@ -2,6 +2,7 @@
 // recorded in Room::overrides.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,18 @@ void measure_only(Room& room, const std::vector<std::string>& names);
 // Sets the delay in s (≥ 0, finite) of the emitters of this name, which may be a pattern as above. Throws InputError if
 // there is none of this name (the message lists similar ones), or if the delay is out of range.
 void set_delay(Room& room, const std::string& name, double delay_s);
+
+// Sets the maintenance factor (above 0, up to 1) of all emitters that have none of their own, and multiplies their powers
+// accordingly: they become the maintained ones. Throws InputError if it is out of range.
+void set_maintenance_factor(Room& room, double factor);
+
+// The maintenance factor of all emitters with a power; none if they have different ones. Where it is F, the irradiances
+// with new emitters are those of the room divided by F.
+std::optional<double> common_maintenance_factor(const Room& room);
+
+// "Maintained values: maintenance factor 0.8", or "Maintained values: maintenance factors 0.7 to 0.9"; empty if all are
+// 1: then nothing is known of ageing.
+std::string maintained_text(const Room& room);
 
 // Adds an emitter whose power is the given quantity. A room without emitters takes this quantity; otherwise both must
 // agree. Throws InputError if they do not.

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -146,6 +147,7 @@ struct Emitter {
   double delay_s = 0.0;  // s, ≥ 0: of its light behind the signal, for impulse responses
   // Share of the power of a new emitter, above 0 and up to 1, that `power` is: light sources age, and dust gathers.
   double maintenance_factor = 1.0;
+  bool own_maintenance = false;  // its file gave the factor: set_maintenance_factor() keeps it, also if it is 1
 };
 
 // The directional law of an emitter.
@@ -159,6 +161,9 @@ enum class ReceiverLaw {
   cylindrical,      // w = sin ε/π, ε the angle to the normal, which is the axis of a small cylinder
   semicylindrical,  // w = sin ε (1 + cos α)/π, α the angle about the axis, from the direction that it faces
 };
+
+// "planar", "cylindrical" or "semicylindrical".
+std::string_view to_string(ReceiverLaw law);
 
 // A point at which irradiance is computed.
 struct Receiver {

@@ -18,11 +18,17 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 10> properties{"reflectance", "power",
-                                                      "unit",        "lambert_exponent",
-                                                      "delay_ns",    "receiver",
-                                                      "ies",         "calculation_area",
-                                                      "target_lx",   "target_uniformity"};
+constexpr std::array<std::string_view, 11> properties{"reflectance",
+                                                      "power",
+                                                      "unit",
+                                                      "lambert_exponent",
+                                                      "delay_ns",
+                                                      "receiver",
+                                                      "ies",
+                                                      "calculation_area",
+                                                      "target_lx",
+                                                      "target_uniformity",
+                                                      "maintenance_factor"};
 
 // Of nodes with 'calculation_area'; elsewhere these words mean other things.
 constexpr std::array<std::string_view, 5> area_properties{"spacing", "margin", "quantity", "direction", "cells"};
@@ -74,6 +80,11 @@ constexpr std::array synonyms{
     Synonym{"targetlux", "target_lx"},
     Synonym{"targetem", "target_lx"},
     Synonym{"targetu0", "target_uniformity"},
+    Synonym{"lightlossfactor", "maintenance_factor"},
+    Synonym{"llf", "maintenance_factor"},
+    Synonym{"maintenance", "maintenance_factor"},
+    Synonym{"mf", "maintenance_factor"},
+    Synonym{"wartungsfaktor", "maintenance_factor"},
     Synonym{"calculationpoint", "receiver"},
     Synonym{"detector", "receiver"},
     Synonym{"empfänger", "receiver"},
@@ -137,8 +148,13 @@ bool has_light(const Json& node) {
          (node["extensions"].contains("KHR_lights_punctual") || node["extensions"].contains("EXT_lights_ies"));
 }
 
+// Properties of emitters of which a node may have one for all that it emits.
+bool is_of_node(std::string_view property) {
+  return property == "delay_ns" || property == "maintenance_factor";
+}
+
 // Whether an object belongs to an emitter, so that a delay there means that of its light. Other programs have delays of
-// animations and sounds.
+// animations and sounds, and maintenance of machines.
 bool may_emit(Place place, const Json& object) {
   if (place == Place::material) return emits(object);
   return place == Place::light ||
@@ -154,7 +170,7 @@ std::string right_place(std::string_view property, Place place, const Json& obje
   if (property == "target_lx" || property == "target_uniformity")
     return at_node && has_extra(object, "calculation_area") ? "" : "a node with 'calculation_area'";
   if (property == "ies") return at_node || place == Place::light ? "" : "a node or its light";
-  if (property == "delay_ns" && at_node) return "";  // the reader of the room knows whether its mesh emits
+  if (is_of_node(property) && at_node) return "";  // the reader of the room knows whether its mesh emits
   if (property == "lambert_exponent" && at_node) return "";
   if (place == Place::light) return "";
   if (place == Place::material && (property == "power" || emits(object))) return "";
@@ -175,7 +191,7 @@ class Checker {
     for (auto& [name, value] : extras.items()) {
       if (area && check_of_area(name, value, extras, where)) continue;
       const std::string_view meant = meant_property(name);
-      if (meant.empty() || (meant == "delay_ns" && name != meant && !may_emit(place, object))) continue;
+      if (meant.empty() || (is_of_node(meant) && name != meant && !may_emit(place, object))) continue;
       const std::string to = right_place(meant, place, object);
       if (name == meant && to.empty()) {
         check_value(name, value, where);

@@ -159,6 +159,7 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
   }
   result.emitter.name = node.name.empty() ? placed.label : node.name;
   result.emitter.delay_s = delay_in(document, of_light, light_label).value_or(0.0);
+  set_maintenance(result.emitter, maintenance_in(document, of_light, light_label));
   // Read only here: nodes that emit nothing may have a 'unit' of another program.
   const auto unit = first(unit_in(document, node.extras, placed.label), unit_in(document, of_light, light_label));
   result.quantity = unit.value_or(Quantity::photometric);
@@ -175,6 +176,18 @@ void set_delay_of_node(const Document& document, const PlacedNode& placed, std::
   if (first < room.emitters.size()) return;
   room.ignored.push_back({"'delay_ns' of " + placed.label + ": nothing of this node emits light.", Effect::figures,
                           "Set it on the node of a light or of an emissive surface, or remove it."});
+}
+
+void set_maintenance_of_node(const Document& document, const PlacedNode& placed, std::size_t first, Room& room) {
+  const auto factor = maintenance_in(document, document.model.nodes[placed.index].extras, placed.label);
+  for (std::size_t n = first; n < room.emitters.size(); ++n) {
+    Emitter& emitter = room.emitters[n];
+    set_maintenance(emitter, factor);
+    emitter.power *= emitter.maintenance_factor;
+  }
+  if (!factor || first < room.emitters.size()) return;
+  room.ignored.push_back({"'maintenance_factor' of " + placed.label + ": nothing of this node emits light.",
+                          Effect::figures, "Set it on the node of a light or of an emissive surface, or remove it."});
 }
 
 namespace {
@@ -196,6 +209,35 @@ void read_optics(const Document& document, const tinygltf::Value& extras, const 
                          "through). Set that custom property.");
 }
 
+// Cylinders stand upright; half cylinders face where the node looks, as far as that is level.
+void read_law(const Document& document, const tinygltf::Value& extras, const std::string& where, Receiver& receiver) {
+  if (!extras.Has("quantity")) return;
+  const tinygltf::Value& quantity = extras.Get("quantity");
+  const std::string text = quantity.IsString() ? quantity.Get<std::string>() : "(not a text)";
+  bool known = false;
+  for (const ReceiverLaw law : {ReceiverLaw::planar, ReceiverLaw::cylindrical, ReceiverLaw::semicylindrical}) {
+    if (text != to_string(law)) continue;
+    receiver.law = law;
+    known = true;
+  }
+  if (!known)
+    refuse(document, "'quantity' of the receiver " + where + " is '" + text +
+                         "' (allowed: \"planar\", \"cylindrical\" or \"semicylindrical\"). Correct this custom "
+                         "property.");
+  if (receiver.law == ReceiverLaw::planar) return;
+  const glm::dvec3 looks = receiver.normal;
+  const glm::dvec3 level(looks.x, 0.0, looks.z);
+  constexpr double least = 1e-3;  // sine of the angle to the vertical: the direction of the rest would be rounding
+  if (receiver.law == ReceiverLaw::semicylindrical) {
+    if (glm::length(level) < least)
+      refuse(document, "the semicylindrical receiver " + where +
+                           " looks straight up or down (allowed: a node whose -Z axis points to the side that the half "
+                           "cylinder faces). Rotate the node.");
+    receiver.facing = glm::normalize(level);
+  }
+  receiver.normal = {0.0, 1.0, 0.0};
+}
+
 }  // namespace
 
 std::optional<Receiver> read_receiver(const Document& document, const PlacedNode& placed) {
@@ -205,7 +247,8 @@ std::optional<Receiver> read_receiver(const Document& document, const PlacedNode
     if (node.extras.IsObject() && node.extras.Has("receiver")) {
       refuse(document, "'receiver' of " + placed.label +
                            " is not an object (allowed: {\"area\": m², \"fov\": degrees, \"concentrator_index\": n, "
-                           "\"filter_gain\": T}). Set that custom property.");
+                           "\"filter_gain\": T, \"quantity\": \"planar\", \"cylindrical\" or "
+                           "\"semicylindrical\"}). Set that custom property.");
     }
     return std::nullopt;
   }
@@ -213,6 +256,7 @@ std::optional<Receiver> read_receiver(const Document& document, const PlacedNode
   receiver.name = node.name.empty() ? placed.label : node.name;
   receiver.position = placed.position();
   receiver.normal = axis_of(document, placed);
+  read_law(document, extras, placed.label, receiver);
   receiver.area_m2 = number_in(document, extras, "area", 1.0, placed.label);
   receiver.half_angle_deg = number_in(document, extras, "fov", 90.0, placed.label);
   if (!(receiver.half_angle_deg >= 0.0 && receiver.half_angle_deg <= 90.0)) {
@@ -223,7 +267,14 @@ std::optional<Receiver> read_receiver(const Document& document, const PlacedNode
     refuse(document, "'area' of the receiver " + placed.label + " is " + to_text(receiver.area_m2) +
                          " m² (allowed: a finite number, 0 or more). Set that custom property.");
   }
+  if (receiver.law != ReceiverLaw::planar && receiver.half_angle_deg != 90.0)
+    refuse(document, "'fov' of the receiver " + placed.label + " is " + to_text(receiver.half_angle_deg) +
+                         " degrees (allowed with 'quantity': 90, all directions). Remove one of both.");
   read_optics(document, extras, placed.label, receiver);
+  if (receiver.law != ReceiverLaw::planar && receiver.concentrator_index)
+    refuse(document, "the receiver " + placed.label + " has 'quantity' and 'concentrator_index' " +
+                         to_text(*receiver.concentrator_index) +
+                         " (allowed: one of both; a concentrator is for planar receivers). Remove one of them.");
   return receiver;
 }
 

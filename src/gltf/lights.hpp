@@ -42,6 +42,10 @@ std::optional<FileEmitter> read_light(const Document& document, const PlacedNode
 // is added to Room::ignored.
 void set_delay_of_node(const Document& document, const PlacedNode& placed, std::size_t first, Room& room);
 
+// The same for the maintenance factor; then the powers of these emitters, which are those of new ones until here, become
+// the maintained ones.
+void set_maintenance_of_node(const Document& document, const PlacedNode& placed, std::size_t first, Room& room);
+
 // The receiver of a node with extras.receiver.
 std::optional<Receiver> read_receiver(const Document& document, const PlacedNode& placed);
 

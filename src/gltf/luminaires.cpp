@@ -163,7 +163,9 @@ std::optional<FileEmitter> Luminaires::read(const PlacedNode& placed, std::vecto
   result.quantity = mounted.quantity;
   result.emitter.power = mounted.power;
   result.emitter.shape = std::move(mounted.shape);
-  result.emitter.delay_s = delay_in(document, extras_of(used.light), "the light of " + placed.label).value_or(0.0);
+  const std::string light_label = "the light of " + placed.label;
+  result.emitter.delay_s = delay_in(document, extras_of(used.light), light_label).value_or(0.0);
+  set_maintenance(result.emitter, maintenance_in(document, extras_of(used.light), light_label));
   return result;
 }
 

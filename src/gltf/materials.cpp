@@ -95,6 +95,7 @@ std::optional<Emission> read_emission(const Document& document, const tinygltf::
   emission.quantity = unit_in(document, material.extras, where).value_or(Quantity::photometric);
   emission.exponent = exponent_in(document, material.extras, where).value_or(1.0);
   emission.delay_s = delay_in(document, material.extras, where).value_or(0.0);
+  emission.maintenance_factor = maintenance_in(document, material.extras, where);
   const auto& info = material.emissiveTexture;
   if (info.index >= 0 && of_factor > 0.0) {
     const double least = std::min({emission.factor.r, emission.factor.g, emission.factor.b});
@@ -137,6 +138,22 @@ std::optional<double> delay_in(const Document& document, const tinygltf::Value& 
   if (delay_ns >= 0.0 && std::isfinite(delay_ns)) return shift_decimals(delay_ns, -9);
   refuse(document, "'delay_ns' of " + where + " is " + to_text(delay_ns) +
                        " (allowed: a finite number of nanoseconds, 0 or more). Correct this custom property.");
+}
+
+std::optional<double> maintenance_in(const Document& document, const tinygltf::Value& extras,
+                                     const std::string& where) {
+  if (!extras.IsObject() || !extras.Has("maintenance_factor")) return std::nullopt;
+  const double factor = number_in(document, extras, "maintenance_factor", 1.0, where);
+  if (factor > 0.0 && factor <= 1.0) return factor;
+  refuse(document, "'maintenance_factor' of " + where + " is " + to_text(factor) +
+                       " (allowed: above 0 and up to 1, the share of its new power that it keeps). Correct this custom "
+                       "property.");
+}
+
+void set_maintenance(Emitter& emitter, const std::optional<double>& factor) {
+  if (!factor) return;
+  emitter.maintenance_factor = *factor;
+  emitter.own_maintenance = true;
 }
 
 std::optional<double> exponent_in(const Document& document, const tinygltf::Value& extras, const std::string& where) {

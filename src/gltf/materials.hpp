@@ -30,6 +30,13 @@ std::optional<double> exponent_in(const Document& document, const tinygltf::Valu
 // extras.delay_ns, ≥ 0 and finite, in s; none if not present. Throws InputError if it is out of range.
 std::optional<double> delay_in(const Document& document, const tinygltf::Value& extras, const std::string& where);
 
+// extras.maintenance_factor, above 0 and up to 1; none if not present. Throws InputError if it is out of range.
+std::optional<double> maintenance_in(const Document& document, const tinygltf::Value& extras, const std::string& where);
+
+// Gives an emitter a factor of its own, or leaves it. Its power stays that of a new one until
+// set_maintenance_of_node().
+void set_maintenance(Emitter& emitter, const std::optional<double>& factor);
+
 // Emission of an emissive material.
 struct Emission {
   double luminance = 0.0;             // L in cd/m², or radiance in W/(m² sr); where the texture is white
@@ -40,6 +47,7 @@ struct Emission {
   Quantity quantity = Quantity::photometric;
   double exponent = 1.0;
   double delay_s = 0.0;
+  std::optional<double> maintenance_factor;
 };
 
 struct Material {

@@ -108,6 +108,7 @@ class RoomReader {
       add_emitter(std::move(*light));
     }
     set_delay_of_node(*document_, placed, first_emitter, room_);
+    set_maintenance_of_node(*document_, placed, first_emitter, room_);
     if (auto receiver = read_receiver(*document_, placed)) {
       receiver->name = names_of_scene_.nodes[k];
       room_.receivers.push_back(std::move(*receiver));
@@ -283,6 +284,7 @@ class RoomReader {
     emitter.emitter.power = emission.power.value_or(std::numbers::pi * luminance_cd_m2 * surface_area(surface));
     emitter.emitter.shape = std::move(shape);
     emitter.emitter.delay_s = emission.delay_s;
+    set_maintenance(emitter.emitter, emission.maintenance_factor);
     emitter.quantity = emission.quantity;
     if (emission.power) note_pieces(surface, *emission.power, emission.quantity);
     add_emitter(std::move(emitter));

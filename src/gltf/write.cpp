@@ -104,8 +104,15 @@ int reflectance_set(const Surface& surface) {
   return surface.uvs.empty() ? 1 : 2;
 }
 
-void write_delay(const Emitter& emitter, Json& extras) {
+// The power when new: reading multiplies it by the maintenance factor.
+double new_power(const Emitter& emitter) {
+  return emitter.power / emitter.maintenance_factor;
+}
+
+void write_delay_and_maintenance(const Emitter& emitter, Json& extras) {
   if (emitter.delay_s != 0.0) extras["delay_ns"] = shift_decimals(emitter.delay_s, 9);
+  if (emitter.own_maintenance || emitter.maintenance_factor != 1.0)
+    extras["maintenance_factor"] = emitter.maintenance_factor;
 }
 
 const SurfaceEmitter* Writer::emitter_of(std::size_t surface) const {
@@ -137,7 +144,7 @@ std::size_t Writer::material_of(std::size_t k) {
   for (const Emitter& emitter : room_->emitters) {
     if (emitting_surface(emitter) != k) continue;
     const auto& shape = std::get<SurfaceEmitter>(emitter.shape);
-    double luminance = emitter.power / (std::numbers::pi * surface_area(surface));
+    double luminance = new_power(emitter) / (std::numbers::pi * surface_area(surface));
     if (shape.emission_map) {
       // The texture contains the values divided by the highest one.
       const EmissionMap& map = room_->emission_maps[*shape.emission_map];
@@ -148,10 +155,10 @@ std::size_t Writer::material_of(std::size_t k) {
     }
     material["emissiveFactor"] = {1.0, 1.0, 1.0};
     material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", luminance}};
-    material["extras"]["power"] = emitter.power;
+    material["extras"]["power"] = new_power(emitter);
     material["extras"]["unit"] = unit_of(*room_);
     material["extras"]["lambert_exponent"] = shape.exponent;
-    write_delay(emitter, material["extras"]);
+    write_delay_and_maintenance(emitter, material["extras"]);
     document_.use_extension("KHR_materials_emissive_strength");
   }
   const auto [entry, fresh] = materials_.try_emplace(material.dump(-1, ' ', false, Json::error_handler_t::replace),
@@ -228,16 +235,16 @@ PunctualLight punctual(const SpotEmitter& shape, double power) {
 }
 
 void Writer::add_power(const Emitter& emitter, Json& node) const {
-  node["extras"]["power"] = emitter.power;
+  node["extras"]["power"] = new_power(emitter);
   node["extras"]["unit"] = unit_of(*room_);
-  write_delay(emitter, node["extras"]);
+  write_delay_and_maintenance(emitter, node["extras"]);
 }
 
 template <PointShape Shape>
 void Writer::add_point_emitter(const Emitter& emitter, const Shape& shape) {
   Json node = document_.placed_node(emitter.name, shape.position);
   if constexpr (requires { shape.axis; }) node["rotation"] = looking_along(shape.axis);
-  PunctualLight written = punctual(shape, emitter.power);
+  PunctualLight written = punctual(shape, new_power(emitter));
   node["extras"] = std::move(written.node_extras);
   add_power(emitter, node);
   Json& lights = document_.json["extensions"]["KHR_lights_punctual"]["lights"];
@@ -249,17 +256,23 @@ void Writer::add_point_emitter(const Emitter& emitter, const Shape& shape) {
 
 void Writer::add_luminaire(const Emitter& emitter, const MeasuredEmitter& shape) {
   Json node = document_.placed_node(emitter.name, shape.position);
-  luminaires_.add(*shape.photometry, {shape.axis, shape.c0, shape.c90}, shape.opening, emitter.power, room_->quantity,
-                  node);
+  luminaires_.add(*shape.photometry, {shape.axis, shape.c0, shape.c90}, shape.opening, new_power(emitter),
+                  room_->quantity, node);
   add_power(emitter, node);
   document_.add_node(std::move(node));
 }
 
+glm::dvec3 level_part(const glm::dvec3& direction) {
+  return {direction.x, 0.0, direction.z};
+}
+
 void Writer::add_receiver(const Receiver& receiver) {
   Json node = document_.placed_node(receiver.name, receiver.position);
-  node["rotation"] = looking_along(receiver.normal);
+  const bool is_half = receiver.law == ReceiverLaw::semicylindrical;
+  node["rotation"] = looking_along(is_half ? level_part(receiver.facing) : receiver.normal);
   Json& extras = node["extras"]["receiver"];
   extras = {{"area", receiver.area_m2}, {"fov", receiver.half_angle_deg}};
+  if (receiver.law != ReceiverLaw::planar) extras["quantity"] = std::string(to_string(receiver.law));
   if (receiver.concentrator_index) extras["concentrator_index"] = *receiver.concentrator_index;
   if (receiver.filter_gain != 1.0) extras["filter_gain"] = receiver.filter_gain;
   document_.add_node(std::move(node));
@@ -294,6 +307,15 @@ void check_writable(const Room& room) {
     throw InputError("Surface " + in_quotes(surface.name) + " has vertex colours, limited to a reflectance of " +
                      to_text(surface.highest_reflectance) +
                      " (a file cannot contain such a limit). Lower the vertex colours themselves.");
+  }
+  for (const Receiver& receiver : room.receivers) {
+    constexpr double vertical = 1e-9;  // sine of the angle between the axis and the vertical
+    if (receiver.law == ReceiverLaw::planar || glm::length(level_part(glm::normalize(receiver.normal))) < vertical)
+      continue;
+    throw InputError("The axis of the " + std::string(to_string(receiver.law)) + " receiver " +
+                     in_quotes(receiver.name) +
+                     " is not vertical (a file contains vertical ones only). Give it the "
+                     "axis 0,1,0.");
   }
   std::vector<bool> emits(room.surfaces.size(), false);
   for (const Emitter& emitter : room.emitters) {

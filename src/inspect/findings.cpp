@@ -13,6 +13,7 @@ void add_findings(const Room& room, const Enclosure& enclosure, Inspection& fact
   find_emitters(room, enclosure, facts);
   find_emitter_light(room, facts);
   find_luminaires(room, facts);
+  find_maintenance(room, facts);
   find_seen_from_behind(room, facts);
   find_not_modelled(room, facts);
   find_faces_in_one_plane(room, facts);

@@ -63,6 +63,21 @@ void find_emitters(const Room& room, const Enclosure& enclosure, Inspection& fac
       "The custom property 'power' gives the luminous flux in lm.");
 }
 
+void find_maintenance(const Room& room, Inspection& facts) {
+  Names without;
+  for (const Emitter& emitter : room.emitters) {
+    if (!emitter.own_maintenance && emitter.maintenance_factor == 1.0) without.add(in_quotes(emitter.name));
+  }
+  const std::size_t with = room.emitters.size() - without.count();
+  if (with == 0 || without.count() == 0) return;
+  add(facts, Severity::warning, "maintenance",
+      to_text(with, "emitter") + (with == 1 ? " has" : " have") + " a maintenance factor, " +
+          to_text(without.count(), "emitter") + (without.count() == 1 ? " has" : " have") +
+          " none, so that the figures are neither maintained nor initial values: " + without.text() + ".",
+      "Set the custom property 'maintenance_factor' of the others too, 1 if they lose nothing, or give "
+      "--maintenance-factor for them.");
+}
+
 void find_receivers(const Room& room, const Enclosure& enclosure, Inspection& facts) {
   if (room.receivers.empty()) return;
   add(facts, Severity::note, "receivers",

@@ -17,6 +17,7 @@ void find_up_axis(const Room& room, Inspection& facts);
 // findings_emitters.cpp
 void find_emitters(const Room& room, const Enclosure& enclosure, Inspection& facts);
 void find_receivers(const Room& room, const Enclosure& enclosure, Inspection& facts);
+void find_maintenance(const Room& room, Inspection& facts);
 
 // findings_areas.cpp: calculation areas
 void find_areas(const Room& room, Inspection& facts);

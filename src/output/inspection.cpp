@@ -66,6 +66,7 @@ Json receivers_of(const Room& room) {
                          {"area", number(r.area_m2)},
                          {"concentrator_index", r.concentrator_index ? number(*r.concentrator_index) : Json(nullptr)},
                          {"filter_gain", number(r.filter_gain)}});
+    add_law(r, receivers.back());
   }
   return receivers;
 }

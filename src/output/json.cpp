@@ -26,9 +26,19 @@ Json emitters_of(const Room& room) {
                         {"kind", std::string(kind_of(emitter))},
                         {"file", photometry != nullptr ? Json(photometry->source) : Json(nullptr)},
                         {"power", number(emitter.power)},
-                        {"delay_ns", number(shift_decimals(emitter.delay_s, 9))}});
+                        {"delay_ns", number(shift_decimals(emitter.delay_s, 9))},
+                        {"maintenance_factor", number(emitter.maintenance_factor)},
+                        {"initial_power", number(emitter.power / emitter.maintenance_factor)}});
   }
   return emitters;
+}
+
+void add_law(const Receiver& receiver, Json& object) {
+  if (receiver.law == ReceiverLaw::planar) return;
+  object["quantity"] = std::string(to_string(receiver.law));
+  const glm::dvec3& facing = receiver.facing;
+  if (receiver.law == ReceiverLaw::semicylindrical)
+    object["facing"] = {number(facing.x), number(facing.y), number(facing.z)};
 }
 
 std::string json_text(const Json& json) {

@@ -21,6 +21,9 @@ std::string_view kind_of(const Emitter& emitter);
 // Name, kind, photometric file and power of every emitter.
 Json emitters_of(const Room& room);
 
+// Adds "quantity", and of half cylinders "facing", to the object of a receiver of another law than the planar one.
+void add_law(const Receiver& receiver, Json& object);
+
 // The text of a file. Bytes of names that are not UTF-8 are replaced: an error at the end of a long run would lose the
 // results.
 std::string json_text(const Json& json);

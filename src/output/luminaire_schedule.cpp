@@ -34,7 +34,7 @@ std::string vector_fields(const std::optional<glm::dvec3>& vector) {
 
 std::optional<double> ScheduleRow::scale(Quantity quantity) const {
   if (quantity != Quantity::photometric) return std::nullopt;
-  return power / photometry->flux();
+  return initial_power() / photometry->flux();
 }
 
 std::vector<ScheduleRow> luminaire_schedule(const Room& room) {
@@ -50,12 +50,13 @@ std::vector<ScheduleRow> luminaire_schedule(const Room& room) {
     if (known == files.end()) files.push_back(photometry);
     const bool area = opening_of(emitter) != nullptr;
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const ScheduleRow& other) {
-      return other.file == file && other.power == emitter.power && other.area == area;
+      return other.file == file && other.power == emitter.power &&
+             other.maintenance_factor == emitter.maintenance_factor && other.area == area;
     });
     if (row != rows.end()) {
       row->emitters.push_back(k);
     } else {
-      rows.push_back({files[file], file, emitter.power, area, {k}});
+      rows.push_back({files[file], file, emitter.power, emitter.maintenance_factor, area, {k}});
     }
   }
   std::stable_sort(rows.begin(), rows.end(),
@@ -65,23 +66,25 @@ std::vector<ScheduleRow> luminaire_schedule(const Room& room) {
 
 std::string emitters_csv(const Room& room) {
   std::string table =
-      "emitter,name,kind,file,power,unit,scale,watts,x,y,z,aim_x,aim_y,aim_z,c0_x,c0_y,c0_z,light_from,delay_ns\n";
+      "emitter,name,kind,file,power,unit,scale,watts,x,y,z,aim_x,aim_y,aim_z,c0_x,c0_y,c0_z,light_from,delay_ns,"
+      "maintenance_factor,initial_power\n";
   const std::string unit(power_unit(room.quantity));
   for (std::size_t k = 0; k < room.emitters.size(); ++k) {
     const Emitter& emitter = room.emitters[k];
     const Photometry* photometry = photometry_of(emitter);
     const EmitterDirections directions = directions_of(emitter);
     const bool scaled = photometry != nullptr && room.quantity == Quantity::photometric;
+    const double initial = emitter.power / emitter.maintenance_factor;
     const bool surface = emitting_surface(emitter).has_value();
     append_row(table, std::to_string(k), csv_field(emitter.name), std::string(kind_of(emitter)),
                photometry != nullptr ? csv_field(photometry->source) : std::string(), to_text(emitter.power), unit,
-               scaled ? to_text(emitter.power / photometry->flux()) : std::string(),
+               scaled ? to_text(initial / photometry->flux()) : std::string(),
                photometry != nullptr && photometry->watts > 0.0 ? to_text(photometry->watts) : std::string(),
                vector_fields(place_of(room, emitter)), vector_fields(directions.aim), vector_fields(directions.c0),
                std::string(surface                          ? "surface"
                            : opening_of(emitter) != nullptr ? "opening"
                                                             : "point"),
-               to_text(shift_decimals(emitter.delay_s, 9)));
+               to_text(shift_decimals(emitter.delay_s, 9)), to_text(emitter.maintenance_factor), to_text(initial));
   }
   return table;
 }

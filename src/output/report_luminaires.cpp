@@ -46,6 +46,9 @@ std::string description_of(const ScheduleRow& row, Quantity quantity) {
     line("The file gives the shape of the intensity.");
   else if (std::abs(*scale - 1.0) > 1e-9)
     line("Scaled to " + percent(*scale) + " of the file's " + rounded(photometry.flux(), 4) + " lm.");
+  if (row.maintenance_factor != 1.0)
+    line("Maintenance factor " + to_text(row.maintenance_factor) + ": " + rounded(row.initial_power(), 4) + " " +
+         std::string(power_unit(quantity)) + " when new.");
   line(row.area ? "Light from all over its opening: " + opening_text(photometry.opening) + "." : std::string());
   return element("td", html, " class=\"text\"");
 }

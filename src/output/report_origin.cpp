@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/message.hpp"
+#include "lichtmc/overrides.hpp"
 #include "lichtmc/units.hpp"
 #include "lichtmc/version.hpp"
 #include "output/html.hpp"
@@ -48,18 +49,22 @@ std::string settings_table(const Settings& settings) {
 
 // Emitters without a photometric file: the others are in the luminaire schedule.
 std::string emitters_table(const Room& room) {
+  const std::string unit(power_unit(room.quantity));
+  const bool aged = !maintained_text(room).empty();
   std::string rows;
   for (const Emitter& e : room.emitters) {
     if (photometry_of(e) != nullptr) continue;
-    rows += "<tr>" + text_cell(e.name) + text_cell(kind_of(e)) + number_cell(e.power) + "</tr>\n";
+    rows += "<tr>" + text_cell(e.name) + text_cell(kind_of(e)) + number_cell(e.power) +
+            (aged ? number_cell(e.maintenance_factor) + number_cell(e.power / e.maintenance_factor) : std::string()) +
+            "</tr>\n";
   }
+  const std::string power = std::string(power_word(room.quantity));
+  const std::string heads =
+      aged ? table_head({"emitter", "kind", power + ", " + unit, "maintenance factor", power + " when new, " + unit})
+           : table_head({"emitter", "kind", power + ", " + unit});
   if (rows.empty()) return {};
   return heading(luminaire_schedule(room).empty() ? "Emitters" : "Emitters without a photometric file") +
-         element("table",
-                 table_head({"emitter", "kind",
-                             std::string(power_word(room.quantity)) + ", " + std::string(power_unit(room.quantity))}) +
-                     element("tbody", rows),
-                 " class=\"sortable\" id=\"emitters\"");
+         element("table", heads + element("tbody", rows), " class=\"sortable\" id=\"emitters\"");
 }
 
 }  // namespace

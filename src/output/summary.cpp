@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "lichtmc/output.hpp"
+#include "lichtmc/overrides.hpp"
 #include "lichtmc/version.hpp"
 #include "output/area_json.hpp"
 #include "output/channel_json.hpp"
@@ -51,19 +52,21 @@ Json surfaces_of(const Result& result, const ResultFiles& written) {
 }
 
 Json receiver_of(const Receiver& r, const ReceiverResult& one) {
-  return {{"name", r.name},
-          {"position", {number(r.position.x), number(r.position.y), number(r.position.z)}},
-          {"normal", {number(r.normal.x), number(r.normal.y), number(r.normal.z)}},
-          {"fov", number(r.half_angle_deg)},
-          {"area", number(r.area_m2)},
-          {"concentrator_index", r.concentrator_index ? number(*r.concentrator_index) : Json(nullptr)},
-          {"filter_gain", number(r.filter_gain)},
-          {"irradiance", number(one.irradiance)},
-          {"direct", number(one.direct)},
-          {"indirect", number(one.indirect)},
-          {"standard_error", number(one.standard_error)},
-          {"gain", number(one.gain)},
-          {"gain_db", one.gain > 0.0 ? number(10.0 * std::log10(one.gain)) : Json(nullptr)}};
+  Json receiver{{"name", r.name},
+                {"position", {number(r.position.x), number(r.position.y), number(r.position.z)}},
+                {"normal", {number(r.normal.x), number(r.normal.y), number(r.normal.z)}},
+                {"fov", number(r.half_angle_deg)},
+                {"area", number(r.area_m2)},
+                {"concentrator_index", r.concentrator_index ? number(*r.concentrator_index) : Json(nullptr)},
+                {"filter_gain", number(r.filter_gain)},
+                {"irradiance", number(one.irradiance)},
+                {"direct", number(one.direct)},
+                {"indirect", number(one.indirect)},
+                {"standard_error", number(one.standard_error)},
+                {"gain", number(one.gain)},
+                {"gain_db", one.gain > 0.0 ? number(10.0 * std::log10(one.gain)) : Json(nullptr)}};
+  add_law(r, receiver);
+  return receiver;
 }
 
 // The elements of an array, each on a line.
@@ -121,6 +124,8 @@ Json luminaires_of(const Room& room) {
                           {"lamp_set", photometry.lamp_set + 1},
                           {"count", row.emitters.size()},
                           {"power", number(row.power)},
+                          {"maintenance_factor", number(row.maintenance_factor)},
+                          {"initial_power", number(row.initial_power())},
                           {"scale", scale ? number(*scale) : Json(nullptr)},
                           {"total_power", number(row.count() * row.power)},
                           {"watts", watts ? number(photometry.watts) : Json(nullptr)},
@@ -265,6 +270,8 @@ void add_details(const Room& room, const Result& result, const ResultFiles& file
   for (const std::string& note : files_left_out(result)) summary["warnings"].push_back(note);
   summary["mended"] = result.overrides;
   summary["emitters"] = emitters_of(room);
+  const std::optional<double> maintenance = common_maintenance_factor(room);
+  summary["maintenance_factor"] = maintenance ? number(*maintenance) : Json(nullptr);
   summary["luminaires"] = luminaires_of(room);
   summary["tile_edge_m"] = result.settings.tile_edge_m;
   summary["tiles_count"] = result.tiles.size();

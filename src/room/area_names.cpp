@@ -1,4 +1,5 @@
 #include "lichtmc/area.hpp"
+#include "lichtmc/room.hpp"
 
 namespace lichtmc {
 
@@ -11,6 +12,18 @@ std::string_view to_string(AreaQuantity quantity) {
     case AreaQuantity::cylindrical:
       return "cylindrical";
     case AreaQuantity::semicylindrical:
+      return "semicylindrical";
+  }
+  return "";
+}
+
+std::string_view to_string(ReceiverLaw law) {
+  switch (law) {
+    case ReceiverLaw::planar:
+      return "planar";
+    case ReceiverLaw::cylindrical:
+      return "cylindrical";
+    case ReceiverLaw::semicylindrical:
       return "semicylindrical";
   }
   return "";

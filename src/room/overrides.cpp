@@ -149,6 +149,61 @@ void set_delay(Room& room, const std::string& name, double delay_s) {
                            ": delay set to " + to_text(shift_decimals(delay_s, 9)) + " ns.");
 }
 
+void set_maintenance_factor(Room& room, double factor) {
+  if (!(factor > 0.0 && factor <= 1.0))
+    throw InputError("The maintenance factor is " + to_text(factor) +
+                     " (allowed: above 0 and up to 1). Give the share of the new power that the emitters keep, for "
+                     "example 0.8.");
+  std::size_t changed = 0;
+  for (Emitter& emitter : room.emitters) {
+    if (emitter.own_maintenance) continue;
+    emitter.power *= factor / emitter.maintenance_factor;
+    emitter.maintenance_factor = factor;
+    ++changed;
+  }
+  if (factor == 1.0) return;
+  const std::size_t own = room.emitters.size() - changed;
+  room.overrides.push_back(
+      "Maintenance factor " + to_text(factor) + ": the power of " + to_text(changed, "emitter") +
+      " is this share of the new one" +
+      (own > 0 ? "; " + to_text(own, "emitter") + (own == 1 ? " has a factor" : " have factors") + " of the file."
+               : "."));
+}
+
+namespace {
+
+struct FactorRange {
+  double least = 1.0;
+  double greatest = 1.0;
+};
+
+// Of emitters with a power.
+FactorRange maintenance_factors(const Room& room) {
+  std::optional<FactorRange> range;
+  for (const Emitter& emitter : room.emitters) {
+    if (!(emitter.power > 0.0)) continue;
+    const double factor = emitter.maintenance_factor;
+    range = range ? FactorRange{std::min(range->least, factor), std::max(range->greatest, factor)}
+                  : FactorRange{factor, factor};
+  }
+  return range.value_or(FactorRange{});
+}
+
+}  // namespace
+
+std::optional<double> common_maintenance_factor(const Room& room) {
+  const FactorRange range = maintenance_factors(room);
+  if (range.least < range.greatest) return std::nullopt;
+  return range.least;
+}
+
+std::string maintained_text(const Room& room) {
+  const FactorRange range = maintenance_factors(room);
+  if (range.least == 1.0) return "";
+  if (range.least == range.greatest) return "Maintained values: maintenance factor " + to_text(range.least);
+  return "Maintained values: maintenance factors " + to_text(range.least) + " to " + to_text(range.greatest);
+}
+
 namespace {
 
 // The flux of a photometric file is an integral; nobody has given its 16 digits.

@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/message.hpp"
 #include "chance/candela_zones.hpp"
 #include "lichtmc/lichtmc.hpp"
 #include "output/luminaire_schedule.hpp"
@@ -310,17 +311,33 @@ TEST_CASE("luminaire schedule: a row for each file and power; equal files are on
   CHECK(luminaire_schedule(unit_cube(0.5, paper_emitter())).empty());
 }
 
+TEST_CASE("luminaire schedule: the scale is that of the new luminaire; other maintenance factors are other rows") {
+  Room room = room_with_luminaires();
+  room.emitters[3].own_maintenance = true;  // one of two equal ones
+  set_maintenance_factor(room, 0.8);
+  const std::vector<ScheduleRow> rows = luminaire_schedule(room);
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[0].emitters == std::vector<std::size_t>{1});
+  CHECK(rows[0].maintenance_factor == 0.8);
+  CHECK(rows[0].scale(room.quantity).value() == Approx(1.0));
+  CHECK(rows[0].initial_power() == Approx(rows[0].power / 0.8));
+  CHECK(rows[1].emitters == std::vector<std::size_t>{3});
+  CHECK(rows[1].maintenance_factor == 1.0);
+}
+
 TEST_CASE("emitters.csv: a row for each emitter") {
   std::istringstream table(emitters_csv(room_with_luminaires()));
   std::vector<std::string> lines;
   for (std::string line; std::getline(table, line);) lines.push_back(line);
   REQUIRE(lines.size() == 6);
   CHECK(lines[0] ==
-        "emitter,name,kind,file,power,unit,scale,watts,x,y,z,aim_x,aim_y,aim_z,c0_x,c0_y,c0_z,light_from,delay_ns");
+        "emitter,name,kind,file,power,unit,scale,watts,x,y,z,aim_x,aim_y,aim_z,c0_x,c0_y,c0_z,light_from,delay_ns,"
+        "maintenance_factor,initial_power");
   CHECK(lines[2].starts_with("1,one,measured,folder/lamp.ies,"));
-  CHECK(lines[2].ends_with(",lm,1,2,0.5,0.9,0.5,0,-1,0,1,0,0,point,0"));
+  CHECK(lines[2].ends_with(",lm,1,2,0.5,0.9,0.5,0,-1,0,1,0,0,point,0,1," +
+                           to_text(room_with_luminaires().emitters[1].power)));
   CHECK(lines[5].find(",lm,0.5,2,") != std::string::npos);
-  for (const std::string& line : lines) CHECK(count_of(line, ",") == 18);
+  for (const std::string& line : lines) CHECK(count_of(line, ",") == 20);
 }
 
 TEST_CASE("report: each luminaire has its polar diagram once, with number and sums; results have emitters.csv") {
