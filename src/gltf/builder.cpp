@@ -102,10 +102,11 @@ std::size_t GltfBuilder::add_png(const std::string& name, std::string_view png) 
 }
 
 std::size_t GltfBuilder::add_node(Json node) {
-  Json& list = json["scenes"][0]["nodes"];
-  list.push_back(json["nodes"].size());
+  // A new list moves the others: no reference to one of them may be kept while it is made.
+  const std::size_t number = json["nodes"].size();
   json["nodes"].push_back(std::move(node));
-  return json["nodes"].size() - 1;
+  json["scenes"][0]["nodes"].push_back(number);
+  return number;
 }
 
 void GltfBuilder::use_extension(const std::string& name) {

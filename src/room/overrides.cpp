@@ -163,11 +163,10 @@ void set_maintenance_factor(Room& room, double factor) {
   }
   if (factor == 1.0) return;
   const std::size_t own = room.emitters.size() - changed;
-  room.overrides.push_back(
-      "Maintenance factor " + to_text(factor) + ": the power of " + to_text(changed, "emitter") +
-      " is this share of the new one" +
-      (own > 0 ? "; " + to_text(own, "emitter") + (own == 1 ? " has a factor" : " have factors") + " of the file."
-               : "."));
+  const auto emitters_have = [](std::size_t n) { return to_text(n, "emitter") + (n == 1 ? " has" : " have"); };
+  room.overrides.push_back("Maintenance factor " + to_text(factor) + ": " + emitters_have(changed) +
+                           " this share of the new power" +
+                           (own > 0 ? "; " + emitters_have(own) + " a factor of the file." : "."));
 }
 
 namespace {

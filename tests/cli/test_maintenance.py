@@ -36,7 +36,7 @@ class Maintenance(ProgramTest):
         self.assertAlmostEqual(float(at_aged[0]["direct"]) / float(at_new[0]["direct"]), 0.8, delta=1e-12)
         self.assertEqual([(row["power"], row["maintenance_factor"], row["initial_power"]) for row in emitters],
                          [("800", "0.8", "1000"), ("400", "0.8", "500")])
-        self.assertIn("Maintenance factor 0.8: the power of 2 emitters is this share of the new one.", aged["mended"])
+        self.assertIn("Maintenance factor 0.8: 2 emitters have this share of the new power.", aged["mended"])
         self.assertEqual(aged["receivers"][0]["quantity"], "cylindrical")
 
     def test_a_factor_of_the_file_is_kept(self):

@@ -102,8 +102,7 @@ TEST_CASE("the factor of all emitters leaves those with one of their own, and re
   CHECK(room.emitters[0].power == 800.0);
   CHECK(room.emitters[1].power == 500.0);
   CHECK(room.overrides.back() ==
-        "Maintenance factor 0.8: the power of 1 emitter is this share of the new one; 1 emitter has a factor of the "
-        "file.");
+        "Maintenance factor 0.8: 1 emitter has this share of the new power; 1 emitter has a factor of the file.");
   CHECK_FALSE(common_maintenance_factor(room));
   CHECK(maintained_text(room) == "Maintained values: maintenance factors 0.8 to 1");
   set_maintenance_factor(room, 0.5);
