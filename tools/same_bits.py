@@ -50,10 +50,11 @@ ADDED_TO_SURFACES = {
     "covered_area": "the area that other surfaces in one plane cover, since 0.2.0",
 }
 # Figures of summary.json that a base may not have.
-ADDED = {"unreached_tiles", "tile_images", "luminaires", "areas"}
+ADDED = {"unreached_tiles", "tile_images", "luminaires", "areas", "maintenance_factor"}
 # The same, also within other keys.
 ADDED_ANYWHERE = {"rms_relative_error_without_floor", "error_floor", "concentrator_index", "filter_gain", "delay_ns",
-                  "file", "total_power", "watts", "total_watts", "efficacy", "scale"}  # fmt: skip
+                  "file", "total_power", "watts", "total_watts", "efficacy", "scale", "maintenance_factor",
+                  "initial_power"}  # fmt: skip
 # Keys of summary.json that hold times or follow from one: two runs of one program differ in them.
 TIMES = {"seconds", "impacts_per_second", "figure_of_merit", "checkpoint_seconds"}
 
