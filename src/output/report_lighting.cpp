@@ -83,19 +83,24 @@ std::string notice_of_remarks(const ReportContent& content) {
                  " class=\"notice\"");
 }
 
-// Light sources without a photometric file, those of the same kind and power together.
+// Light sources without a photometric file, those of the same kind, power and maintenance factor together.
 struct SourceRow {
   std::string_view kind;
   double power = 0.0;
+  double maintenance_factor = 1.0;
   std::size_t count = 0;
   Names names;
 };
 
-std::string source_words(std::string_view kind) {
-  if (kind == "surface") return "shining surface";
-  if (kind == "isotropic") return "point, alike in all directions";
-  if (kind == "lambert") return "beam about an axis";
-  return std::string(kind);
+std::string source_words(const SourceRow& row, Quantity quantity) {
+  std::string text = row.kind == "surface"     ? "shining surface"
+                     : row.kind == "isotropic" ? "point, alike in all directions"
+                     : row.kind == "lambert"   ? "beam about an axis"
+                                               : std::string(row.kind);
+  if (row.maintenance_factor != 1.0)
+    text += "; maintenance factor " + rounded(row.maintenance_factor, 4) + ", new " +
+            rounded(row.power / row.maintenance_factor, 4) + " " + std::string(power_unit(quantity));
+  return text;
 }
 
 std::string client_sources(const ReportContent& content) {
@@ -104,11 +109,13 @@ std::string client_sources(const ReportContent& content) {
   for (const Emitter& emitter : room.emitters) {
     if (photometry_of(emitter) != nullptr) continue;
     const auto same = std::find_if(sources.begin(), sources.end(), [&emitter](const SourceRow& row) {
-      return row.kind == kind_of(emitter) && row.power == emitter.power;
+      return row.kind == kind_of(emitter) && row.power == emitter.power &&
+             row.maintenance_factor == emitter.maintenance_factor;
     });
     SourceRow& row = same != sources.end() ? *same : sources.emplace_back();
     row.kind = kind_of(emitter);
     row.power = emitter.power;
+    row.maintenance_factor = emitter.maintenance_factor;
     ++row.count;
     row.names.add(in_quotes(emitter.name));
   }
@@ -118,7 +125,7 @@ std::string client_sources(const ReportContent& content) {
   std::size_t count = 0;
   for (const SourceRow& row : sources) {
     const double together = static_cast<double>(row.count) * row.power;
-    rows += "<tr>" + text_cell(row.names.text()) + text_cell(source_words(row.kind)) + count_cell(row.count) +
+    rows += "<tr>" + text_cell(row.names.text()) + text_cell(source_words(row, room.quantity)) + count_cell(row.count) +
             number_cell(row.power) + number_cell(together) + "</tr>\n";
     all += together;
     count += row.count;
