@@ -58,10 +58,22 @@ done
 build/release/bin/lichtmc run scenes/cube_paper.gltf --tile 0.00775 --scale-type log --colormap inferno --quiet \
   -o build/web/out/many_tiles
 results+=(build/web/out/many_tiles)
-# A lighting report without calculation areas.
+# Lighting reports: an office with three areas and luminaires of two types, the same of areas alone, and a room without
+# areas.
 words=(--project "House in <Elm> Street" --author "A. B. Cooper" --date "1 May 2026")
-build/release/bin/lichtmc run scenes/living_room.glb --photons 2e5 --report-style lighting "${words[@]}" --quiet -o build/web/out/lighting
-printed=(build/web/out/living_room build/web/out/lighting)
+lamps=()
+for luminaire in c_lambert.ies:2,2.4,-1.5 c_lambert.ies:4,2.4,-1.5 c_skew.ies:2,2.4,-3.5; do
+  lamps+=(--light "ies:tests/data/luminaires/$luminaire")
+done
+areas=(--plane 0.75:0.5:spacing=0.5:target_lx=300:target_uniformity=0.6
+  --area desk_0:0.8,0.8755,-2:1.6,0,0:0,0,0.8:target_lx=500:target_uniformity=0.6:role=task
+  --area whiteboard:0.5,1,-0.01:0,1.2,0:3,0,0:target_lx=300:role=wall)
+office=(run tests/data/office.glb "${areas[@]}" "${lamps[@]}" "${words[@]}" --quiet)
+build/release/bin/lichtmc "${office[@]}" --photons 1e6 -o build/web/out/office
+build/release/bin/lichtmc "${office[@]}" --photons 1e5 --only receivers --maintenance-factor 0.8 -o build/web/out/office_areas
+build/release/bin/lichtmc run scenes/living_room.glb --photons 2e5 --report-style lighting "${words[@]}" --quiet \
+  -o build/web/out/lighting
+printed=(build/web/out/office build/web/out/office_areas build/web/out/lighting build/web/out/living_room)
 build/release/bin/lichtmc paths scenes/living_room.glb --quiet -o build/web/out/paths
 lit=("${results[@]/%//room_lit.glb}")
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include <glm/geometric.hpp>
+
 #include "base/message.hpp"
 #include "output/picture_parts.hpp"
 #include "output/svg.hpp"
@@ -22,6 +24,18 @@ constexpr std::size_t many_receivers = 300;
 
 std::string count_of(std::size_t shown, std::size_t all, const char* noun) {
   return shown < all ? "; marks of " + std::to_string(shown) + " of " + to_text(all, noun) : "";
+}
+
+// A task lies in its surrounding: large areas do not hide small ones.
+std::vector<const AreaResult*> largest_first(const Result& result) {
+  std::vector<const AreaResult*> areas;
+  for (const AreaResult& area : result.areas) areas.push_back(&area);
+  const auto size = [](const AreaResult* one) {
+    return static_cast<double>(one->area.cells.size()) * glm::length(one->area.u) * glm::length(one->area.v);
+  };
+  std::stable_sort(areas.begin(), areas.end(),
+                   [&size](const AreaResult* a, const AreaResult* b) { return size(a) > size(b); });
+  return areas;
 }
 
 }  // namespace
@@ -150,9 +164,11 @@ std::string PictureMarks::areas(const Result& result, const ColourScale& scale, 
                     "\" height=\"" + fixed(size.y) + "\" viewBox=\"" + frame + "\">\n";
   std::size_t all = 0;
   for (const AreaResult& area : result.areas) all += area.area.cells.size();
+  if (cells_too && all <= max_cells) {
+    for (const AreaResult* area : largest_first(result)) svg += cells(result, *area, scale);
+  }
   std::string labels;
   for (const AreaResult& area : result.areas) {
-    if (cells_too && all <= max_cells) svg += cells(result, area, scale);
     glm::dvec2 lowest(0.0, -1.0);  // the end of a line that is nearest to the viewer
     for (const std::array<glm::dvec3, 2>& line : area.area.outline) {
       glm::dvec2 from(0.0);

@@ -174,13 +174,16 @@ std::string client_surface_row(const ReportContent& content, std::size_t m, cons
   const SurfaceResult& s = content.result->surfaces[m];
   const char* below = extremes.below ? "&lt; " : "";
   const double uniformity = extremes.minimum / s.mean_irradiance;
+  constexpr double least_limit = 0.01;  // of two decimals
   return "<tr>" + text_cell(s.name) + text_cell(content.lit_sides.empty() ? "" : content.lit_sides[m]) +
          number_cell(s.area_m2 - s.unreached_area_m2) + number_cell(s.reflectance) +
          element("td", escaped(figure_text({s.mean_irradiance, s.standard_error})),
                  " data-value=\"" + to_text(s.mean_irradiance) + "\"") +
          extreme_cell(below, short_number(extremes.minimum), extremes.minimum) +
          extreme_cell(extremes.above ? "&gt; " : "", short_number(extremes.maximum), extremes.maximum) +
-         extreme_cell(below, decimals_of(uniformity, 2), uniformity) + "</tr>\n";
+         extreme_cell(below, decimals_of(extremes.below ? std::max(uniformity, least_limit) : uniformity, 2),
+                      uniformity) +
+         "</tr>\n";
 }
 
 std::string client_surfaces(const ReportContent& content) {
@@ -221,6 +224,46 @@ std::string client_surfaces(const ReportContent& content) {
          text_element("p", note, " class=\"muted\"");
 }
 
+// Where the surfaces were not measured: what they reflect.
+std::string client_materials(const ReportContent& content) {
+  constexpr std::size_t most = 40;
+  if (!content.result->tiles.empty()) return {};
+  struct Material {
+    std::string name;
+    double reflectance = 0.0;
+    double area_m2 = 0.0;
+  };
+  std::vector<Material> materials;
+  for (const Surface& surface : content.room->surfaces) {
+    const std::string& name = surface.material.empty() ? surface.name : surface.material;
+    const auto same = std::find_if(materials.begin(), materials.end(), [&](const Material& other) {
+      return other.name == name && other.reflectance == surface.reflectance;
+    });
+    Material& material =
+        same != materials.end() ? *same : materials.emplace_back(Material{name, surface.reflectance, 0.0});
+    material.area_m2 += surface_area(surface);
+  }
+  std::stable_sort(materials.begin(), materials.end(),
+                   [](const Material& a, const Material& b) { return a.area_m2 > b.area_m2; });
+  std::string rows;
+  for (std::size_t k = 0; k < std::min(most, materials.size()); ++k)
+    rows += "<tr>" + text_cell(materials[k].name) + number_cell(materials[k].reflectance) +
+            number_cell(materials[k].area_m2) + "</tr>\n";
+  const std::string left_out =
+      materials.size() > most ? text_element("p",
+                                             "The " + std::to_string(most) + " of " +
+                                                 to_text(materials.size(), "material") + " with the largest areas.",
+                                             " class=\"muted\"")
+                              : std::string();
+  return heading("Reflectances") +
+         element(
+             "div",
+             element("table", table_head({"material", "reflectance", "area of all faces, m²"}) + element("tbody", rows),
+                     " id=\"materials\""),
+             " class=\"scroll\"") +
+         left_out;
+}
+
 // How many photons and paths, in words.
 std::string method_text(const ReportContent& content) {
   const Result& result = *content.result;
@@ -235,8 +278,9 @@ std::string method_text(const ReportContent& content) {
             " paths of light between luminaires and points; the light that comes straight from a luminaire is "
             "calculated directly. ";
   return text +
-         "Every surface reflects diffusely, with the reflectance in the table of the surfaces; gloss, mirrors and "
-         "daylight are not part of the model.";
+         "Every surface reflects diffusely, with the reflectance in the table above; gloss, mirrors and daylight are "
+         "not "
+         "part of the model.";
 }
 
 std::string trust_section(const ReportContent& content) {
@@ -272,7 +316,8 @@ std::string subject_of(const ReportContent& content) {
 std::string lighting_pages(const ReportContent& content) {
   return client_title(content) + area_verdicts(content) + figures_without_areas(content) + notice_of_remarks(content) +
          area_plans(content) + luminaires_section(content) + client_sources(content) + pictures_section(content) +
-         view_section(content) + client_surfaces(content) + receivers_section(content) + trust_section(content);
+         view_section(content) + client_surfaces(content) + client_materials(content) + receivers_section(content) +
+         trust_section(content);
 }
 
 }  // namespace lichtmc

@@ -172,6 +172,7 @@ TEST_CASE("lighting report: areas alone have pictures too, and other receivers a
   CHECK(has(page, "id=\"picture-room\""));
   CHECK(has(page, "Illuminance on the calculation areas, "));
   CHECK(count_of(page, "<polygon") >= 2 * 3 * 24);  // each cell in both pictures
+  CHECK(has(page, "id=\"materials\""));
   CHECK(has(page, "door &lt;knob&gt;"));
   CHECK(count_of(page, "<td class=\"text\">desk &amp; chair</td>") == 0);  // its points are in its plan
   CHECK_FALSE(has(page, "gain, dB"));

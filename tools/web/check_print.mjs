@@ -10,7 +10,7 @@ import { promisify } from 'node:util';
 import { Tally, launch } from './browser.mjs';
 
 const run = promisify(execFile);
-const tables = ['areas', 'luminaires', 'sources', 'lit-surfaces', 'area-details', 'surfaces'];
+const tables = ['areas', 'luminaires', 'sources', 'lit-surfaces', 'materials', 'area-details', 'surfaces'];
 
 const plain = (text) => text.normalize('NFKC').replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"').replaceAll('&#39;', "'").replaceAll('&apos;', "'").replaceAll('&amp;', '&');
 const wordsOf = (text) => plain(text).split(/\s+/).filter((word) => word !== '');
