@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/message.hpp"
+#include "lichtmc/overrides.hpp"
 #include "lichtmc/units.hpp"
 #include "lichtmc/visible_text.hpp"
 #include "output/area_words.hpp"
@@ -111,18 +112,9 @@ std::string meaning_of_table(const Result& result) {
 }  // namespace
 
 std::string maintenance_text(const Room& room) {
-  double lowest = 1.0;
-  double highest = 0.0;
-  for (const Emitter& emitter : room.emitters) {
-    lowest = std::min(lowest, emitter.maintenance_factor);
-    highest = std::max(highest, emitter.maintenance_factor);
-  }
-  if (lowest == 1.0) return "Maintenance factor 1: the figures are initial values, of new and clean luminaires.";
-  if (lowest == highest)
-    return "All figures are maintained values: maintenance factor " + rounded(lowest, 4) +
-           " of the initial luminous flux of every luminaire.";
-  return "All figures are maintained values: maintenance factors from " + rounded(lowest, 4) + " to " +
-         rounded(highest, 4) + " of the initial luminous flux.";
+  const std::string maintained = maintained_text(room);
+  return maintained.empty() ? "Maintenance factor 1: the figures are initial values, of new and clean luminaires."
+                            : maintained + " of the luminous flux when new.";
 }
 
 std::string area_verdicts(const ReportContent& content) {
