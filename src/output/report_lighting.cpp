@@ -58,8 +58,7 @@ std::string figures_without_areas(const ReportContent& content) {
   const Result& result = *content.result;
   if (!result.areas.empty()) return {};
   const std::string unit = " " + written_irradiance_unit(result.quantity);
-  std::string text =
-      "No calculation area was defined (options --plane, --area, --area-on, or in the file of the room).";
+  std::string text = "No calculation area was defined.";
   double area = 0.0;
   double power = 0.0;
   for (const SurfaceResult& surface : result.surfaces) {
