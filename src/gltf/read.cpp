@@ -174,7 +174,7 @@ class RoomReader {
       if (!stored) continue;
       for (const glm::dmat4& world : mesh_transforms(*document_, placed)) {
         const Surface faces = place_primitive(*stored, world);
-        triangles_ += faces.triangles.size();
+        count_triangles(faces);
         for (const glm::uvec3& t : faces.triangles)
           request.triangles.push_back({faces.positions[t.x], faces.positions[t.y], faces.positions[t.z]});
       }
@@ -206,6 +206,14 @@ class RoomReader {
                        [&](const SurfaceChoice& choice) { return choice.by_name(name); });
   }
 
+  void count_triangles(const Surface& surface) {
+    triangles_ += surface.triangles.size();
+    if (triangles_ > max_triangles) {
+      refuse(*document_, "the room has more than " + std::to_string(max_triangles) +
+                             " triangles (the limit), including instances. Split it, or simplify its meshes.");
+    }
+  }
+
   // stored: the primitive that the surface is made of.
   void add_surface(Surface surface, const std::string& name, const Material& material, const Primitive& stored) {
     if (surface.triangles.empty()) {
@@ -219,11 +227,7 @@ class RoomReader {
       left_out_.count_surfaces(1);
       return;
     }
-    triangles_ += surface.triangles.size();
-    if (triangles_ > max_triangles) {
-      refuse(*document_, "the room has more than " + std::to_string(max_triangles) +
-                             " triangles (the limit), including instances. Split it, or simplify its meshes.");
-    }
+    count_triangles(surface);
     surface.material = material.name;
     surface.reflectance = material.reflectance;
     surface.reflectance_source = material.source;

@@ -12,6 +12,10 @@ namespace {
 
 constexpr double most_cells = 1e6;
 
+// Lengths are differences of coordinates that are known to a millionth of the room's size (run/columns.hpp), so that 5
+// m may be 5.000005 m: limits hold to ten times that share.
+constexpr double rounding_share = 1e-5;
+
 void check_cells(double columns, double rows, double width_m, double height_m) {
   if (columns * rows <= most_cells) return;  // false for NaN
   throw InputError("An area of " + short_number(width_m) + " m × " + short_number(height_m) + " m would have " +
@@ -34,7 +38,7 @@ GridSize grid_of(double columns, double rows, double width_m, double height_m) {
 GridSize grid_of_en_12464(double width_m, double height_m) {
   const double longer = std::max(width_m, height_m);
   const double shorter = std::min(width_m, height_m);
-  const double d = longer >= 2.0 * shorter ? shorter : longer;
+  const double d = longer >= 2.0 * (1.0 - rounding_share) * shorter ? shorter : longer;
   constexpr double greatest_m = 10.0;
   const double p = std::min(greatest_m, 0.2 * std::pow(5.0, std::log10(d)));
   const double cell = d / std::max(1.0, std::round(d / p));
@@ -43,10 +47,9 @@ GridSize grid_of_en_12464(double width_m, double height_m) {
 }
 
 GridSize grid_with_spacing(double width_m, double height_m, double spacing_m) {
-  // Lengths are differences of coordinates that are known to a millionth of the room's size (run/columns.hpp), so that
-  // 5 m may be 5.000005 m: a cell may be longer than the spacing by ten times that share.
-  constexpr double rounding = 1e-5;
-  const auto along = [&](double length) { return std::max(1.0, std::ceil(length / spacing_m * (1.0 - rounding))); };
+  const auto along = [&](double length) {
+    return std::max(1.0, std::ceil(length / spacing_m * (1.0 - rounding_share)));
+  };
   return grid_of(along(width_m), along(height_m), width_m, height_m);
 }
 

@@ -98,7 +98,16 @@ std::string list_of(const std::vector<AreaLeftOut>& left_out) {
   return text;
 }
 
-// Meshes of cells that are not at right angles to the law's plane have no mean.
+GridSize grid_for(const AreaProperties& properties, const glm::dvec2& size) {
+  try {
+    return properties.spacing_m ? grid_with_spacing(size.x, size.y, *properties.spacing_m)
+                                : grid_of_en_12464(size.x, size.y);
+  } catch (const InputError& error) {
+    throw InputError("The calculation area " + in_quotes(properties.name) + " has too many points. " + error.what());
+  }
+}
+
+// The mean over a cell is that of the irradiance of its own plane.
 void check_cells_of(const Area& area) {
   if (!area.properties.cells) return;
   const bool planar = area.quantity == AreaQuantity::normal ||
@@ -139,8 +148,7 @@ Area area_in(const AreaPlane& plane, const PlaneRectangle& rectangle, const Area
   area.margin_m = margin_m;
   area.normal = plane.normal;
   const glm::dvec2 size = rectangle.size();
-  const GridSize grid = properties.spacing_m ? grid_with_spacing(size.x, size.y, *properties.spacing_m)
-                                             : grid_of_en_12464(size.x, size.y);
+  const GridSize grid = grid_for(properties, size);
   area.columns = grid.columns;
   area.rows = grid.rows;
   area.corner = plane.in_space(rectangle.point(rectangle.low));

@@ -73,6 +73,8 @@ AreaShape::AreaShape(const AreaPlane& in_plane, const std::vector<SpaceTriangle>
 }
 
 bool AreaShape::contains(const glm::dvec2& p) const {
+  constexpr std::size_t many = 256;  // of a finer mesh, the outline has fewer lines
+  if (triangles.size() > many) return is_within(outline, p);
   return std::any_of(triangles.begin(), triangles.end(), [&p](const auto& t) {
     const double whole = side_of(t[0], t[1], t[2]);
     const double sign = whole < 0.0 ? -1.0 : 1.0;

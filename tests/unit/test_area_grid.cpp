@@ -38,9 +38,10 @@ TEST_CASE("areas: the other side follows the spacing, and a ratio of 2 counts fr
   };
   CHECK(size(6.0, 5.0) == std::pair(9U, 8U));  // p = 0.70 m
   CHECK(size(5.0, 6.0) == std::pair(8U, 9U));
-  CHECK(size(5.0, 4.0) == std::pair(8U, 6U));    // p = 0.62 m
-  CHECK(size(10.0, 5.0) == std::pair(16U, 8U));  // a ratio of 2: p of 5 m
-  CHECK(size(9.99, 5.0) == std::pair(10U, 5U));  // below: p of 10 m
+  CHECK(size(5.0, 4.0) == std::pair(8U, 6U));          // p = 0.62 m
+  CHECK(size(10.0, 5.0) == std::pair(16U, 8U));        // a ratio of 2: p of 5 m
+  CHECK(size(1.6, 0.80000001) == std::pair(10U, 5U));  // the same for floats
+  CHECK(size(9.99, 5.0) == std::pair(10U, 5U));        // below: p of 10 m
   CHECK(size(12.0, 5.0) == std::pair(19U, 8U));
   CHECK(size(1.6, 0.8) == std::pair(10U, 5U));  // a desk
 }

@@ -118,6 +118,7 @@ TEST_CASE("areas: the grid of a rotated room is turned with it") {
   REQUIRE(room.areas.size() == 1);
   const Area& area = room.areas[0];
   CHECK(area.cells.size() == 48);
+  CHECK(area.outline.size() == 4);
   // A direction within 45° of x: u may be the shorter or the longer side.
   CHECK(std::max(area.columns, area.rows) == 8);
   CHECK(glm::length(area.u) == Approx(0.5).margin(1e-4));
@@ -278,6 +279,25 @@ TEST_CASE("areas: cells outside a drawn outline are left out") {
   CHECK(room.areas[0].cells.size() + left_out(room.areas[0], "outside its outline") == 16);
   CHECK(room.areas[0].cells.size() == 10);  // the points on its long side belong to it
   CHECK(room.areas[0].outline.size() == 3);
+}
+
+TEST_CASE("areas: a drawn area of many faces has the points of one of two") {
+  Room room = office();
+  AreaRequest fine;
+  fine.properties = with_spacing("fine", 0.25);
+  fine.properties.role = "task";
+  constexpr int n = 20;
+  const double edge = 2.0 / n;
+  for (int k = 0; k < n * n; ++k) {
+    const glm::dvec3 corner(1.0 + k % n * edge, 0.8, 1.0 + k / n * edge);
+    const AreaRequest cell = request({}, corner, {edge, 0.0, 0.0}, {0.0, 0.0, edge});
+    fine.triangles.insert(fine.triangles.end(), cell.triangles.begin(), cell.triangles.end());
+  }
+  room.area_requests = {fine};
+  lay_areas(room);
+  CHECK(room.areas[0].columns == 8);
+  CHECK(room.areas[0].cells.size() == 64);
+  CHECK(room.areas[0].outline.size() == 4 * n);
 }
 
 TEST_CASE("areas: vertical and ceiling areas measure on the side of their normals, which must look into the room") {
