@@ -242,6 +242,36 @@ TEST_CASE("areas: pendants, beams and low partitions are no walls; pillars and t
   }
 }
 
+TEST_CASE("areas: a thin wall with a door divides a room, one with a wide opening does not") {
+  const auto divided = [](double thickness, double opening) {
+    Room room = make_cuboid({8.0, 3.0, 6.0}, uniform_reflectance(0.5));
+    room.emitters = {isotropic({2.0, 2.8, 3.0}), isotropic({6.0, 2.8, 3.0})};
+    const double x = 4.0 - 0.5 * thickness;
+    const double end = 1.0 + opening;
+    room.surfaces.push_back(box_at("wall a", {x, 0.0, 0.0}, {thickness, 3.0, 1.0}));
+    room.surfaces.push_back(box_at("wall b", {x, 0.0, end}, {thickness, 3.0, 6.0 - end}));
+    room.surfaces.push_back(box_at("lintel", {x, 2.1, 1.0}, {thickness, 0.9, opening}));
+    lay_working_planes(room, 0.75, with_spacing("plane", 0.5));
+    return room;
+  };
+  for (const double thickness : {0.02, 0.1, 0.24, 0.3, 0.5}) {
+    INFO(thickness);
+    const Room rooms = divided(thickness, 0.9);
+    REQUIRE(rooms.areas.size() == 2);
+    const double width = 3.0 - 0.5 * thickness;
+    for (const Area& area : rooms.areas) {
+      CHECK(area.u.x * area.columns == Approx(width).margin(1e-4));
+      CHECK(area.cells.size() == std::size_t{area.columns} * area.rows);
+      CHECK(area.outline.size() == 4);
+    }
+    CHECK(rooms.areas[1].corner.x == Approx(4.5 + 0.5 * thickness).margin(1e-4));
+    const Room open = divided(thickness, 3.5);
+    REQUIRE(open.areas.size() == 1);
+    CHECK(open.areas[0].columns == 14);
+    CHECK(left_out(open.areas[0], "within 0.5 m of a wall") > 0);
+  }
+}
+
 TEST_CASE("areas: a drawn area keeps a band along walls, a task area does not") {
   Room room = office();
   AreaProperties whole = with_spacing("surrounding", 0.5);
