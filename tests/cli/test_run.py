@@ -4,6 +4,7 @@ import hashlib
 import json
 import math
 import os
+import pathlib
 import signal
 import subprocess
 import time
@@ -93,6 +94,19 @@ class Run(ProgramTest):
         done = lichtmc("resume", out, "--photons", "40k", "--report-style", "technical")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("Technical details", (out / "report.html").read_text())
+
+    def test_report_of_areas_alone(self):
+        out = self.folder / "out"
+        room = pathlib.Path(__file__).parent.parent / "data" / "office.glb"
+        done = lichtmc("run", room, "-o", out, "--plane", "0.75:0.5:spacing=0.5:target_lx=1e6", "--only", "receivers", "--photons", "20k")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        first, technical = (out / "report.html").read_text().split("Technical details", 1)
+        for text in ('id="areas"', "✗ fail", "Fails: plane.", 'class="area-plan"', 'id="picture-room"', "<polygon"):
+            self.assertIn(text, first)
+        self.assertIn('id="area-details"', technical)
+        self.assertNotIn("gain, dB", first + technical)
+        self.assertEqual({p.name for p in (out / "pictures").iterdir()}, {"room.svg", "room.png", "above.svg", "above.png"})
+        self.assertFalse((out / "room_lit.glb").exists())
 
     def test_report_options_are_checked(self):
         out = self.folder / "out"
