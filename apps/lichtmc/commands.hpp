@@ -29,10 +29,11 @@ void add_cuboid_command(CLI::App& program, const Invocation& invocation);
 void add_check_command(CLI::App& program, const Invocation& invocation);
 void add_compare_command(CLI::App& program, const Invocation& invocation);
 void add_luminaire_command(CLI::App& program, const Invocation& invocation);
+void add_scene_command(CLI::App& program, const Invocation& invocation);
 
 // In the order of --help.
-inline constexpr std::array all_commands{add_run_command,   add_resume_command,    add_merge_command,
-                                         add_paths_command, add_study_command,     add_cuboid_command,
-                                         add_check_command, add_luminaire_command, add_compare_command};
+inline constexpr std::array all_commands{
+    add_run_command,    add_resume_command, add_merge_command,     add_paths_command,   add_study_command,
+    add_cuboid_command, add_check_command,  add_luminaire_command, add_compare_command, add_scene_command};
 
 }  // namespace lichtmc::app

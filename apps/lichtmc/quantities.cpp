@@ -97,6 +97,14 @@ double parse_fraction(std::string_view text, std::string_view option) {
   return number;
 }
 
+double parse_factor(std::string_view text, std::string_view option) {
+  constexpr std::array<Suffix, 2> suffixes{{{"", 1.0}, {"%", 0.01}}};
+  double number = 0.0;
+  if (!scaled(text, suffixes, number) || number < 0.0)
+    refuse(option, text, "a number of 0 or more, for example 0.3 or 30%");
+  return number;
+}
+
 double parse_seconds(std::string_view text, std::string_view option) {
   constexpr std::array<Suffix, 5> suffixes{{{"", 1.0}, {"s", 1.0}, {"min", 60.0}, {"m", 60.0}, {"h", 3600.0}}};
   double number = 0.0;

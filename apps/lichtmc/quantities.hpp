@@ -30,6 +30,9 @@ unsigned parse_threads(const std::optional<int>& threads);
 // A fraction: "1%" or "0.01"; 1 and more only with the percent sign.
 double parse_fraction(std::string_view text, std::string_view option);
 
+// A factor, 0 or more: "0.3", "30%", "1.2".
+double parse_factor(std::string_view text, std::string_view option);
+
 // Seconds: "60", "60s", "5min", "2h".
 double parse_seconds(std::string_view text, std::string_view option);
 

@@ -27,7 +27,7 @@ class ArrayList {
     of_frequencies_ = {"emitter, receiver, frequency", {emitters, receivers, responses_->frequencies_hz.size()}};
   }
 
-  std::vector<ChannelArray> make() {
+  std::vector<NamedArray> make() {
     add_responses();
     add_times();
     add_orders();
@@ -162,12 +162,12 @@ class ArrayList {
   const Result* result_;
   const ImpulseResponses* responses_;
   Dimensions of_bins_, of_orders_, of_order_bins_, of_pairs_, of_frequencies_;
-  std::vector<ChannelArray> arrays_;
+  std::vector<NamedArray> arrays_;
 };
 
 }  // namespace
 
-std::vector<ChannelArray> channel_arrays(const Result& result) {
+std::vector<NamedArray> channel_arrays(const Result& result) {
   return ArrayList(result).make();
 }
 

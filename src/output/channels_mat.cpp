@@ -111,11 +111,11 @@ Variable cells(const char* name, const std::vector<std::string>& texts) {
 }
 
 // The derived figures as fields of a struct.
-Variable derived_struct(const std::vector<ChannelArray>& arrays) {
-  std::vector<const ChannelArray*> fields;
+Variable derived_struct(const std::vector<NamedArray>& arrays) {
+  std::vector<const NamedArray*> fields;
   std::vector<std::string> names;
   std::vector<const char*> pointers;
-  for (const ChannelArray& array : arrays) {
+  for (const NamedArray& array : arrays) {
     if (!array.name.starts_with(derived_group)) continue;
     fields.push_back(&array);
     names.push_back(array.name.substr(derived_group.size()));
@@ -188,8 +188,8 @@ void write_channels_mat(const Result& result, const Sink& sink) {
   const ImpulseResponses& responses = *result.channels;
   const MemoryFile file;
   MatWriter writer(file.name());
-  const std::vector<ChannelArray> arrays = channel_arrays(result);
-  for (const ChannelArray& array : arrays) {
+  const std::vector<NamedArray> arrays = channel_arrays(result);
+  for (const NamedArray& array : arrays) {
     if (!array.name.starts_with(derived_group))
       writer.write(numbers(array.name, reversed(array.sizes), array.values()));
   }

@@ -15,6 +15,7 @@
 #include "output/channel_tables.hpp"
 #include "output/channels_h5.hpp"
 #include "output/channels_mat.hpp"
+#include "output/emitter_parts_h5.hpp"
 #include "output/folder.hpp"
 #include "output/luminaire_schedule.hpp"
 #include "output/summary.hpp"
@@ -103,6 +104,8 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
     staged.write("receivers.csv", [&](const Sink& sink) { write_receivers_csv(result, sink); });
   if (result.channels) write_channels(result, staged);
   write_areas(room, result, staged);
+  if (result.parts)
+    staged.write(emitter_parts_file, [&](const Sink& sink) { write_emitter_parts(room, result, sink); });
   staged.write("emitters.csv", emitters_csv(room));
   staged.write("summary.json", [&](const Sink& sink) { write_summary(room, result, files, sink); });
   staged.flush();
@@ -126,6 +129,7 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
   }
   if (result.receiver_results.empty()) remove_old(folder / "receivers.csv");
   remove_old_areas(result, folder);
+  if (!result.parts) remove_old(folder / emitter_parts_file);
   if (!result.channels) {
     for (const char* name : {"impulse_response.csv", "channels.csv", "channels.h5"}) remove_old(folder / name);
   }

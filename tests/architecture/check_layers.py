@@ -32,9 +32,9 @@ PUBLIC = {
     "communicator": "run", "control": "run", "progress": "run", "state": "run", "mpi": "mpi",
     "result": "run", "dimmed_scene": "run", "lay_areas": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
     "prepared_room": "tracer", "paths": "walk", "picture": "view", "area_drawing": "view",
-    "gltf": "gltf", "lit_room": "gltf", "output": "output", "compare": "output", "luminaire_figures": "output", "folder_lock": "output",
+    "gltf": "gltf", "lit_room": "gltf", "output": "output", "emitter_parts_file": "output", "compare": "output", "luminaire_figures": "output", "folder_lock": "output",
 }
-ADAPTERS_SEE_RESULTS = {"output": ["prepared_room", "result", "inspect", "study", "picture", "area_drawing", "paths", "lit_room"], "gltf": ["result", "picture", "paths"]}
+ADAPTERS_SEE_RESULTS = {"output": ["prepared_room", "result", "dimmed_scene", "inspect", "study", "picture", "area_drawing", "paths", "lit_room"], "gltf": ["result", "picture", "paths"]}
 # Libraries that only these files or folders may include.
 LIBRARIES = {
     r"embree\d?/": ["src/tracer/embree.hpp"],
