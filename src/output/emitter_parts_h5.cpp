@@ -55,10 +55,10 @@ std::vector<double> section_lines(const Room& room, const Result& result) {
   for (std::size_t k = 0; k < result.areas.size(); ++k) {
     const AreaDrawing drawing = draw_area(room, result, k);
     const Area& area = result.areas[k].area;
-    const glm::dvec3 height = glm::dot(area.corner, area.normal) * area.normal;
+    const glm::dvec3 plane = glm::dot(area.corner, area.normal) * area.normal;
     for (const SheetLine& line : drawing.section) {
       for (const glm::dvec2& at : line) {
-        const glm::dvec3 point = at.x * drawing.right + at.y * drawing.down + height;
+        const glm::dvec3 point = at.x * drawing.right + at.y * drawing.down + plane;
         lines.insert(lines.end(), {point.x, point.y, point.z});
       }
     }
