@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -114,7 +116,7 @@ std::string meaning_of_table(const Result& result) {
 std::string maintenance_text(const Room& room) {
   const std::string maintained = maintained_text(room);
   return maintained.empty() ? "Maintenance factor 1: the figures are initial values, of new and clean luminaires."
-                            : maintained + " of the luminous flux when new.";
+                            : maintained + ", the part of the luminous flux of new luminaires that remains.";
 }
 
 std::string area_verdicts(const ReportContent& content) {
