@@ -1,11 +1,14 @@
 #include "gltf/areas.hpp"
 
-#include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <string>
-#include <utility>
 
 #include "base/message.hpp"
+#include "gltf/deform.hpp"
+#include "gltf/geometry.hpp"
+#include "gltf/materials.hpp"
 
 namespace lichtmc {
 
@@ -67,12 +70,6 @@ bool read_flag(const Document& document, const PlacedNode& placed, const char* n
   return number == 1.0;
 }
 
-}  // namespace
-
-bool is_calculation_area(const tinygltf::Node& node) {
-  return node.extras.IsObject() && node.extras.Has("calculation_area");
-}
-
 AreaProperties read_area_properties(const Document& document, const PlacedNode& placed, const glm::dmat4& to_world) {
   const tinygltf::Node& node = document.model.nodes[placed.index];
   if (node.mesh < 0)
@@ -93,6 +90,47 @@ AreaProperties read_area_properties(const Document& document, const PlacedNode& 
   if (extras.Has("direction")) properties.direction = read_direction(document, placed, to_world);
   if (extras.Has("cells")) properties.cells = read_flag(document, placed, "cells");
   return properties;
+}
+
+// A mesh of so many faces is no area that anyone draws; instances could multiply any mesh.
+constexpr std::size_t most_triangles = 10'000'000;
+
+void add_primitive(const Document& document, const PlacedNode& placed, const tinygltf::Mesh& mesh, std::size_t k,
+                   std::vector<Ignored>& ignored, AreaRequest& request) {
+  const auto& node = document.model.nodes[placed.index];
+  const std::string where = label("mesh", mesh.name, static_cast<std::size_t>(node.mesh)) + " (" + placed.label + ")";
+  const auto stored =
+      read_primitive(document, mesh.primitives[k], Material{}, std::nullopt, morph_weights(node, mesh), where, ignored);
+  if (!stored) return;
+  for (const glm::dmat4& world : mesh_transforms(document, placed)) {
+    const Surface faces = place_primitive(*stored, world);
+    for (const glm::uvec3& t : faces.triangles)
+      request.triangles.push_back({faces.positions[t.x], faces.positions[t.y], faces.positions[t.z]});
+    if (request.triangles.size() > most_triangles)
+      refuse(document, "the calculation area " + placed.label + " has more than " + std::to_string(most_triangles) +
+                           " triangles (the limit), including instances. Draw it with fewer faces.");
+  }
+}
+
+}  // namespace
+
+bool is_calculation_area(const tinygltf::Node& node) {
+  return node.extras.IsObject() && node.extras.Has("calculation_area");
+}
+
+AreaRequest read_area(const Document& document, const PlacedNode& placed, const glm::dmat4& to_world,
+                      std::vector<Ignored>& ignored) {
+  AreaRequest request;
+  request.properties = read_area_properties(document, placed, to_world);
+  const auto& model = document.model;
+  const std::size_t index =
+      checked_index(document, model.nodes[placed.index].mesh, model.meshes.size(), "the mesh of " + placed.label);
+  for (std::size_t k = 0; k < model.meshes[index].primitives.size(); ++k)
+    add_primitive(document, placed, model.meshes[index], k, ignored, request);
+  if (request.triangles.empty())
+    refuse(document, "the calculation area " + placed.label +
+                         " has no face with an area (allowed: at least one). Draw its faces.");
+  return request;
 }
 
 }  // namespace lichtmc

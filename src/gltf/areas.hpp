@@ -1,7 +1,7 @@
 // Calculation areas of nodes with extras.calculation_area.
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include <glm/mat4x4.hpp>
 
@@ -13,8 +13,10 @@ namespace lichtmc {
 
 bool is_calculation_area(const tinygltf::Node& node);
 
-// The properties of such a node, without a name. `to_world`: from the axes of the file to those of the room. Throws
-// InputError naming the node if it has no mesh, or a property is of a wrong type or out of its range.
-AreaProperties read_area_properties(const Document& document, const PlacedNode& placed, const glm::dmat4& to_world);
+// The area of such a node, without a name. `to_world`: from the axes of the file to those of the room. What of its mesh
+// is not read goes to `ignored`. Throws InputError naming the node if it has no mesh or no face with an area, or a
+// property is of a wrong type or out of its range.
+AreaRequest read_area(const Document& document, const PlacedNode& placed, const glm::dmat4& to_world,
+                      std::vector<Ignored>& ignored);
 
 }  // namespace lichtmc

@@ -56,6 +56,22 @@ double largest_scale(const glm::dmat4& transform) {
   return std::max({glm::length(transform[0]), glm::length(transform[1]), glm::length(transform[2])});
 }
 
+// Numbers equal names: "top", "top_2".
+class UniqueNames {
+ public:
+  std::string unique(const std::string& name) {
+    std::string candidate = name;
+    // Starts at the last number used: the cost stays low for many nodes of one name.
+    for (int& n = last_number_[name]; !names_.insert(candidate).second;)
+      candidate = name + "_" + std::to_string(n == 0 ? n = 2 : ++n);
+    return candidate;
+  }
+
+ private:
+  std::set<std::string> names_;
+  std::map<std::string, int> last_number_;  // appended, by name
+};
+
 class RoomReader {
  public:
   RoomReader(const Document& document, const ReadOptions& options)
@@ -97,7 +113,7 @@ class RoomReader {
     const PlacedNode& placed = nodes_[k];
     const std::size_t first_emitter = room_.emitters.size();
     if (is_calculation_area(document_->model.nodes[placed.index])) {
-      read_area(k);
+      read_area_of_node(k);
     } else {
       read_mesh(k);
     }
@@ -155,45 +171,18 @@ class RoomReader {
   }
 
   // The mesh of a calculation area is no part of the room.
-  void read_area(std::size_t number) {
+  void read_area_of_node(std::size_t number) {
     const PlacedNode& placed = nodes_[number];
-    const auto& model = document_->model;
-    const auto& node = model.nodes[placed.index];
-    AreaRequest request;
-    request.properties = read_area_properties(*document_, placed, root_transform(*document_, *options_));
-    const std::size_t index = checked_index(*document_, node.mesh, model.meshes.size(), "the mesh of " + placed.label);
-    const auto& mesh = model.meshes[index];
-    if (left_out_.mesh(mesh.name)) {
+    const auto& meshes = document_->model.meshes;
+    const auto mesh = static_cast<std::size_t>(document_->model.nodes[placed.index].mesh);  // checked by read_area()
+    if (mesh < meshes.size() && left_out_.mesh(meshes[mesh].name)) {
       left_out_.count_surfaces(1);
       return;
     }
-    for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
-      const std::string where = label("mesh", mesh.name, index) + " (" + placed.label + ")";
-      const auto stored = read_primitive(*document_, mesh.primitives[k], Material{}, options_->uv_set,
-                                         morph_weights(node, mesh), where, room_.ignored);
-      if (!stored) continue;
-      for (const glm::dmat4& world : mesh_transforms(*document_, placed)) {
-        const Surface faces = place_primitive(*stored, world);
-        count_triangles(faces);
-        for (const glm::uvec3& t : faces.triangles)
-          request.triangles.push_back({faces.positions[t.x], faces.positions[t.y], faces.positions[t.z]});
-      }
-    }
-    if (request.triangles.empty())
-      refuse(*document_, "the calculation area " + placed.label +
-                             " has no face with an area (allowed: at least one). Draw its faces.");
-    request.properties.name = unique_area(names_of_scene_.nodes[number]);
+    AreaRequest request = read_area(*document_, placed, root_transform(*document_, *options_), room_.ignored);
+    count_triangles(request.triangles.size());
+    request.properties.name = area_names_.unique(names_of_scene_.nodes[number]);
     room_.area_requests.push_back(std::move(request));
-  }
-
-  std::string unique_area(const std::string& name) const {
-    const auto is_used = [this](const std::string& candidate) {
-      return std::any_of(room_.area_requests.begin(), room_.area_requests.end(),
-                         [&](const AreaRequest& request) { return request.properties.name == candidate; });
-    };
-    std::string candidate = name;
-    for (int n = 2; is_used(candidate); ++n) candidate = name + "_" + std::to_string(n);
-    return candidate;
   }
 
   // Whether the reflectance of a material, or of a surface, will be set as a number.
@@ -206,8 +195,8 @@ class RoomReader {
                        [&](const SurfaceChoice& choice) { return choice.by_name(name); });
   }
 
-  void count_triangles(const Surface& surface) {
-    triangles_ += surface.triangles.size();
+  void count_triangles(std::size_t more) {
+    triangles_ += more;
     if (triangles_ > max_triangles) {
       refuse(*document_, "the room has more than " + std::to_string(max_triangles) +
                              " triangles (the limit), including instances. Split it, or simplify its meshes.");
@@ -222,12 +211,12 @@ class RoomReader {
            Effect::none);
       return;
     }
-    surface.name = unique(name);
+    surface.name = names_.unique(name);
     if (left_out_.surface(surface.name)) {
       left_out_.count_surfaces(1);
       return;
     }
-    count_triangles(surface);
+    count_triangles(surface.triangles.size());
     surface.material = material.name;
     surface.reflectance = material.reflectance;
     surface.reflectance_source = material.source;
@@ -371,14 +360,6 @@ class RoomReader {
     if (options_->quantity) room_.quantity = *options_->quantity;
   }
 
-  std::string unique(const std::string& name) {
-    std::string candidate = name;
-    // Starts at the last number used: the cost stays low for many nodes of one name.
-    for (int& n = last_number_[name]; !names_.insert(candidate).second;)
-      candidate = name + "_" + std::to_string(n == 0 ? n = 2 : ++n);
-    return candidate;
-  }
-
   void note(std::string what, Effect effect) { room_.ignored.push_back({std::move(what), effect}); }
 
   void note_file() {
@@ -444,8 +425,8 @@ class RoomReader {
   double coarsest_ = 0.0;             // distance between floats there, in the file's unit
   std::vector<Quantity> quantities_;  // of the emitters
   std::vector<MaterialUse> material_uses_;
-  std::set<std::string> names_;
-  std::map<std::string, int> last_number_;  // appended to make a name unique, by name
+  UniqueNames names_;  // of surfaces
+  UniqueNames area_names_;
 };
 
 }  // namespace

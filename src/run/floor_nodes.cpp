@@ -5,7 +5,9 @@
 #include <limits>
 #include <map>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "base/disjoint_sets.hpp"
 
