@@ -1,6 +1,7 @@
 // lichtmc check: the content of a room file, what will be modelled, and what is probably wrong.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -124,17 +125,33 @@ void print_emitters(const Room& room) {
     std::cout << "  … and " << room.emitters.size() - shown << " more (--json lists all)\n";
 }
 
+// The receivers of the file; the points of its areas follow them.
+std::vector<Receiver> receivers_of_file(const Room& room) {
+  const std::size_t count = room.areas.empty() ? room.receivers.size() : room.areas.front().first_receiver;
+  return {room.receivers.begin(), room.receivers.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+std::string count_of_receivers(const Room& room) {
+  const std::size_t own = receivers_of_file(room).size();
+  std::string text = std::to_string(own);
+  const std::size_t points = room.receivers.size() - own;
+  if (points > 0)
+    text += ", and " + std::to_string(points) + (points == 1 ? " point" : " points") + " of calculation areas";
+  return text;
+}
+
 // Only receivers of a file with more than a position and a normal.
 void print_receivers(const Room& room) {
   constexpr std::size_t shown = 20;
+  const std::vector<Receiver> receivers = receivers_of_file(room);
   const Receiver plain;
-  const bool optics = std::any_of(room.receivers.begin(), room.receivers.end(), [&plain](const Receiver& r) {
+  const bool optics = std::any_of(receivers.begin(), receivers.end(), [&plain](const Receiver& r) {
     return r.area_m2 != plain.area_m2 || r.half_angle_deg != plain.half_angle_deg || r.optical_gain() != 1.0;
   });
   if (!optics) return;
-  std::cout << "\nReceivers (" << room.receivers.size() << "; area, half angle of the field of view)\n";
-  for (std::size_t k = 0; k < std::min(shown, room.receivers.size()); ++k) {
-    const Receiver& r = room.receivers[k];
+  std::cout << "\nReceivers (" << receivers.size() << "; area, half angle of the field of view)\n";
+  for (std::size_t k = 0; k < std::min(shown, receivers.size()); ++k) {
+    const Receiver& r = receivers[k];
     std::cout << "  " << visible_text(r.name) << ": " << four_digits(r.area_m2) << " m^2, "
               << four_digits(r.half_angle_deg) << " degrees";
     if (r.concentrator_index) std::cout << ", concentrator of index " << four_digits(*r.concentrator_index);
@@ -142,8 +159,7 @@ void print_receivers(const Room& room) {
     if (r.optical_gain() != 1.0) std::cout << "; optical gain " << four_digits(r.optical_gain());
     std::cout << '\n';
   }
-  if (room.receivers.size() > shown)
-    std::cout << "  … and " << room.receivers.size() - shown << " more (--json lists all)\n";
+  if (receivers.size() > shown) std::cout << "  … and " << receivers.size() - shown << " more (--json lists all)\n";
 }
 
 void print_areas(const Room& room) {
@@ -172,7 +188,7 @@ void print_facts(const Room& room, const Inspection& facts) {
   std::cout << row("Shape", std::string(facts.cuboid ? "empty cuboid, " : "") +
                                 (facts.convex ? "convex, " : "not convex, ") +
                                 (facts.closed ? "closed" : "not closed"));
-  std::cout << row("Receivers", std::to_string(room.receivers.size()));
+  std::cout << row("Receivers", count_of_receivers(room));
   for (const std::string& change : room.overrides) std::cout << row("Override", visible_text(change));
   print_materials(facts);
   print_emitters(room);

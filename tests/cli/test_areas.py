@@ -89,6 +89,7 @@ class Areas(ProgramTest):
         checked = lichtmc("check", room)
         self.assertEqual(checked.returncode, 0, checked.stderr)
         self.assertIn("Calculation areas (1)", checked.stdout)
+        self.assertRegex(checked.stdout, "Receivers +0, and 48 points of calculation areas")
         self.assertIn("Role: background. Target: 200 lx.", checked.stdout)
         self.assertIn("0 faults, 0 warnings", checked.stdout)
         self.assertNotIn("work", [s["name"] for s in json.loads(lichtmc("check", room, "--json").stdout)["surfaces"]])
