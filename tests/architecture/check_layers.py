@@ -45,7 +45,7 @@ LIBRARIES = {
     r"meshoptimizer": ["src/gltf/"],
     r"stb/": ["src/base/", "src/gltf/"],
     r"hwy/": ["src/chance/", "src/walk/"],
-    r"hdf5\.h": ["src/base/hdf5", "src/store/", "src/output/channels_h5"],
+    r"hdf5\.h": ["src/base/hdf5", "src/store/", "src/output/channels_h5", "src/output/h5_"],
     r"matio": ["src/output/"],
     r"xxhash": ["src/base/"],
     r"mpi\.h": ["src/mpi/"],
