@@ -105,7 +105,8 @@ struct WalkReport {
   double direct_seconds = 0.0;    // part of it for direct light, s
   // Rms of the relative standard errors: of the tiles that light can reach, weighted by area, or of the receivers. Each
   // error is relative to the irradiance or to the error floor, whichever is greater. Tiles of one surface side without
-  // hits count as one tile. See Settings::error_floor_share.
+  // hits count as one tile. See Settings::error_floor_share. With calculation areas: the largest relative standard
+  // error of their means and minima, or that of the other receivers, if it is larger.
   double rms_relative_error = 0.0;
   // The same without a floor: of the tiles or receivers with an irradiance above 0, relative to it.
   double rms_relative_error_without_floor = 0.0;

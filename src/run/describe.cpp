@@ -27,6 +27,10 @@ std::string error_text(const Result& result, Measured what) {
   const std::string word(irradiance_word(result.quantity));
   const std::string unit(written_irradiance_unit(result.quantity));
   const std::string within = two_digits(100.0 * walk.rms_relative_error) + " %";
+  if (what == Measured::receivers && !result.areas.empty())
+    return "With a probability of two thirds or more, the true mean and minimum of " +
+           std::string(result.areas.size() == 1 ? "the area" : "an area") + " each differ from the given one by at most " +
+           within + ".";
   if (what == Measured::receivers && result.receiver_results.size() == 1)
     return "The true " + word + " differs from the given one by at most " + within +
            " with a probability of two thirds.";
