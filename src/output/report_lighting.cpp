@@ -92,9 +92,9 @@ struct SourceRow {
 };
 
 std::string source_words(const SourceRow& row, Quantity quantity) {
-  std::string text = row.kind == "surface"     ? "shining surface"
-                     : row.kind == "isotropic" ? "point, alike in all directions"
-                     : row.kind == "lambert"   ? "beam about an axis"
+  std::string text = row.kind == "surface"     ? "area light"
+                     : row.kind == "isotropic" ? "isotropic point light"
+                     : row.kind == "lambert"   ? "point light, generalized Lambert (cos^m)"
                                                : std::string(row.kind);
   if (row.maintenance_factor != 1.0)
     text += "; maintenance factor " + rounded(row.maintenance_factor, 4) + ", new " +
