@@ -104,7 +104,7 @@ struct DesignComparison {
   DesignTotals total_b;
 };
 
-// Two designs side by side: the areas of the results in two folders. A difference is no fault.
+// Two designs side by side: the areas of the results, or scenes, in two folders. A difference is no fault.
 //
 // Throws InputError if a folder contains no result or no areas, or if the units differ.
 DesignComparison compare_designs(const std::filesystem::path& a, const std::filesystem::path& b);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 #include <string_view>
+#include <system_error>
 
 #include <nlohmann/json.hpp>
 
@@ -65,7 +66,8 @@ std::optional<double> watts_of(const nlohmann::json& summary) {
 Design design_of(const nlohmann::json& summary) {
   Design design;
   design.unit = summary.at("unit").get<std::string>();
-  design.total = {number_of(summary, "emitted"), watts_of(summary)};
+  design.total.power = number_of(summary, "emitted");
+  if (summary.contains("luminaires")) design.total.watts = watts_of(summary);  // a scene has none
   for (const nlohmann::json& area : summary.at("areas")) {
     design.areas.push_back({area.at("name").get<std::string>(), area.at("role").get<std::string>(),
                             area.at("quantity").get<std::string>(), area.at("points").get<std::size_t>(),
@@ -77,7 +79,9 @@ Design design_of(const nlohmann::json& summary) {
 }
 
 Design read_design(const fs::path& folder) {
-  const fs::path file = folder / "summary.json";
+  std::error_code unknown;
+  const bool is_scene = !fs::exists(folder / "summary.json", unknown) && fs::exists(folder / "scene.json", unknown);
+  const fs::path file = folder / (is_scene ? "scene.json" : "summary.json");
   std::ifstream in(file);
   if (!in) refuse_design(file, "the file does not exist; a complete run writes it");
   const nlohmann::json summary = nlohmann::json::parse(in, nullptr, false);

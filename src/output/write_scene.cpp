@@ -59,7 +59,7 @@ std::vector<double> factors_of(const EmitterParts& parts, const std::vector<Dimm
 std::string scene_json(const KeptParts& kept, const DimmedScene& scene) {
   Json json{{"room", kept.room},
             {"unit", std::string(power_unit(kept.quantity))},
-            {"power", number(scene.power)},
+            {"emitted", number(scene.power)},
             {"emitters", Json::array()}};
   for (std::size_t p = 0; p < scene.factors.size(); ++p) {
     const EmitterParts::Part& part = kept.parts.parts[p];

@@ -60,7 +60,16 @@ class Scene(ProgramTest):
             self.assertAlmostEqual(one + other, all_, delta=1e-12 * all_)
             self.assertAlmostEqual(0.5 * one + 2 * other, both, delta=1e-12 * both)
         scene = json.loads((self.folder / "both" / "scene.json").read_text())
-        self.assertEqual(scene["power"], 0.5 * 3000 + 2 * 2000)
+        self.assertEqual(scene["emitted"], 0.5 * 3000 + 2 * 2000)
+
+    def test_scenes_are_designs(self):
+        self.run_room("--per-emitter")
+        first = self.names()[0]
+        scene = self.folder / "scene"
+        self.assertEqual(lichtmc("scene", self.result, "--dim", f"{first}=0", "-o", scene).returncode, 0)
+        done = lichtmc("compare", "--designs", self.result, scene, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("plane", done.stdout)
 
     def test_bad_input(self):
         self.run_room("--per-emitter")
