@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lichtmc/output.hpp"
+#include "lichtmc/overrides.hpp"
 #include "lichtmc/visible_text.hpp"
 #include "progress_line.hpp"
 #include "quantities.hpp"
@@ -139,11 +140,13 @@ void print_channels(const ImpulseResponses& responses) {
 
 }  // namespace
 
-void print_outcome(const Result& result, const std::filesystem::path& folder, bool with_report, bool with_images) {
+void print_outcome(const Room& room, const Result& result, const std::filesystem::path& folder, bool with_report,
+                   bool with_images) {
   if (!result.tiles.empty()) print_tiles(result);
   if (!result.receiver_results.empty()) print_receivers(result);
   if (result.channels) print_channels(*result.channels);
   for (const AreaResult& area : result.areas) std::cerr << visible_text(area_line(area, result.quantity)) << '\n';
+  if (const std::string maintained = maintained_text(room); !maintained.empty()) std::cerr << maintained << ".\n";
   for (const Measured what : {Measured::tiles, Measured::receivers}) {
     const std::string options = options_to_repeat(result, what);
     if (!options.empty()) std::cerr << "The same figures, to the last digit, without a clock: " << options << '\n';

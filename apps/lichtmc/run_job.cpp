@@ -152,7 +152,7 @@ void write_all(RunJob& job, Result& result, const std::vector<std::string>& prin
   if (form == ProgressForm::json) tell_done(error_of(result), result.settings.target_error);
   result.warnings = of_the_run;
   for (std::string& note : files_left_out(result)) result.warnings.push_back(std::move(note));
-  if (!job.quiet) print_outcome(result, job.folder, job.with_report, job.files.tile_images);
+  if (!job.quiet) print_outcome(job.room, result, job.folder, job.with_report, job.files.tile_images);
 }
 
 std::string gigabytes(double bytes) {

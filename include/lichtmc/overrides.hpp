@@ -36,8 +36,8 @@ void set_maintenance_factor(Room& room, double factor);
 // with new emitters are those of the room divided by F.
 std::optional<double> common_maintenance_factor(const Room& room);
 
-// "Maintained values: maintenance factor 0.8", or "Maintained values: maintenance factors 0.7 to 0.9"; empty if all are
-// 1: then nothing is known of ageing.
+// "Maintained values: maintenance factor 0.8; initial values are 1.25 times as high", or "Maintained values: maintenance
+// factors 0.7 to 0.9"; empty if all are 1: then nothing is known of ageing.
 std::string maintained_text(const Room& room);
 
 // Adds an emitter whose power is the given quantity. A room without emitters takes this quantity; otherwise both must

@@ -5,6 +5,7 @@
 
 #include "base/message.hpp"
 #include "lichtmc/output.hpp"
+#include "lichtmc/overrides.hpp"
 #include "lichtmc/units.hpp"
 #include "lichtmc/visible_text.hpp"
 #include "output/assets.hpp"
@@ -68,11 +69,12 @@ std::string key_figures(const Room& room, const Result& result) {
                       "mean of " + to_text(result.receiver_results.size(), "receiver") + ", standard error of each ± " +
                           percent(result.receiver_walk.rms_relative_error) + " (rms)");
   }
+  const std::string maintained = maintained_text(room);
   return text_element("p",
                       "The " + std::string(irradiance_word(result.quantity)) +
                           " in the room, computed by a Monte Carlo simulation of photons. All surfaces reflect "
                           "diffusely (Lambert's law). " +
-                          meaning_of_errors(result),
+                          (maintained.empty() ? "" : maintained + ". ") + meaning_of_errors(result),
                       " class=\"muted\"") +
          element("div", figures, " class=\"figures\"");
 }

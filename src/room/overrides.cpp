@@ -199,7 +199,9 @@ std::optional<double> common_maintenance_factor(const Room& room) {
 std::string maintained_text(const Room& room) {
   const FactorRange range = maintenance_factors(room);
   if (range.least == 1.0) return "";
-  if (range.least == range.greatest) return "Maintained values: maintenance factor " + to_text(range.least);
+  if (range.least == range.greatest)
+    return "Maintained values: maintenance factor " + to_text(range.least) + "; initial values are " +
+           short_number(1.0 / range.least) + " times as high";
   return "Maintained values: maintenance factors " + to_text(range.least) + " to " + to_text(range.greatest);
 }
 

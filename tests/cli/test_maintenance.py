@@ -18,8 +18,9 @@ class Maintenance(ProgramTest):
 
     def run_room(self, room, *options):
         out = self.folder / "out"
-        done = lichtmc("run", room, "-o", out, "--histories", "0:4096", "--no-report", *options)
+        done = lichtmc("run", room, "-o", out, "--histories", "0:4096", *options)
         self.assertEqual(done.returncode, 0, done.stderr)
+        self.messages = done.stderr
         with open(out / "emitters.csv", encoding="utf-8") as file:
             emitters = list(csv.DictReader(file))
         with open(out / "receivers.csv", encoding="utf-8") as file:
@@ -28,11 +29,15 @@ class Maintenance(ProgramTest):
 
     def test_all_figures_are_maintained_ones(self):
         room = self.room()
-        new, _, at_new = self.run_room(room)
+        new, _, at_new = self.run_room(room, "--no-report")
+        self.assertNotIn("aintained", self.messages)
         self.assertEqual(new["maintenance_factor"], 1)
         aged, emitters, at_aged = self.run_room(room, "--maintenance-factor", 0.8)
         self.assertEqual(aged["maintenance_factor"], 0.8)
         self.assertEqual(aged["emitted"], 1200)
+        said = "Maintained values: maintenance factor 0.8; initial values are 1.25 times as high."
+        self.assertIn(said, self.messages)
+        self.assertIn(said, (self.folder / "out" / "report.html").read_text(encoding="utf-8"))
         self.assertAlmostEqual(float(at_aged[0]["direct"]) / float(at_new[0]["direct"]), 0.8, delta=1e-12)
         self.assertEqual([(row["power"], row["maintenance_factor"], row["initial_power"]) for row in emitters],
                          [("800", "0.8", "1000"), ("400", "0.8", "500")])
@@ -41,7 +46,8 @@ class Maintenance(ProgramTest):
 
     def test_a_factor_of_the_file_is_kept(self):
         room = self.room(maintenance_factor=0.7)
-        summary, _, _ = self.run_room(room, "--maintenance-factor", 0.8)
+        summary, _, _ = self.run_room(room, "--maintenance-factor", 0.8, "--no-report")
+        self.assertIn("Maintained values: maintenance factors 0.7 to 0.8.", self.messages)
         self.assertEqual(summary["maintenance_factor"], None)
         self.assertEqual([(e["power"], e["maintenance_factor"]) for e in summary["emitters"]], [(700, 0.7), (400, 0.8)])
 
