@@ -25,7 +25,7 @@ TREATS_ALL = r"\b(visit_shape|law_of|emitting_surface|PointShape|EmitterLaw|ligh
 ONLY_CREATE = {
     "src/gltf/lights.cpp": "creates the emitters that a file describes",
     "src/inspect/inspect.cpp": "creates an isotropic emitter to test a room without emitters",
-    "src/run/receiver_grid.cpp": "creates an isotropic emitter to find the rooms of a building without emitters",
+    "src/run/lit_space.cpp": "creates an isotropic emitter to find the rooms of a building without emitters",
     "apps/lichtmc/light_spec.cpp": "creates the emitters of --light",
     "src/room/measured_emitter.cpp": "has the law of luminaires with photometric files",
     "src/room/room.cpp": "checks the axes of luminaires, beside what all shapes have",
