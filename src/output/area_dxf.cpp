@@ -14,7 +14,6 @@
 
 #include "base/message.hpp"
 #include "base/utf8.hpp"
-#include "lichtmc/area_drawing.hpp"
 #include "output/area_numbers.hpp"
 #include "output/area_words.hpp"
 
@@ -215,9 +214,8 @@ class DrawingPlaces {
 
 }  // namespace
 
-std::string area_dxf(const Room& room, const Result& result, std::size_t k) {
+std::string area_dxf(const Result& result, std::size_t k, const AreaDrawing& drawing) {
   const AreaResult& figures = result.areas[k];
-  const AreaDrawing drawing = draw_area(room, result, k);
   const DrawingPlaces places(drawing);
   const AreaNumbers numbers(drawing, result.quantity);
 

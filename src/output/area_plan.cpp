@@ -10,7 +10,6 @@
 
 #include "base/message.hpp"
 #include "base/png.hpp"
-#include "lichtmc/area_drawing.hpp"
 #include "output/area_numbers.hpp"
 #include "output/area_words.hpp"
 #include "output/isoline_marks.hpp"
@@ -59,11 +58,11 @@ bool cut_to_box(const SheetLine& box, SheetLine& line) {
 
 class AreaPlan {
  public:
-  AreaPlan(const Room& room, const Result& result, std::size_t area, const ColourScale& scale)
+  AreaPlan(const Result& result, std::size_t area, const AreaDrawing& drawing, const ColourScale& scale)
       : result_(&result),
         figures_(&result.areas[area]),
         scale_(&scale),
-        drawing_(draw_area(room, result, area)),
+        drawing_(drawing),
         form_(drawing_, result.quantity) {
     choose_view();
     choose_places();
@@ -354,7 +353,7 @@ class AreaPlan {
   const Result* result_;
   const AreaResult* figures_;
   const ColourScale* scale_;
-  AreaDrawing drawing_;
+  const AreaDrawing& drawing_;
   AreaNumbers form_;
   SheetLine view_{};
   double unit_ = 1.0;  // units of the picture per metre
@@ -371,7 +370,12 @@ class AreaPlan {
 }  // namespace
 
 std::string area_plan_svg(const Room& room, const Result& result, std::size_t area, const ColourScale& scale) {
-  return AreaPlan(room, result, area, scale).svg();
+  return area_plan_svg(result, area, draw_area(room, result, area), scale);
+}
+
+std::string area_plan_svg(const Result& result, std::size_t area, const AreaDrawing& drawing,
+                          const ColourScale& scale) {
+  return AreaPlan(result, area, drawing, scale).svg();
 }
 
 }  // namespace lichtmc

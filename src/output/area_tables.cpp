@@ -7,7 +7,6 @@
 
 #include "base/csv.hpp"
 #include "base/message.hpp"
-#include "lichtmc/area_drawing.hpp"
 #include "output/table_rows.hpp"
 
 namespace lichtmc {
@@ -59,9 +58,8 @@ std::string areas_csv(const Result& result) {
   return table;
 }
 
-std::string area_grid_csv(const Room& room, const Result& result, std::size_t k) {
+std::string area_grid_csv(const Result& result, std::size_t k, const AreaDrawing& drawing) {
   const AreaResult& one = result.areas[k];
-  const AreaDrawing drawing = draw_area(room, result, k);
   const glm::dvec3 corner = drawing.upper_left(one.area);
   const auto place = [](const glm::dvec3& p) { return to_text(p.x) + ',' + to_text(p.y) + ',' + to_text(p.z); };
   const std::string unit(irradiance_unit(result.quantity));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "lichtmc/area_drawing.hpp"
 #include "lichtmc/result.hpp"
 
 namespace lichtmc {
@@ -15,10 +16,10 @@ namespace lichtmc {
 // target. *_initial: with the power of new emitters. lowest, highest: of the values at the points, as they are.
 std::string areas_csv(const Result& result);
 
-// The grid of Result::areas[area] as on its plan, for spreadsheets. Rows "word,value,…" about the area; then the values
-// at its points, a row of the table for each row of the grid, with the places of columns and rows in the heading and in
-// the first column (m from the upper left corner of the grid, to the right and down); then their standard errors in the
-// same form. Cells without a point are empty.
-std::string area_grid_csv(const Room& room, const Result& result, std::size_t area);
+// The grid of Result::areas[area] as on its plan (`drawing`), for spreadsheets. Rows "word,value,…" about the area;
+// then the values at its points, a row of the table for each row of the grid, with the places of columns and rows in
+// the heading and in the first column (m from the upper left corner of the grid, to the right and down); then their
+// standard errors in the same form. Cells without a point are empty.
+std::string area_grid_csv(const Result& result, std::size_t area, const AreaDrawing& drawing);
 
 }  // namespace lichtmc

@@ -26,9 +26,10 @@ void write_areas(const Room& room, const Result& result, StagedFiles& staged) {
   const std::vector<std::string> stems = area_file_stems(result);
   for (std::size_t k = 0; k < result.areas.size(); ++k) {
     const fs::path stem = fs::path("areas") / stems[k];
-    staged.write(stem.string() + ".csv", area_grid_csv(room, result, k));
-    staged.write(stem.string() + ".svg", area_plan_svg(room, result, k, choose_area_scale(result, k)));
-    staged.write(stem.string() + ".dxf", area_dxf(room, result, k));
+    const AreaDrawing drawing = draw_area(room, result, k);
+    staged.write(stem.string() + ".csv", area_grid_csv(result, k, drawing));
+    staged.write(stem.string() + ".svg", area_plan_svg(result, k, drawing, choose_area_scale(result, k)));
+    staged.write(stem.string() + ".dxf", area_dxf(result, k, drawing));
   }
   staged.write("areas.csv", areas_csv(result));
 }

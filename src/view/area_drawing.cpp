@@ -138,10 +138,8 @@ void draw_isolines(const Result& result, const AreaResult& figures, AreaDrawing&
     }
   }
   if (drawing.isolines.empty())
-    drawing.why_no_isolines = drawing.columns < 2 || drawing.rows < 2
-                                  ? "No isolines: the points lie in one row."
-                                  : "No isolines: no round value lies between neighbouring points by more than their "
-                                    "errors.";
+    drawing.why_no_isolines = drawing.columns < 2 || drawing.rows < 2 ? "No isolines: the points lie in one row."
+                                                                      : "No isolines: the values differ too little.";
 }
 
 }  // namespace

@@ -219,7 +219,7 @@ TEST_CASE("a drawing for CAD programs has isolux lines at their levels, in the c
   Result result = photometric_result();
   add_area(result, level_sketch(), rising_along_x);
   result.areas[0].area.properties.name = "büro ±";
-  const std::string dxf = area_dxf(make_room(), result, 0);
+  const std::string dxf = area_dxf(result, 0, draw_area(make_room(), result, 0));
   std::istringstream in(dxf);
   std::map<std::string, std::size_t> entities;
   std::set<std::string> declared;
@@ -291,7 +291,7 @@ TEST_CASE("the grid of an area is a table with places, values and errors") {
   AreaSketch sketch = level_sketch();
   sketch.has_point = [](std::uint32_t column, std::uint32_t row) { return column != 1 || row != 2; };
   add_area(result, sketch, [](const glm::dvec3& p) { return 1000.0 * p.x + p.z; });
-  const auto rows = rows_of(area_grid_csv(make_room(), result, 0));
+  const auto rows = rows_of(area_grid_csv(result, 0, draw_area(make_room(), result, 0)));
   const auto block = [&rows](const std::string& heading) {
     const auto at = std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row[0] == heading; });
     REQUIRE(at != rows.end());
