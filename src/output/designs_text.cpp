@@ -45,8 +45,8 @@ std::string table_of(const std::vector<DesignRow>& rows) {
 }
 
 std::string signed_text(const Figure& figure, int digits) {
-  const std::string text = figure_text(figure, digits);
-  return figure.value > 0.0 ? "+" + text : text;
+  const std::string text = figure_text({std::abs(figure.value), figure.standard_error}, digits);
+  return figure.value > 0.0 ? "+" + text : figure.value < 0.0 ? "−" + text : text;
 }
 
 std::string target_of(const DesignArea& area, const std::string& unit) {
@@ -90,7 +90,7 @@ void add_area(const DesignAreas& pair, const std::string& unit, bool photometric
 }
 
 std::string change_of(double a, double b) {
-  return (b > a ? "+" : "") + rounded(b - a, 4);
+  return (b > a ? "+" : b < a ? "−" : "") + rounded(std::abs(b - a), 4);
 }
 
 }  // namespace

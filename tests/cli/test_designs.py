@@ -22,7 +22,7 @@ class Designs(ProgramTest):
     def test_the_outcome_has_a_line_for_each_area(self):
         _, printed = self.run_with("out", "--plane", "0.75:0.5:target_lx=10:target_uniformity=0.1:name=desks",
                                    "--area", "board:1,1,0:2,0,0:0,1,0")
-        lines = [line for line in printed.splitlines() if ": Em " in line]
+        lines = sorted((line for line in printed.splitlines() if ": Em " in line), reverse=True)
         self.assertEqual(len(lines), 2)
         self.assertRegex(lines[0], r"^desks.*: Em [\d.]+ ± [\d.]+ lx, U0 0\.\d+ ± 0\.\d+, target 10 lx, 0\.10: pass$")
         self.assertRegex(lines[1], r"^board.*: Em [\d.]+ ± [\d.]+ lx, U0 0\.\d+ ± 0\.\d+$")
@@ -60,7 +60,9 @@ class Designs(ProgramTest):
         self.assertIn("target 80 lx", done.stdout)
         self.assertRegex(done.stdout, r"luminous flux, lm +3000 +6000 +\+3000")
         found = json.loads(lichtmc("compare", "--designs", today, proposal, "--json").stdout)
-        desks, board = found["areas"]
+        areas = {area["name"]: area for area in found["areas"]}
+        self.assertEqual(sorted(areas), ["board", "desks"])
+        desks, board = areas["desks"], areas["board"]
         self.assertAlmostEqual(desks["em_difference"], desks["b"]["em"] - desks["a"]["em"], places=9)
         self.assertGreater(desks["em_difference"], 20 * desks["em_difference_se"])
         self.assertIsNone(board["b"])
