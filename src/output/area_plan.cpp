@@ -199,7 +199,7 @@ class AreaPlan {
 
   std::string room_lines() const {
     return path_of(drawing_.outline_or_grid(), "stroke-width=\"0.8\" stroke-dasharray=\"6 3\"") +
-           path_of(drawing_.section, "stroke-width=\"1.8\" stroke-linecap=\"round\"");
+           path_of(drawing_.section, "stroke-width=\"2\" stroke-opacity=\"0.6\" stroke-linecap=\"round\"");
   }
 
   // Width and height of the area, with ticks at their ends.
@@ -341,7 +341,8 @@ class AreaPlan {
     else if (!drawing_.why_no_isolines.empty())
       text += drawing_.why_no_isolines + " ";
     text += to_text(area.cells.size(), "point") + ", spacing " + decimal(glm::length(area.u), 2) + no_break + "m" +
-            no_break + "×" + no_break + decimal(glm::length(area.v), 2) + no_break + "m. ";
+            no_break + "×" + no_break + decimal(glm::length(area.v), 2) + no_break + "m" +
+            (area.margin_m > 0.0 ? ", margin " + decimal(area.margin_m, 2) + no_break + "m. " : ". ");
     if (const std::string left_out = area_left_out_text(area); !left_out.empty())
       text += left_out + (hatched_ ? " (hatched inside the area). " : ". ");
     for (const std::string& note : area.notes) text += note + " ";
