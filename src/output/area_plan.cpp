@@ -340,14 +340,14 @@ class AreaPlan {
               ", linear between the points. ";
     else if (!drawing_.why_no_isolines.empty())
       text += drawing_.why_no_isolines + " ";
-    text += to_text(area.cells.size(), "point") + ", spacing " + decimal(glm::length(area.u), 2) + no_break + "m" +
-            no_break + "×" + no_break + decimal(glm::length(area.v), 2) + no_break + "m" +
+    text += to_text(area.cells.size(), "point") + ", spacing " + decimal(glm::length(area.u), 3) + no_break + "m" +
+            no_break + "×" + no_break + decimal(glm::length(area.v), 3) + no_break + "m" +
             (area.margin_m > 0.0 ? ", margin " + decimal(area.margin_m, 2) + no_break + "m. " : ". ");
     if (const std::string left_out = area_left_out_text(area); !left_out.empty())
       text += left_out + (hatched_ ? " (hatched inside the area). " : ". ");
     for (const std::string& note : area.notes) text += note + " ";
     if (!drawing_.section.empty())
-      text += "Heavy lines: the room cut at this height. The arrow −z points north where the model is drawn so.";
+      text += "Grey lines: the room cut at this height. The arrow −z points north where the model is drawn so.";
     return text;
   }
 
