@@ -24,7 +24,7 @@ class Options(ProgramTest):
         self.assertFalse((self.folder / "out").exists())
 
     def test_options_that_need_the_width_of_a_bin(self):
-        for options in (("--time-span", "100ns"), ("--orders", "2"), ("--per-emitter",), ("--frequencies", "0:1MHz:1MHz"),
+        for options in (("--time-span", "100ns"), ("--orders", "2"), ("--frequencies", "0:1MHz:1MHz"),
                         ("--squared-weights",), ("--delay", "*=5ns")):
             with self.subTest(options=options):
                 self.refuse(*options, says=[f"{options[0]} is given without --impulse-response", f"leave out {options[0]}"])
