@@ -62,7 +62,9 @@ ProgressLine::~ProgressLine() {
 double ProgressLine::seconds_left(const Progress& progress) const {
   double left = std::numeric_limits<double>::infinity();
   const auto done = static_cast<double>(progress.histories);
-  if (done > 0.0) left = progress.seconds * (static_cast<double>(progress.target) - done) / done;
+  // Without a number of photons only the other rules end the run.
+  if (done > 0.0 && progress.target < no_photon_limit)
+    left = progress.seconds * (static_cast<double>(progress.target) - done) / done;
   if (progress.seconds_to_target >= 0.0) left = std::min(left, progress.seconds_to_target);
   if (settings_.max_seconds) left = std::min(left, *settings_.max_seconds - progress.seconds);
   return std::max(left, 0.0);
