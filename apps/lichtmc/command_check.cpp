@@ -146,14 +146,16 @@ void print_receivers(const Room& room) {
   const std::vector<Receiver> receivers = receivers_of_file(room);
   const Receiver plain;
   const bool optics = std::any_of(receivers.begin(), receivers.end(), [&plain](const Receiver& r) {
-    return r.area_m2 != plain.area_m2 || r.half_angle_deg != plain.half_angle_deg || r.optical_gain() != 1.0;
+    return r.area_m2 != plain.area_m2 || r.half_angle_deg != plain.half_angle_deg || r.optical_gain() != 1.0 ||
+           r.law != plain.law;
   });
   if (!optics) return;
   std::cout << "\nReceivers (" << receivers.size() << "; area, half angle of the field of view)\n";
   for (std::size_t k = 0; k < std::min(shown, receivers.size()); ++k) {
     const Receiver& r = receivers[k];
+    const bool is_planar = r.law == ReceiverLaw::planar;
     std::cout << "  " << visible_text(r.name) << ": " << four_digits(r.area_m2) << " m^2, "
-              << four_digits(r.half_angle_deg) << " degrees";
+              << (is_planar ? four_digits(r.half_angle_deg) + " degrees" : std::string(to_string(r.law)));
     if (r.concentrator_index) std::cout << ", concentrator of index " << four_digits(*r.concentrator_index);
     if (r.filter_gain != 1.0) std::cout << ", filter gain " << four_digits(r.filter_gain);
     if (r.optical_gain() != 1.0) std::cout << "; optical gain " << four_digits(r.optical_gain());

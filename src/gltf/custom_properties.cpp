@@ -234,8 +234,9 @@ class Checker {
       changed = true;
     }
     if (name == "receiver") {
-      check_parts(name, value, {"area", "fov", "concentrator_index", "filter_gain"},
-                  "'area' in m², 'fov', the half angle in degrees, 'concentrator_index', 'filter_gain'", where);
+      check_parts(name, value, {"area", "fov", "concentrator_index", "filter_gain", "quantity"},
+                  "'area' in m², 'fov', the half angle in degrees, 'concentrator_index', 'filter_gain', 'quantity'",
+                  where);
     } else if (name == "ies") {
       check_parts(name, value, {"file", "lumens", "scale", "watts", "rotation", "lampset", "opening", "flipH"},
                   "'file', 'lumens', 'scale', 'watts', 'rotation', 'lampset', 'opening', 'flipH'", where);

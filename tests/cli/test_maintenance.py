@@ -54,6 +54,7 @@ class Maintenance(ProgramTest):
     def test_check_shows_factors_and_what_lacks_one(self):
         room = self.room(maintenance_factor=0.7)
         done = lichtmc("check", room)
+        self.assertIn("head: 1 m^2, cylindrical", done.stdout)
         self.assertIn("lamp: 700 lm, maintenance factor 0.7 (new: 1000 lm)", done.stdout)
         self.assertIn("1 emitter has a maintenance factor, 1 emitter has none", done.stdout)
         facts = json.loads(lichtmc("check", room, "--json", "--maintenance-factor", 0.9).stdout)

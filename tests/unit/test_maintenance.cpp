@@ -161,6 +161,7 @@ TEST_CASE("receivers of other laws are read and written: upright, facing the way
   document["nodes"][1]["extras"] = {{"receiver", {{"quantity", "cylindrical"}}}};
   Receiver receiver = read_document(document).receivers.at(0);
   CHECK(receiver.law == ReceiverLaw::cylindrical);
+  CHECK(read_document(document).ignored.empty());
   CHECK(receiver.normal == glm::dvec3(0, 1, 0));
   document["nodes"][1]["extras"]["receiver"]["quantity"] = "semicylindrical";
   // Turned by 90° about y: −Z becomes −X.
