@@ -34,6 +34,7 @@ class PlaneLayer {
     for (const std::size_t room : points_.order()) {
       for (const std::size_t floor : points_.floors_of(room)) {
         for (const FloorPart& part : parts_of_floor(space_, floor)) {
+          if (is_niche(part)) continue;
           WorkingPlane plane;
           if (lay(part, room, floor, plane)) {
             planes.push_back(std::move(plane));
@@ -49,6 +50,12 @@ class PlaneLayer {
   std::size_t without_points() const { return without_points_; }
 
  private:
+  // Less than 1 m² (in small models, in proportion) between walls is no room: the depth of a door or window.
+  bool is_niche(const FloorPart& part) const {
+    constexpr double least_square_steps = 16.0;
+    return part.area_m2 < least_square_steps * space_.rooms.step() * space_.rooms.step();
+  }
+
   bool lay(const FloorPart& part, std::size_t room, std::size_t floor, WorkingPlane& plane) {
     std::vector<glm::dvec2> corners;
     for (const PlanLine& line : part.outline) corners.push_back(line[0]);

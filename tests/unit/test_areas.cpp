@@ -131,6 +131,31 @@ TEST_CASE("areas: the grid of a rotated room is turned with it") {
   }
 }
 
+TEST_CASE("areas: a furnished office with a window and a door in solid walls, in any direction") {
+  const Room office_of_file = read_gltf(std::string(LICHTMC_TEST_DATA) + "/office.glb");  // 6 m × 5 m
+  for (const double angle : {0.0, 0.127, 0.52}) {
+    INFO(angle);
+    const auto turned = [angle](const glm::dvec3& p) {
+      return glm::dvec3(std::cos(angle) * p.x - std::sin(angle) * p.z, p.y,
+                        std::sin(angle) * p.x + std::cos(angle) * p.z);
+    };
+    Room room = office_of_file;
+    for (Surface& surface : room.surfaces) {
+      for (glm::dvec3& p : surface.positions) p = turned(p);
+    }
+    room.emitters = {isotropic(turned({3.0, 2.0, -2.5}))};
+    room.receivers.clear();
+    lay_working_planes(room, 0.75, with_spacing("plane", 0.5));
+    REQUIRE(room.areas.size() == 1);
+    const Area& area = room.areas[0];
+    CHECK(area.cells.size() == 80);
+    CHECK(area.outline.size() == 4);
+    CHECK(area.notes.size() == 1);  // points on table tops
+    const glm::dvec3 middle = area.corner + 0.5 * (1.0 * area.columns * area.u + 1.0 * area.rows * area.v);
+    CHECK(glm::length(middle - turned({3.0, 0.75, -2.5})) < 1e-3);
+  }
+}
+
 TEST_CASE("areas: a working plane follows an L-shaped room, and its margin the notch") {
   const Room l_room = read_gltf(std::string(LICHTMC_SCENES) + "/l_room.gltf");  // three of four squares of 1 m
   Room room = l_room;
