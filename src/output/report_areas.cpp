@@ -116,7 +116,7 @@ std::string meaning_of_table(const Result& result) {
 std::string maintenance_text(const Room& room) {
   const std::string maintained = maintained_text(room);
   return maintained.empty() ? "Maintenance factor 1: the figures are initial values, of new and clean luminaires."
-                            : maintained + ", the part of the luminous flux of new luminaires that remains.";
+                            : maintained + ".";
 }
 
 std::string area_verdicts(const ReportContent& content) {
