@@ -9,9 +9,9 @@
 
 #include "walk/backward.hpp"
 #include "walk/backward_arrivals.hpp"
+#include "walk/backward_parts.hpp"
 #include "walk/channel_scores.hpp"
 #include "walk/choose_policy.hpp"
-#include "walk/emitter_groups.hpp"
 #include "walk/first_flights.hpp"
 #include "walk/roulette.hpp"
 #include "walk/surface_light.hpp"
@@ -36,7 +36,7 @@ class BackwardGoal : public GoalBase {
         forward_per_walk_(plan.forward_per_walk()),
         threshold_(threshold),
         max_flights_(max_flights),
-        parts_(groups != nullptr ? groups->size() : 1),
+        parts_(light, groups, Policy::scores_every_impact),
         points_(plan.backward, Origins::is_extended),
         first_flights_(batch_histories),
         surface_light_(light, *scene.tracer, stream),
@@ -44,18 +44,14 @@ class BackwardGoal : public GoalBase {
         origin_(batch_histories),
         round_(batch_histories),
         number_(batch_histories),
-        found_(std::size_t{batch_histories} * parts_),
+        found_(batch_histories),
         forward_ratio_(batch_histories),
         factor_(batch_histories),
         least_height_m_(batch_histories),
         direct_(batch_histories),
         cosine_(whole_lanes(batch_histories)),
         cell_(batch_histories),
-        arrivals_(light, planes, Policy::scores_every_impact) {
-    if (groups == nullptr) return;
-    for (std::size_t k = 0; k < light.sources(); ++k) part_of_.push_back(groups->of_emitter[light.source(k).emitter]);
-    if (!Policy::scores_every_impact) direct_parts_.resize(found_.size());
-  }
+        arrivals_(light, planes, Policy::scores_every_impact) {}
 
   // Photon i will start from an origin, as walk `number` of a round.
   void prepare(std::size_t i, std::uint64_t origin, std::uint64_t round, std::uint32_t number) {
@@ -68,9 +64,9 @@ class BackwardGoal : public GoalBase {
 
   // What photon i, which has ended, contributes to its origin, W/m² or lx: all, or the light of a group of emitters.
   double irradiance(std::uint32_t i, std::uint32_t part = 0) const {
-    return found_[std::size_t{i} * parts_ + part] * factor_[i];
+    return (parts_.kept() ? parts_.found(i, part) : found_[i]) * factor_[i];
   }
-  std::uint32_t parts() const { return parts_; }
+  std::uint32_t parts() const { return parts_.size(); }
   std::uint64_t origin(std::uint32_t i) const { return origin_[i]; }
   std::uint64_t round(std::uint32_t i) const { return round_[i]; }
   // The light that photons collect is scored here, as rounds from first_round on and of origins from first_origin on.
@@ -97,14 +93,14 @@ class BackwardGoal : public GoalBase {
       least_height_m_[i] = view.least_height_m;
       lies_on_surface_ = lies_on_surface_ || view.least_height_m > 0.0;
       forward_ratio_[i] = 0.0;
+      found_[i] = 0.0;
       direct_[i] = 0.0;
       if constexpr (keeps_paths) {
         arrivals_.start(i, origins_->point(origin_[i]), round_[i] - first_round_, origin_[i] - first_origin_,
                         factor_[i] / group_);
       }
     }
-    std::fill_n(found_.begin(), std::size_t{n} * parts_, 0.0);
-    std::fill_n(direct_parts_.begin(), direct_parts_.empty() ? 0 : std::size_t{n} * parts_, 0.0);
+    if (parts_.kept()) parts_.start(n);
     first_flights_.aim(n, scene_->tracer->directions(), wave.rays, cosine_.data());
     for (const auto& [i, direction] : ways_out_) wave.rays.set_direction(i, direction);
   }
@@ -139,8 +135,8 @@ class BackwardGoal : public GoalBase {
       const std::uint32_t photon = wave.photon[i];
       double irradiance = 0.0;
       const auto add = [&](std::size_t source, double part) {
-        if (keeps_parts()) {
-          add_part(photon, i, source, weight(wave, i), part);
+        if (parts_.kept()) {
+          parts_.add(photon, i, source, weight(wave, i), part);
         } else {
           irradiance += part;
         }
@@ -173,7 +169,7 @@ class BackwardGoal : public GoalBase {
     if (flight == max_flights_) return;
     if (!light_->takes_all() || light_->has_extended_lights()) number_histories(wave);
     const double* forward_ratio = forward_per_walk_ > 0.0 ? forward_ratio_.data() : nullptr;
-    if (keeps_parts()) {
+    if (parts_.kept()) {
       sample_parts(wave, flight, forward_ratio);
       copy_cells(wave);
       return;
@@ -207,34 +203,21 @@ class BackwardGoal : public GoalBase {
     if constexpr (keeps_paths) wave.rays.set_start(to, wave.rays.start(from));
     wave.rays.set_direction(to, wave.rays.direction(from));
     wave.rays.length[to] = wave.rays.length[from];
-    if constexpr (!Policy::scores_every_impact) {
-      direct_[to] = direct_[from];
-      if (keeps_parts())
-        std::copy_n(direct_parts_.begin() + static_cast<std::ptrdiff_t>(from * parts_), parts_,
-                    direct_parts_.begin() + static_cast<std::ptrdiff_t>(to * parts_));
-    }
+    if constexpr (!Policy::scores_every_impact) direct_[to] = direct_[from];
+    if (parts_.kept()) parts_.move(from, to);
     cosine_[to] = cosine_[from];
     cell_[to] = cell_[from];
   }
 
  private:
   static const double* weights(const Wave& wave) { return Policy::carries_weight ? wave.weight.data() : nullptr; }
-  bool keeps_parts() const { return !part_of_.empty(); }
-  // The light of a source at the surface that photon i of the wave left.
-  void add_part(std::uint32_t photon, std::size_t i, std::size_t source, double weight, double irradiance) {
-    if constexpr (Policy::scores_every_impact) {
-      found_[std::size_t{photon} * parts_ + part_of_[source]] += weight * irradiance;
-    } else {
-      direct_parts_[i * parts_ + part_of_[source]] += irradiance;
-    }
-  }
   // Light samples of which each belongs to the part of its emitter.
   void sample_parts(const Wave& wave, std::uint32_t flight, const double* forward_ratio) {
-    if constexpr (!Policy::scores_every_impact) std::fill_n(direct_parts_.begin(), wave.rays.size * parts_, 0.0);
+    parts_.leave(wave.rays.size);
     surface_light_.sample(wave, flight, forward_ratio, count_->traced, [&](const LightSamples& samples) {
       for (std::size_t i = 0; i < wave.rays.size; ++i) {
         if (samples.irradiance[i] > 0.0)
-          add_part(wave.photon[i], i, samples.source[i], weight(wave, i), samples.irradiance[i]);
+          parts_.add(wave.photon[i], i, samples.source[i], weight(wave, i), samples.irradiance[i]);
       }
     });
   }
@@ -244,9 +227,8 @@ class BackwardGoal : public GoalBase {
   }
   // Variant 3: the direct light at the surface that a photon, i of the wave, survived last, over its absorptance.
   void score_last(std::uint32_t photon, std::size_t i, double absorptance) {
-    if (keeps_parts()) {
-      for (std::uint32_t part = 0; part < parts_; ++part)
-        found_[std::size_t{photon} * parts_ + part] += direct_parts_[i * parts_ + part] / absorptance;
+    if (parts_.kept()) {
+      parts_.score_last(photon, i, absorptance);
     } else {
       found_[photon] += direct_[i] / absorptance;
     }
@@ -301,8 +283,7 @@ class BackwardGoal : public GoalBase {
   double forward_per_walk_;    // histories from the emitters for each walk, whose contributions are weighted together
   double threshold_;           // of the roulette, see roulette.hpp
   std::uint32_t max_flights_;  // of a path from an emitter to an origin; 0: no limit
-  std::uint32_t parts_;        // groups of emitters whose light is kept apart; 1: all together
-  std::vector<std::uint32_t> part_of_;  // of each source of light; none if all emitters are together
+  BackwardParts parts_;        // light of groups of emitters, if it is kept apart
   RoundPoints points_;
   FirstFlights first_flights_;
   SurfaceLight surface_light_;
@@ -312,16 +293,15 @@ class BackwardGoal : public GoalBase {
   std::vector<std::uint64_t> origin_;
   std::vector<std::uint64_t> round_;
   std::vector<std::uint32_t> number_;  // of the walk in its round
-  std::vector<double> found_;          // score so far, W/m² or lx; [photon][part]
+  std::vector<double> found_;          // score so far, W/m² or lx, unless it is in parts_
   std::vector<double> forward_ratio_;  // m², of its first impact, see DirectLight::sample_light()
   std::vector<double> factor_;         // squared sine of the half angle of the field of view (the fraction of a uniform
                                        // hemisphere), times the uncovered share of the origin
   std::vector<double> least_height_m_;  // of its origin, see ReferencePoint
   // By the position in the wave:
-  std::vector<double> direct_;        // direct irradiance at the surface that was left last
-  std::vector<double> direct_parts_;  // the same, [position][part], if parts are kept
-  std::vector<float> cosine_;         // of the angle at which that surface was left
-  std::vector<std::uint32_t> cell_;   // of light samples there, see DirectLight::cell_of()
+  std::vector<double> direct_;       // direct irradiance at the surface that was left last
+  std::vector<float> cosine_;        // of the angle at which that surface was left
+  std::vector<std::uint32_t> cell_;  // of light samples there, see DirectLight::cell_of()
   std::uint32_t flight_ = 0;
   bool lies_on_surface_ = false;  // whether some of the origins are cylinders on surfaces
   BackwardCount* count_ = nullptr;
