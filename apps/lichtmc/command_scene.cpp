@@ -47,10 +47,21 @@ void print(const KeptParts& kept, const DimmedScene& scene) {
             << "; there is no calculation area. Give --output a folder for the values of the receivers.\n";
 }
 
+// A dimmer is set in percent: 50 is hardly fifty times the power.
+void note_bright(const DimmedEmitter& one) {
+  constexpr double bright = 2.0;
+  if (one.factor <= bright) return;
+  std::cerr << "Note: '" << visible_text(one.name) << "' has " << four_digits(one.factor)
+            << " times its power in the run. For percent write " << four_digits(one.factor) << "%.\n";
+}
+
 void run(const SceneOptions& options) {
   const KeptParts kept = read_emitter_parts(options.result);
   std::vector<DimmedEmitter> dimmed;
-  for (const std::string& text : options.dim) dimmed.push_back(parse_dim(text));
+  for (const std::string& text : options.dim) {
+    dimmed.push_back(parse_dim(text));
+    note_bright(dimmed.back());
+  }
   const DimmedScene scene = dim(kept.parts, kept.receivers, kept.areas, factors_of(kept.parts, dimmed));
   if (!options.output.empty()) write_scene(kept, scene, options.output);
   if (options.json) {

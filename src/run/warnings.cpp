@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include <glm/common.hpp>
@@ -150,6 +151,23 @@ std::optional<Advised> high_reflectances(const Room& room) {
           "tenfold."};
 }
 
+namespace {
+
+// Targets are for maintained values: a comparison of initial ones is too favourable.
+std::optional<std::string> targets_without_maintenance(const Room& room, const Result& result) {
+  const bool has_target = std::any_of(result.areas.begin(), result.areas.end(),
+                                      [](const AreaResult& one) { return one.area.properties.target_lx.has_value(); });
+  const bool maintained = std::any_of(room.emitters.begin(), room.emitters.end(), [](const Emitter& emitter) {
+    return emitter.maintenance_factor != 1.0 || emitter.own_maintenance;
+  });
+  if (!has_target || maintained) return std::nullopt;
+  return "The target of a calculation area is a maintained illuminance, but no maintenance factor is given: the "
+         "figures "
+         "are those of new luminaires. Give --maintenance-factor, for example 0.8.";
+}
+
+}  // namespace
+
 std::vector<std::string> warnings_of(const Room& room, const Result& result, const Enclosure* enclosure) {
   std::vector<std::string> warnings;
   const Balance& balance = result.balance;
@@ -176,6 +194,7 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result, con
     warnings.push_back(to_text(result.lost_histories, "photon") + " of " + std::to_string(result.walk.histories) +
                        " left a closed room by a numerical error: their power is reported as lost.");
   }
+  if (auto initial = targets_without_maintenance(room, result)) warnings.push_back(std::move(*initial));
   for (std::string& one : channel_warnings(result)) warnings.push_back(std::move(one));
   if (const auto uncertain = uncertain_errors(result)) warnings.push_back(uncertain->what + " " + uncertain->advice);
   for (const CoverWarning& covered : covered_emitters(room, result.covers))
