@@ -13,9 +13,16 @@ out=$("$work/consumer/consumer")
 echo "$out"
 [ "$(wc -l <<<"$out")" -eq 6 ] || { echo "expected one line for each of the six surfaces"; exit 1; }
 "$work/prefix/bin/lichtmc" --version
-# The example in the README is the one built here.
-awk '/^```cpp$/{on=1; next} /^```$/{on=0} on' "$source/README.md" >"$work/readme.cpp"
-diff "$work/readme.cpp" "$source/tests/package/consumer/main.cpp" || { echo "the example in README.md is not tests/package/consumer/main.cpp"; exit 1; }
+# The examples in the documents are those built here.
+same_example() {  # DOCUMENT EXAMPLE
+  awk '/^```cpp$/{on=1; next} /^```$/{on=0} on' "$source/$1" >"$work/example.cpp"
+  diff "$work/example.cpp" "$source/tests/package/consumer/$2" || { echo "the example in $1 is not tests/package/consumer/$2"; exit 1; }
+}
+same_example README.md main.cpp
+same_example docs/lighting.md areas.cpp
+out=$(cd "$source/tests/data" && "$work/consumer/areas")
+echo "$out"
+[[ $out == "desks: Em 27"* ]] || { echo "expected an Em of about 274 lx"; exit 1; }  # known to 0.4 %: 274.5 ± 0.5 lx
 # The installed headers include only the standard library and GLM.
 if grep -rhoE '#include <[a-z0-9_]+/' "$work/prefix/include" | sort -u | grep -vE '<glm/'; then
   echo "a public header includes another library"; exit 1
