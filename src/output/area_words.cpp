@@ -86,13 +86,18 @@ std::string area_target_text(const AreaResult& result, Quantity quantity) {
     text += (properties.target_lx ? ", " : std::string(uniformity_word(quantity)) + " ") +
             uniformity_target_text(*properties.target_uniformity);
   if (result.verdict == Verdict::none) return text;
-  text += ": " + std::string(to_string(result.verdict));
-  const bool both = properties.target_lx && properties.target_uniformity;
-  if (both && result.mean_verdict != result.uniformity_verdict) {
-    text += result.mean_verdict == result.verdict ? " (" + std::string(mean_word(quantity)) + ")"
-                                                  : " (" + std::string(uniformity_word(quantity)) + ")";
-  }
-  return text;
+  return text + ": " + verdict_text(result.verdict, result.mean_verdict, result.uniformity_verdict, quantity);
+}
+
+std::string verdict_text(Verdict verdict, Verdict of_mean, Verdict of_uniformity, Quantity quantity) {
+  std::string text(to_string(verdict));
+  if (of_mean == Verdict::none || of_uniformity == Verdict::none || of_mean == of_uniformity) return text;
+  const bool mean = of_mean == verdict;
+  const Verdict other = mean ? of_uniformity : of_mean;
+  text += std::string(" (") + (mean ? mean_word(quantity) : uniformity_word(quantity));
+  if (other == Verdict::undecided)
+    text += std::string("; ") + (mean ? uniformity_word(quantity) : mean_word(quantity)) + " undecided";
+  return text + ")";
 }
 
 std::string area_quantity_text(const Area& area, Quantity quantity) {

@@ -22,9 +22,12 @@ std::string area_title(const Area& area);
 // "Em 349 ± 2 lx, U0 0.55 ± 0.01"; of radiant quantities "mean 3.49 ± 0.02 W/m², uniformity 0.55 ± 0.01".
 std::string area_figures_text(const AreaResult& result, Quantity quantity);
 
-// "target 500 lx, 0.60: fail"; which of two targets fails or is undecided, is told: "target 500 lx, 0.60: fail (U0)".
-// Empty without a target.
+// "target 500 lx, 0.60: fail (U0)", with the words of verdict_text(). Empty without a target.
 std::string area_target_text(const AreaResult& result, Quantity quantity);
+
+// "fail"; of two targets with different verdicts it tells which one: "fail (U0)", "undecided (Em)", "fail (Em; U0
+// undecided)".
+std::string verdict_text(Verdict verdict, Verdict of_mean, Verdict of_uniformity, Quantity quantity);
 
 // "cylindrical illuminance, 0.75 m above the floor"
 std::string area_quantity_text(const Area& area, Quantity quantity);

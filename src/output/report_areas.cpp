@@ -56,21 +56,16 @@ std::string initial_text(const AreaResult& result, const Figure& initial, Quanti
 }
 
 // Which of its targets decides the verdict of an area, if it has two: " (U0)".
-std::string reason_of(const AreaResult& area, bool photometric) {
-  const AreaProperties& asked = area.area.properties;
-  if (!asked.target_lx || !asked.target_uniformity || area.verdict == Verdict::pass) return {};
-  const bool mean = area.mean_verdict == area.verdict;
-  const bool uniformity = area.uniformity_verdict == area.verdict;
-  if (mean && uniformity) return {};
-  return mean ? (photometric ? " (Em)" : " (mean)") : (photometric ? " (U0)" : " (uniformity)");
+std::string reason_of(const AreaResult& area, Quantity quantity) {
+  const std::string words = verdict_text(area.verdict, area.mean_verdict, area.uniformity_verdict, quantity);
+  return words.substr(to_string(area.verdict).size());
 }
 
 // "Fails: desk (U0), board."
 std::string areas_with(const Result& result, Verdict verdict, const char* one, const char* many) {
   Names names;
   for (const AreaResult& area : result.areas) {
-    if (area.verdict == verdict)
-      names.add(visible_text(area.area.properties.name) + reason_of(area, result.quantity == Quantity::photometric));
+    if (area.verdict == verdict) names.add(visible_text(area.area.properties.name) + reason_of(area, result.quantity));
   }
   if (names.count() == 0) return {};
   return std::string(names.count() == 1 ? one : many) + names.text() + ".";
