@@ -38,6 +38,11 @@ std::vector<const AreaResult*> largest_first(const Result& result) {
   return areas;
 }
 
+bool looks_down(const Area& area) {
+  constexpr double least = 0.1;  // of the cosine of the angle to the vertical
+  return area.normal.y < -least;
+}
+
 }  // namespace
 
 PictureMarks::PictureMarks(const Picture& picture, double unit, const glm::dvec2& origin)
@@ -155,22 +160,32 @@ std::string PictureMarks::cells(const Result& result, const AreaResult& one, con
   return svg;
 }
 
-std::string PictureMarks::areas(const Result& result, const ColourScale& scale, bool cells_too) {
-  if (result.areas.empty()) return {};
+std::string PictureMarks::areas(const Result& result, const ColourScale& scale, bool cells_too, View view) {
+  // Those that look down lie above what is seen from above.
+  const bool from_above = view == View::above;
+  std::vector<const AreaResult*> shown;
+  for (const AreaResult* area : largest_first(result)) {
+    if (!from_above || !looks_down(area->area)) shown.push_back(area);
+  }
+  if (shown.size() < result.areas.size()) left_out_ += "; areas that face down are left out";
+  if (shown.empty()) return {};
   // Cells that extend beyond the picture are cut off at its border.
   const glm::dvec2 size = area_.high - area_.low;
   const std::string frame = fixed(area_.low.x) + " " + fixed(area_.low.y) + " " + fixed(size.x) + " " + fixed(size.y);
   std::string svg = "<svg x=\"" + fixed(area_.low.x) + "\" y=\"" + fixed(area_.low.y) + "\" width=\"" + fixed(size.x) +
                     "\" height=\"" + fixed(size.y) + "\" viewBox=\"" + frame + "\">\n";
   std::size_t all = 0;
-  for (const AreaResult& area : result.areas) all += area.area.cells.size();
+  for (const AreaResult* area : shown) all += area->area.cells.size();
   if (cells_too && all <= max_cells) {
-    for (const AreaResult* area : largest_first(result)) svg += cells(result, *area, scale);
+    for (const AreaResult* area : shown) {
+      if (picture_->from_inside || !looks_down(area->area)) svg += cells(result, *area, scale);
+    }
   }
   std::string labels;
-  for (const AreaResult& area : result.areas) {
+  for (const AreaResult* one : shown) {
+    const Area& area = one->area;
     glm::dvec2 lowest(0.0, -1.0);  // the end of a line that is nearest to the viewer
-    for (const std::array<glm::dvec3, 2>& line : area.area.outline) {
+    for (const std::array<glm::dvec3, 2>& line : area.outline) {
       glm::dvec2 from(0.0);
       glm::dvec2 to(0.0);
       if (!is_before_eye(line[0], from) || !is_before_eye(line[1], to)) continue;
@@ -180,8 +195,8 @@ std::string PictureMarks::areas(const Result& result, const ColourScale& scale, 
         if (end.y > lowest.y) lowest = end;
       }
     }
-    if (result.areas.size() <= max_labels && lowest.y >= 0.0)
-      labels += label(lowest, shortened(area.area.properties.name, note_size, 220.0));
+    if (shown.size() <= max_labels && lowest.y >= 0.0)
+      labels += label(lowest, shortened(area.properties.name, note_size, 220.0));
   }
   if (cells_too && all > max_cells) left_out_ += "; cells of areas are too many to be drawn";
   return svg + "</svg>\n" + labels;

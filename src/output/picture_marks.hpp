@@ -26,8 +26,9 @@ class PictureMarks {
   std::string emitters(const Room& room);
   // A dot for each, except for the points of calculation areas.
   std::string receivers(const Result& result, const ColourScale& scale);
-  // The outline of each calculation area with its name; `cells`: also its cells in false colour.
-  std::string areas(const Result& result, const ColourScale& scale, bool cells);
+  // The outline of each calculation area with its name; `cells`: also its cells in false colour. Those that look down
+  // would hide others from above: there they are left out, and from outside their cells are.
+  std::string areas(const Result& result, const ColourScale& scale, bool cells, View view);
 
   // Clauses, each beginning with "; ", about marks that are left out because there are too many.
   const std::string& left_out() const { return left_out_; }

@@ -88,7 +88,7 @@ std::string room_svg(const Room& room, const Result& result, const Picture& pict
   std::string svg;  // of all but the head, which needs the height
   svg += svg_image(png, picture_side, picture_top, width, height, false);
   PictureMarks marks(picture, unit, {picture_side, picture_top});
-  svg += marks.areas(result, scale, result.tiles.empty());
+  svg += marks.areas(result, scale, result.tiles.empty(), view);
   svg += marks.receivers(result, scale);
   svg += marks.emitters(room);
   svg += colour_legend(scale, written_irradiance_unit(result.quantity), picture_side + width, picture_top + 20.0,

@@ -1,7 +1,10 @@
 #include "output/report.hpp"
 
 #include <cctype>
+#include <cmath>
+#include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "base/message.hpp"
 #include "lichtmc/output.hpp"
@@ -10,6 +13,7 @@
 #include "lichtmc/visible_text.hpp"
 #include "output/assets.hpp"
 #include "output/html.hpp"
+#include "output/picture_marks.hpp"
 #include "output/readable.hpp"
 #include "output/report_areas.hpp"
 #include "output/report_channels.hpp"
@@ -40,14 +44,39 @@ std::string meaning_of_errors(const Result& result) {
   return text;
 }
 
+std::string key_figure(const std::string& value, const std::string& what) {
+  return element("div", text_element("b", value) + escaped(what));
+}
+
+// Of the receivers that are no points of calculation areas; empty if there are none.
+std::string receiver_figure(const Result& result) {
+  const std::vector<bool> of_areas = points_of_areas(result);
+  double sum = 0.0;
+  double squares = 0.0;  // of the relative errors
+  std::size_t count = 0;
+  std::size_t with_error = 0;
+  for (std::size_t k = 0; k < of_areas.size(); ++k) {
+    if (of_areas[k]) continue;
+    const ReceiverResult& one = result.receiver_results[k];
+    ++count;
+    sum += one.irradiance;
+    if (!(one.irradiance > 0.0) || !std::isfinite(one.standard_error)) continue;
+    squares += std::pow(one.standard_error / one.irradiance, 2);
+    ++with_error;
+  }
+  if (count == 0) return {};
+  const double error = count == of_areas.size() ? result.receiver_walk.rms_relative_error
+                                                : std::sqrt(squares / static_cast<double>(with_error));
+  return key_figure(short_number(sum / static_cast<double>(count)) + " " + written_irradiance_unit(result.quantity),
+                    "mean of " + to_text(count, "receiver") +
+                        (std::isfinite(error) ? ", standard error of each ± " + percent(error) + " (rms)" : ""));
+}
+
 std::string key_figures(const Room& room, const Result& result) {
   const std::string irradiance = written_irradiance_unit(result.quantity);
-  const auto figure = [](const std::string& value, const std::string& what) {
-    return element("div", text_element("b", value) + escaped(what));
-  };
   std::string figures;
-  figures += figure(short_number(result.balance.emitted) + " " + std::string(power_unit(result.quantity)),
-                    "from " + to_text(room.emitters.size(), "emitter"));
+  figures += key_figure(short_number(result.balance.emitted) + " " + std::string(power_unit(result.quantity)),
+                        "from " + to_text(room.emitters.size(), "emitter"));
   if (!result.tiles.empty()) {
     double lit_m2 = 0.0;
     double power = 0.0;
@@ -55,20 +84,15 @@ std::string key_figures(const Room& room, const Result& result) {
       lit_m2 += surface.area_m2 - surface.unreached_area_m2;
       power += surface.power;
     }
-    figures += figure(short_number(lit_m2 > 0.0 ? power / lit_m2 : 0.0) + " " + irradiance, mean_of_what(room, result));
-    figures += figure("± " + percent(result.walk.rms_relative_error),
-                      "standard error of a tile (rms), " + to_text(result.tiles.size(), "tile"));
-    figures += figure(short_count(result.walk.histories),
-                      (result.settings.tile_walk == WalkDirection::forward ? "photons in " : "walks in ") +
-                          short_number(result.walk.seconds) + " s");
+    figures +=
+        key_figure(short_number(lit_m2 > 0.0 ? power / lit_m2 : 0.0) + " " + irradiance, mean_of_what(room, result));
+    figures += key_figure("± " + percent(result.walk.rms_relative_error),
+                          "standard error of a tile (rms), " + to_text(result.tiles.size(), "tile"));
+    figures += key_figure(short_count(result.walk.histories),
+                          (result.settings.tile_walk == WalkDirection::forward ? "photons in " : "walks in ") +
+                              short_number(result.walk.seconds) + " s");
   }
-  if (!result.receiver_results.empty()) {
-    double sum = 0.0;
-    for (const ReceiverResult& receiver : result.receiver_results) sum += receiver.irradiance;
-    figures += figure(short_number(sum / static_cast<double>(result.receiver_results.size())) + " " + irradiance,
-                      "mean of " + to_text(result.receiver_results.size(), "receiver") + ", standard error of each ± " +
-                          percent(result.receiver_walk.rms_relative_error) + " (rms)");
-  }
+  figures += receiver_figure(result);
   const std::string maintained = maintained_text(room);
   return text_element("p",
                       "The " + std::string(irradiance_word(result.quantity)) +

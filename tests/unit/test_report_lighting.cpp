@@ -180,6 +180,34 @@ TEST_CASE("lighting report: areas alone have pictures too, and other receivers a
   CHECK_FALSE(fs::exists(folder.path() / "room_lit.glb"));
 }
 
+TEST_CASE("lighting report: the mean of receivers is without the points of areas") {
+  const Room room = lit_room();
+  const Result with = result_with_areas(room, Measured::receivers);
+  CHECK(has(page_of(room, with), "mean of 1 receiver, standard error of each"));
+  CHECK_FALSE(has(page_of(room, result_with_areas(room, Measured::tiles)), "mean of "));
+}
+
+TEST_CASE("pictures from above: areas that look down do not hide others") {
+  const Room room = lit_room();
+  Result result = result_with_areas(room, Measured::receivers);
+  AreaSketch ceiling = sketch_of("under the ceiling");
+  ceiling.corner.y = 2.5;
+  ceiling.normal = {0.0, -1.0, 0.0};
+  add_area(result, ceiling, [](const glm::dvec3&) { return 50.0; });
+  const Folder folder;
+  write_report(room, result, folder.path(), {});
+  const auto picture = [&folder](const char* name) {
+    std::ifstream in(folder.path() / "pictures" / name, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  };
+  const std::string above = picture("above.svg");
+  CHECK(count_of(above, "<polygon points") == 3 * 24);
+  CHECK(has(above, ">board</text>"));
+  CHECK_FALSE(has(above, "under the ceiling"));
+  CHECK(has(above, "areas that face down are left out"));
+  CHECK(has(picture("room.svg"), "under the ceiling"));
+}
+
 TEST_CASE("report style: by the areas, unless it is chosen") {
   const Room room = lit_room();
   const Result with_areas = result_with_areas(room, Measured::tiles);
