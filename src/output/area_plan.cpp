@@ -25,6 +25,7 @@ constexpr double sheet_width = 642.0;
 constexpr double greatest_height = 560.0;  // of the drawing
 constexpr double dimension_space = 26.0;   // above and to the left of the drawing
 constexpr double number_size = 10.5;       // font size
+constexpr double number_halo = 6.0;        // width of its stroke: a line that ends at a number is no minus sign
 constexpr double label_size = 11.0;        // of the isolines' values
 constexpr double label_gap = 1.5;          // from the numbers
 constexpr double arrow_length = 30.0;
@@ -236,7 +237,9 @@ class AreaPlan {
              "\" stroke-width=\"1.2\"/>\n";
     }
     return svg + "<text x=\"" + fixed(p.x) + "\" y=\"" + fixed(p.y + 3.7) + "\" fill=\"" + ink +
-           (framed ? std::string("\"") : "\" stroke=\"" + css(own) + "\" stroke-width=\"2.5\" paint-order=\"stroke\"") +
+           (framed ? std::string("\"")
+                   : "\" stroke=\"" + css(own) + "\" stroke-width=\"" + fixed(number_halo) +
+                         "\" stroke-linejoin=\"round\" paint-order=\"stroke\"") +
            ">" + text + "</text>\n";
   }
 

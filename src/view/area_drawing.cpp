@@ -105,6 +105,15 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+// An open piece of a line that is shorter than a cell is the corner of one, not the course of the values.
+bool is_scrap(const Isoline& line, const glm::dvec2& cell) {
+  if (line.points.size() < 2) return true;
+  if (line.points.front() == line.points.back()) return false;
+  double length = 0.0;
+  for (std::size_t k = 0; k + 1 < line.points.size(); ++k) length += glm::length(line.points[k + 1] - line.points[k]);
+  return length < 0.5 * (cell.x + cell.y);
+}
+
 // Steps between lines of less than this many standard errors of a value would follow the noise.
 constexpr double least_step_in_errors = 3.0;
 // Above this ratio of the highest value to the lowest, even steps leave the darker part without lines.
@@ -134,7 +143,7 @@ void draw_isolines(const Result& result, const AreaResult& figures, AreaDrawing&
     if (!(level < *high)) break;
     for (Isoline& line : lines_of(field, level)) {
       for (glm::dvec2& p : line.points) p = drawing.corner + drawing.cell * (p + 0.5);
-      drawing.isolines.push_back(std::move(line));
+      if (!is_scrap(line, drawing.cell)) drawing.isolines.push_back(std::move(line));
     }
   }
   if (drawing.isolines.empty())
