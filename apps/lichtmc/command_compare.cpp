@@ -111,6 +111,10 @@ nlohmann::ordered_json json_of(const std::optional<double>& value) {
   return value ? json_of(*value) : nlohmann::ordered_json(nullptr);
 }
 
+nlohmann::ordered_json json_of(Verdict verdict) {
+  return verdict == Verdict::none ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(to_string(verdict));
+}
+
 nlohmann::ordered_json json_of(const std::optional<DesignArea>& area) {
   if (!area) return nullptr;
   return {{"quantity", area->quantity},
@@ -123,8 +127,16 @@ nlohmann::ordered_json json_of(const std::optional<DesignArea>& area) {
           {"u0_se", json_of(area->uniformity.standard_error)},
           {"target_lx", json_of(area->target_mean)},
           {"target_uniformity", json_of(area->target_uniformity)},
-          {"verdict", area->verdict == Verdict::none ? nlohmann::ordered_json(nullptr)
-                                                     : nlohmann::ordered_json(to_string(area->verdict))}};
+          {"verdict", json_of(area->verdict)},
+          {"em_verdict", json_of(area->mean_verdict)},
+          {"u0_verdict", json_of(area->uniformity_verdict)},
+          {"above_floor", json_of(area->above_floor_m)}};
+}
+
+// Null if it is unknown, or if emitters have different ones.
+nlohmann::ordered_json maintenance_factor_of(const DesignTotals& total) {
+  return total.least_maintenance_factor == total.greatest_maintenance_factor ? json_of(total.least_maintenance_factor)
+                                                                             : nlohmann::ordered_json(nullptr);
 }
 
 nlohmann::ordered_json json_of(const DesignComparison& designs) {
@@ -146,7 +158,9 @@ nlohmann::ordered_json json_of(const DesignComparison& designs) {
           {"areas", areas},
           {"power_unit", designs.unit},
           {"power", {{"a", json_of(designs.total_a.power)}, {"b", json_of(designs.total_b.power)}}},
-          {"watts", {{"a", json_of(designs.total_a.watts)}, {"b", json_of(designs.total_b.watts)}}}};
+          {"watts", {{"a", json_of(designs.total_a.watts)}, {"b", json_of(designs.total_b.watts)}}},
+          {"maintenance_factor",
+           {{"a", maintenance_factor_of(designs.total_a)}, {"b", maintenance_factor_of(designs.total_b)}}}};
 }
 
 void print_json(const nlohmann::ordered_json& json) {

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -79,6 +80,9 @@ struct DesignArea {
   std::optional<double> target_mean;
   std::optional<double> target_uniformity;
   Verdict verdict = Verdict::none;
+  Verdict mean_verdict = Verdict::none;
+  Verdict uniformity_verdict = Verdict::none;
+  std::optional<double> above_floor_m;
 };
 
 // An area of two designs, by its name. In one of them it may be missing.
@@ -91,6 +95,9 @@ struct DesignAreas {
 };
 
 struct DesignTotals {
+  // NaN: unknown. Of different factors the lowest and the highest; the latter is the same if all are.
+  double least_maintenance_factor = std::numeric_limits<double>::quiet_NaN();
+  double greatest_maintenance_factor = std::numeric_limits<double>::quiet_NaN();
   double power = 0.0;           // of all emitters, W or lm
   std::optional<double> watts;  // that all luminaires take, if all emitters have a photometric file that tells it
 };

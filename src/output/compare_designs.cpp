@@ -35,9 +35,9 @@ std::optional<double> known(double value) {
   return std::isnan(value) ? std::nullopt : std::optional<double>(value);
 }
 
-Verdict verdict_of(const nlohmann::json& verdict) {
-  if (verdict.is_null()) return Verdict::none;
-  const auto text = verdict.get<std::string>();
+Verdict verdict_of(const nlohmann::json& area, const std::string& key) {
+  if (!area.contains(key) || area.at(key).is_null()) return Verdict::none;
+  const auto text = area.at(key).get<std::string>();
   for (const Verdict one : {Verdict::pass, Verdict::fail, Verdict::undecided}) {
     if (to_string(one) == text) return one;
   }
@@ -63,17 +63,39 @@ std::optional<double> watts_of(const nlohmann::json& summary) {
   return count > 0 && count == summary.at("emitters").size() ? std::optional<double>(sum) : std::nullopt;
 }
 
+// Of all emitters; NaN, if the file does not tell it.
+void set_maintenance(const nlohmann::json& summary, DesignTotals& total) {
+  if (summary.contains("maintenance_factor") && !summary.at("maintenance_factor").is_null()) {
+    total.least_maintenance_factor = number_of(summary, "maintenance_factor");
+    total.greatest_maintenance_factor = total.least_maintenance_factor;
+    return;
+  }
+  if (!summary.contains("emitters")) return;
+  for (const nlohmann::json& emitter : summary.at("emitters")) {
+    const double factor =
+        emitter.contains("maintenance_factor") ? number_of(emitter, "maintenance_factor") : std::nan("");
+    if (std::isnan(factor)) {
+      total.least_maintenance_factor = total.greatest_maintenance_factor = std::nan("");
+      return;
+    }
+    total.least_maintenance_factor = std::fmin(total.least_maintenance_factor, factor);
+    total.greatest_maintenance_factor = std::fmax(total.greatest_maintenance_factor, factor);
+  }
+}
+
 Design design_of(const nlohmann::json& summary) {
   Design design;
   design.unit = summary.at("unit").get<std::string>();
   design.total.power = number_of(summary, "emitted");
+  set_maintenance(summary, design.total);
   if (summary.contains("luminaires")) design.total.watts = watts_of(summary);  // a scene has none
   for (const nlohmann::json& area : summary.at("areas")) {
     design.areas.push_back({area.at("name").get<std::string>(), area.at("role").get<std::string>(),
                             area.at("quantity").get<std::string>(), area.at("points").get<std::size_t>(),
                             figure_of(area, "em"), figure_of(area, "emin"), figure_of(area, "u0"),
                             known(number_of(area, "target_lx")), known(number_of(area, "target_uniformity")),
-                            verdict_of(area.at("verdict"))});
+                            verdict_of(area, "verdict"), verdict_of(area, "em_verdict"), verdict_of(area, "u0_verdict"),
+                            area.contains("above_floor") ? known(number_of(area, "above_floor")) : std::nullopt});
   }
   return design;
 }

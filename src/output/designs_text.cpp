@@ -56,8 +56,21 @@ std::string target_of(const DesignArea& area, const std::string& unit) {
   return text;
 }
 
-std::string verdict_text(const DesignArea& area) {
-  return area.verdict == Verdict::none ? "–" : std::string(to_string(area.verdict));
+// "fail (U0)", behind the target if the designs have different ones. "–" without a target.
+std::string verdict_cell(const DesignArea& area, const std::string& unit, bool with_target) {
+  const std::string target = target_of(area, unit);
+  if (target.empty()) return "–";
+  const Quantity quantity = unit == "lx" ? Quantity::photometric : Quantity::radiometric;
+  const std::string verdict = area.verdict == Verdict::none
+                                  ? "–"
+                                  : verdict_text(area.verdict, area.mean_verdict, area.uniformity_verdict, quantity);
+  return with_target ? target + ": " + verdict : verdict;
+}
+
+// Heights above the floor, in m, to a millimetre.
+std::string height_change(double a, double b) {
+  const std::string size = decimal(std::abs(b - a), 3);
+  return size == "0" ? size : (b > a ? "+" : "−") + size;
 }
 
 void add_area(const DesignAreas& pair, const std::string& unit, bool photometric, std::vector<DesignRow>& rows) {
@@ -82,7 +95,13 @@ void add_area(const DesignAreas& pair, const std::string& unit, bool photometric
     const bool same = !pair.a || !pair.b || target_a == target_b;
     row(
         same ? "target " + (pair.a ? target_a : target_b) : "target",
-        [&](const DesignArea& area) { return (same ? "" : target_of(area, unit) + ": ") + verdict_text(area); }, "");
+        [&](const DesignArea& area) { return verdict_cell(area, unit, !same); }, "");
+  }
+  if (pair.a && pair.b && pair.a->above_floor_m && pair.b->above_floor_m) {
+    const std::string change = height_change(*pair.a->above_floor_m, *pair.b->above_floor_m);
+    if (change != "0")
+      row(
+          "height, m", [](const DesignArea& area) { return decimal(*area.above_floor_m, 3); }, change);
   }
   if (pair.a && pair.b && (pair.a->points != pair.b->points || pair.a->quantity != pair.b->quantity))
     row(
@@ -91,6 +110,23 @@ void add_area(const DesignAreas& pair, const std::string& unit, bool photometric
 
 std::string change_of(double a, double b) {
   return (b > a ? "+" : b < a ? "−" : "") + rounded(std::abs(b - a), 4);
+}
+
+std::string maintenance_cell(const DesignTotals& total) {
+  const double least = total.least_maintenance_factor;
+  const double greatest = total.greatest_maintenance_factor;
+  if (std::isnan(least)) return "unknown";
+  return least == greatest ? rounded(least, 4) : rounded(least, 4) + " to " + rounded(greatest, 4);
+}
+
+// Whether the figures of both are of equally old and dirty luminaires.
+std::string maintenance_remark(const DesignTotals& a, const DesignTotals& b) {
+  if (std::isnan(a.least_maintenance_factor) || std::isnan(b.least_maintenance_factor))
+    return "A maintenance factor is unknown: maintained values may stand beside initial ones.\n";
+  if (a.least_maintenance_factor != b.least_maintenance_factor ||
+      a.greatest_maintenance_factor != b.greatest_maintenance_factor)
+    return "The maintenance factors differ: a part of the differences is due to them.\n";
+  return {};
 }
 
 }  // namespace
@@ -109,7 +145,13 @@ std::string designs_text(const DesignComparison& designs) {
     rows.push_back({"power of the luminaires, W", text(a.watts), text(b.watts),
                     a.watts && b.watts ? change_of(*a.watts, *b.watts) : std::string()});
   }
-  return "A: " + visible_text(designs.a) + "\nB: " + visible_text(designs.b) + "\n\n" + table_of(rows);
+  std::string remark;
+  if (photometric) {
+    rows.push_back({"maintenance factor", maintenance_cell(a), maintenance_cell(b), ""});
+    remark = maintenance_remark(a, b);
+  }
+  return "A: " + visible_text(designs.a) + "\nB: " + visible_text(designs.b) + "\n\n" + table_of(rows) +
+         (remark.empty() ? "" : "\n" + remark);
 }
 
 }  // namespace lichtmc

@@ -69,6 +69,10 @@ class Designs(ProgramTest):
         self.assertIsNone(board["em_difference"])
         self.assertEqual(found["power"], {"a": 3000.0, "b": 6000.0})
         self.assertEqual(found["watts"], {"a": None, "b": None})
+        self.assertEqual(found["maintenance_factor"], {"a": 1.0, "b": 1.0})
+        self.assertEqual(desks["a"]["above_floor"], 0.75)
+        self.assertEqual(desks["a"]["em_verdict"], desks["a"]["verdict"])
+        self.assertIsNone(desks["a"]["u0_verdict"])
 
     def test_results_without_areas_are_refused(self):
         out, _ = self.run_with("out", "--grid", "0.75")

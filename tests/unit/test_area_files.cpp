@@ -89,6 +89,24 @@ TEST_CASE("isolux lines of a field that rises evenly are exact, at round levels"
   CHECK(levels == std::set<double>{150.0, 200.0, 250.0});
 }
 
+TEST_CASE("open pieces of isolux lines shorter than a cell are left out") {
+  Result result = photometric_result();
+  // Flat but for one corner, whose lines cut off that corner alone.
+  const auto value = [](const glm::dvec3& p) { return p.x < 0.3 && p.z < 1.3 ? 300.0 : 100.0; };
+  add_area(result, level_sketch(), value);
+  const AreaDrawing drawing = draw_area(make_room(), result, 0);
+  REQUIRE_FALSE(drawing.isolines.empty());
+  for (const Isoline& line : drawing.isolines) CHECK(line.level == 150.0);  // those of 200 and 250 are shorter
+}
+
+TEST_CASE("numbers of a plan lie over its lines, with a halo in the colour of their cells") {
+  Result result = photometric_result();
+  add_area(result, level_sketch(), rising_along_x);
+  const std::string svg = area_plan_svg(make_room(), result, 0, choose_area_scale(result, 0));
+  CHECK(svg.rfind("<polyline") < svg.find("paint-order=\"stroke\">"));
+  CHECK_THAT(svg, ContainsSubstring("stroke-width=\"6.0\" stroke-linejoin=\"round\" paint-order=\"stroke\">"));
+}
+
 TEST_CASE("values that differ by their errors alone have no isolux lines") {
   Result result = photometric_result();
   AreaSketch sketch = level_sketch();
@@ -202,6 +220,23 @@ TEST_CASE("small values are written with a factor, and radiant ones without the 
   CHECK_THAT(svg, ContainsSubstring(">12.5</text>"));
   CHECK_THAT(area_line(result.areas[0], result.quantity), ContainsSubstring("target uniformity 0.40"));
   CHECK(area_line(result.areas[0], result.quantity).find("Em") == std::string::npos);
+}
+
+TEST_CASE("a verdict says which of two targets fails, and which is undecided") {
+  using lichtmc::Verdict;
+  const auto words = [](Verdict all, Verdict mean, Verdict uniformity, Quantity quantity = Quantity::photometric) {
+    return verdict_text(all, mean, uniformity, quantity);
+  };
+  CHECK(words(Verdict::pass, Verdict::pass, Verdict::pass) == "pass");
+  CHECK(words(Verdict::fail, Verdict::fail, Verdict::fail) == "fail");
+  CHECK(words(Verdict::fail, Verdict::fail, Verdict::none) == "fail");
+  CHECK(words(Verdict::fail, Verdict::fail, Verdict::pass) == "fail (Em)");
+  CHECK(words(Verdict::fail, Verdict::pass, Verdict::fail) == "fail (U0)");
+  CHECK(words(Verdict::fail, Verdict::fail, Verdict::undecided) == "fail (Em; U0 undecided)");
+  CHECK(words(Verdict::fail, Verdict::undecided, Verdict::fail) == "fail (U0; Em undecided)");
+  CHECK(words(Verdict::undecided, Verdict::pass, Verdict::undecided) == "undecided (U0)");
+  CHECK(words(Verdict::fail, Verdict::fail, Verdict::undecided, Quantity::radiometric) ==
+        "fail (mean; uniformity undecided)");
 }
 
 TEST_CASE("figures are written to the first digit of their errors, rounded up") {
@@ -380,6 +415,40 @@ TEST_CASE("two designs are shown side by side, with differences and their errors
   CHECK_THAT(text, ContainsSubstring("+20.0 ± 0.8"));
   CHECK_THAT(text, ContainsSubstring("missing"));
   CHECK_THAT(text, ContainsSubstring("target 210 lx, 0.50"));
+}
+
+TEST_CASE("two designs tell heights, maintenance factors and which target fails") {
+  const Folder a;
+  const Folder b;
+  Room room = make_room();
+  room.quantity = Quantity::photometric;
+  Result today = photometric_result();
+  AreaResult& plane = add_area(today, level_sketch(), rising_along_x);
+  set_targets(plane, 210.0, 0.5);
+  plane.area.above_floor_m = 0.75;
+  add_area(today, level_sketch(), rising_along_x).area.properties.name = "board";
+  write_results(room, today, a.path());
+  Result proposal = photometric_result();
+  add_area(proposal, level_sketch(), rising_along_x).area.above_floor_m = 0.85;
+  AreaResult& board = add_area(proposal, level_sketch(), rising_along_x);
+  board.area.properties.name = "board";
+  set_targets(board, 100.0, 0.9);
+  for (Emitter& emitter : room.emitters) emitter.maintenance_factor = 0.8;
+  write_results(room, proposal, b.path());
+
+  const DesignComparison designs = compare_designs(a.path(), b.path());
+  CHECK(designs.areas[0].a->mean_verdict == lichtmc::Verdict::fail);
+  CHECK(designs.areas[0].a->uniformity_verdict == lichtmc::Verdict::pass);
+  CHECK(designs.areas[0].b->above_floor_m == 0.85);
+  CHECK(designs.total_b.least_maintenance_factor == 0.8);
+  // One line each, without the blanks of columns.
+  std::string text = designs_text(designs);
+  for (std::size_t at = text.find("  "); at != std::string::npos; at = text.find("  ", at)) text.erase(at, 1);
+  CHECK_THAT(text, ContainsSubstring("\n target 210 lx, 0.50: fail (Em) –\n"));
+  CHECK_THAT(text, ContainsSubstring("\n target – 100 lx, 0.90: fail (U0)\n"));
+  CHECK_THAT(text, ContainsSubstring("\n height, m 0.75 0.85 +0.1\n"));
+  CHECK_THAT(text, ContainsSubstring("\nmaintenance factor 1 0.8\n"));
+  CHECK_THAT(text, ContainsSubstring("The maintenance factors differ"));
 }
 
 TEST_CASE("results without areas cannot be compared as designs") {
