@@ -99,15 +99,25 @@ void note_extensions_of(const Noted& m) {
   }
 }
 
+// Exporters of IFC files give the volumes of rooms a material of this name.
+std::string boxes_of_spaces(const std::string& material) {
+  if (material.rfind("IfcSpace", 0) != 0) return {};
+  return std::string(" Boxes of spaces fill the rooms and keep the light from their walls: leave them out by ") +
+         (material == "IfcSpace" ? "--without IfcSpace." : "--without 'IfcSpace*'.");
+}
+
 void note_properties(const Noted& m) {
   const auto note = [&](bool present, Effect effect, const char* what) {
     if (present) m.note(what, effect);
   };
   const tinygltf::Material& material = m.material;
   note(material.normalTexture.index >= 0, Effect::none, "its normal texture is not modelled; facets are flat.");
-  note(material.alphaMode == "BLEND" || material.alphaMode == "MASK", Effect::figures,
-       "transparency (alpha) is not modelled; the material is opaque. Leave out surfaces that should transmit light "
-       "(--without).");
+  if (material.alphaMode == "BLEND" || material.alphaMode == "MASK")
+    m.note(
+        "transparency (alpha) is not modelled; the material is opaque. Leave out surfaces that should transmit light "
+        "(--without)." +
+            boxes_of_spaces(material.name),
+        Effect::figures);
   note(material.occlusionTexture.index >= 0, Effect::none,
        "its occlusion texture is not used; occlusion is simulated.");
   note(material.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0, Effect::none,

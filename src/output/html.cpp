@@ -25,6 +25,11 @@ std::string number_cell(double value) {
   return "<td data-value=\"" + to_text(value) + "\">" + short_number(value) + "</td>";
 }
 
+std::string flux_cell(double value) {
+  constexpr int digits = 5;
+  return "<td data-value=\"" + to_text(value) + "\">" + rounded(value, digits) + "</td>";
+}
+
 std::string count_cell(std::uint64_t value) {
   const std::string text = std::to_string(value);
   return "<td data-value=\"" + text + "\">" + text + "</td>";

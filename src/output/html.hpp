@@ -24,6 +24,8 @@ std::string table_head(const std::vector<std::string>& names);
 
 // A cell with a number, sortable; "–" if the number is not finite.
 std::string number_cell(double value);
+// To five digits: so that fluxes and their sums agree.
+std::string flux_cell(double value);
 std::string count_cell(std::uint64_t value);
 std::string text_cell(std::string_view text);
 

@@ -98,7 +98,7 @@ std::string source_words(const SourceRow& row, Quantity quantity) {
                                                : std::string(row.kind);
   if (row.maintenance_factor != 1.0)
     text += "; maintenance factor " + rounded(row.maintenance_factor, 4) + ", new " +
-            rounded(row.power / row.maintenance_factor, 4) + " " + std::string(power_unit(quantity));
+            rounded(row.power / row.maintenance_factor, 5) + " " + std::string(power_unit(quantity));
   return text;
 }
 
@@ -125,13 +125,13 @@ std::string client_sources(const ReportContent& content) {
   for (const SourceRow& row : sources) {
     const double together = static_cast<double>(row.count) * row.power;
     rows += "<tr>" + text_cell(row.names.text()) + text_cell(source_words(row, room.quantity)) + count_cell(row.count) +
-            number_cell(row.power) + number_cell(together) + "</tr>\n";
+            flux_cell(row.power) + flux_cell(together) + "</tr>\n";
     all += together;
     count += row.count;
   }
   if (sources.size() > 1)
     rows += "<tr class=\"sum\">" + text_cell("together") + "<td></td>" + count_cell(count) + "<td></td>" +
-            number_cell(all) + "</tr>\n";
+            flux_cell(all) + "</tr>\n";
   const std::string unit = ", " + std::string(power_unit(room.quantity));
   const std::string flux = is_photometric(content) ? "luminous flux" : "radiant flux";
   const bool alone = luminaire_schedule(room).empty();

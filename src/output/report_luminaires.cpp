@@ -63,7 +63,7 @@ std::string sum_row(const std::vector<ScheduleRow>& rows) {
     watts += row.count() * watts_of(*row.photometry);
   }
   return element("tfoot", "<tr><td></td>" + text_cell("together") + figure_cell(count) + "<td></td><td></td><td></td>" +
-                              figure_cell(power) + figure_cell(watts) + "</tr>\n");
+                              flux_cell(power) + figure_cell(watts) + "</tr>\n");
 }
 
 }  // namespace
@@ -86,9 +86,9 @@ std::string luminaires_section(const ReportContent& content) {
                        " class=\"diagram\"" + (of_file > 1 ? " rowspan=\"" + std::to_string(of_file) + "\"" : ""));
     }
     const double watts = watts_of(photometry);
-    cells += description_of(row, quantity) + count_cell(row.emitters.size()) + figure_cell(row.power) +
+    cells += description_of(row, quantity) + count_cell(row.emitters.size()) + flux_cell(row.power) +
              figure_cell(watts) + figure_cell(photometric ? photometry.efficacy().value_or(unknown) : unknown) +
-             figure_cell(row.count() * row.power) + figure_cell(row.count() * watts);
+             flux_cell(row.count() * row.power) + figure_cell(row.count() * watts);
     body += "<tr>" + cells + "</tr>\n";
   }
   const std::string flux = photometric ? "luminous flux" : "radiant flux";

@@ -54,8 +54,8 @@ std::string emitters_table(const Room& room) {
   std::string rows;
   for (const Emitter& e : room.emitters) {
     if (photometry_of(e) != nullptr) continue;
-    rows += "<tr>" + text_cell(e.name) + text_cell(kind_of(e)) + number_cell(e.power) +
-            (aged ? number_cell(e.maintenance_factor) + number_cell(e.power / e.maintenance_factor) : std::string()) +
+    rows += "<tr>" + text_cell(e.name) + text_cell(kind_of(e)) + flux_cell(e.power) +
+            (aged ? number_cell(e.maintenance_factor) + flux_cell(e.power / e.maintenance_factor) : std::string()) +
             "</tr>\n";
   }
   const std::string power = std::string(power_word(room.quantity));

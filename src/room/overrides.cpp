@@ -199,10 +199,13 @@ std::optional<double> common_maintenance_factor(const Room& room) {
 std::string maintained_text(const Room& room) {
   const FactorRange range = maintenance_factors(room);
   if (range.least == 1.0) return "";
+  const std::string meaning = std::string(", the part of the ") +
+                              (room.quantity == Quantity::photometric ? "luminous" : "radiant") +
+                              " flux when new that remains";
   if (range.least == range.greatest)
-    return "Maintained values: maintenance factor " + to_text(range.least) + "; initial values are " +
+    return "Maintained values: maintenance factor " + to_text(range.least) + meaning + "; initial values are " +
            short_number(1.0 / range.least) + " times as high";
-  return "Maintained values: maintenance factors " + to_text(range.least) + " to " + to_text(range.greatest);
+  return "Maintained values: maintenance factors " + to_text(range.least) + " to " + to_text(range.greatest) + meaning;
 }
 
 namespace {

@@ -30,6 +30,8 @@ const char* why_left_out(PointPlace place) {
     case PointPlace::in_furniture:
     case PointPlace::in_wall:
       return "inside furniture, walls or other bodies";
+    case PointPlace::no_light:
+      return no_light_gets_there;
     case PointPlace::no_floor:
       return "outside the rooms";
     case PointPlace::free:

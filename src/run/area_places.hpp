@@ -14,8 +14,8 @@ namespace lichtmc {
 struct AreaPlace {
   PointPlace place = PointPlace::no_floor;
   std::size_t room = no_number;  // that the point lies in
-  glm::dvec3 point{0.0};    // m, moved onto a surface that it lies on
-  glm::dvec3 beside{0.0};   // m, off the area by as little as can be told apart: where its place was tested
+  glm::dvec3 point{0.0};         // m, moved onto a surface that it lies on
+  glm::dvec3 beside{0.0};        // m, off the area by as little as can be told apart: where its place was tested
 
   bool is_lit() const { return place == PointPlace::free || place == PointPlace::on_surface; }
 };
@@ -40,6 +40,8 @@ class AreaPlaces {
   LitSpace& space_;
   FloorPoints floors_;
 };
+
+inline constexpr const char* no_light_gets_there = "in a room where no light gets";
 
 // "inside furniture, walls or other bodies", …; empty for places that light reaches.
 const char* why_left_out(PointPlace place);

@@ -1,6 +1,7 @@
 #include "run/area_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "base/message.hpp"
 #include "lichtmc/error.hpp"
+#include "run/area_places.hpp"
 #include "run/lit_rooms.hpp"
 
 namespace lichtmc {
@@ -173,12 +175,32 @@ void add_area(Room& room, Area area, const std::vector<AreaCell>& cells) {
     area.cells.push_back(k);
   }
   if (area.cells.empty()) {
+    const bool dark = std::any_of(area.left_out.begin(), area.left_out.end(),
+                                  [](const AreaLeftOut& one) { return one.why == no_light_gets_there; });
     throw InputError("No point of the calculation area " + in_quotes(area.properties.name) +
-                     " lies in a space that light reaches (left out: " + list_of(area.left_out) +
-                     "). Move it into the room, or give it a smaller margin or spacing.");
+                     " lies in a space that light reaches (left out: " + list_of(area.left_out) + "). " +
+                     (dark ? "Add a lamp there, or move the area."
+                           : "Move it into a room with a lamp, or give it a smaller margin or spacing."));
   }
   room.areas.push_back(std::move(area));
 }
+
+namespace {
+
+// Where an area looks that measures the illuminance on its own plane: "to −x"; empty for areas that look up.
+std::string view_of(const Area& area) {
+  constexpr double along = 0.9999;  // 0.8°
+  if (area.quantity != AreaQuantity::normal || area.normal.y > along) return {};
+  if (area.normal.y < -along) return "down";
+  constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+  for (int c = 0; c < 3; ++c) {
+    if (std::abs(area.normal[c]) > along)
+      return std::string("to ") + (area.normal[c] < 0.0 ? "−" : "+") + axes[static_cast<std::size_t>(c)];
+  }
+  return "to (" + decimal(area.normal.x, 2) + ", " + decimal(area.normal.y, 2) + ", " + decimal(area.normal.z, 2) + ")";
+}
+
+}  // namespace
 
 std::string within(double margin_m, const char* of_what) {
   return "within " + to_text(margin_m) + " m of " + of_what;
@@ -196,6 +218,7 @@ std::string description_of(const Area& area) {
   }
   if (area.quantity == AreaQuantity::cylindrical || area.quantity == AreaQuantity::semicylindrical)
     text += ", " + std::string(to_string(area.quantity)) + " illuminance";
+  if (const std::string view = view_of(area); !view.empty()) text += "; it looks " + view;
   text += area.left_out.empty() ? "." : ". Left out: " + list_of(area.left_out) + ".";
   for (const std::string& note : area.notes) text += " " + note;
   return text;

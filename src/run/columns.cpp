@@ -113,15 +113,33 @@ bool ColumnTracer::sees(const glm::dvec3& from, const glm::dvec3& to) {
   return !tracer_.is_blocked(glm::vec3(start), glm::vec3(tracer_.tracer_point(to) - start), count_);
 }
 
-double ColumnTracer::distance(const glm::dvec3& from, const glm::dvec3& direction) {
+std::uint32_t ColumnTracer::facet_from(const glm::dvec3& from, const glm::dvec3& direction, double& distance) {
   Rays rays(1);
   rays.size = 1;
   rays.facet[0] = no_facet;
   rays.set_start(0, glm::vec3(tracer_.tracer_point(from)));
   rays.set_direction(0, glm::vec3(tracer_.directions() * direction));
   tracer_.trace(rays, Misses::escape, count_);
-  if (rays.facet[0] == no_facet) return std::numeric_limits<double>::infinity();
-  return glm::length(tracer_.world_vector(double{rays.length[0]} * glm::dvec3(rays.direction(0))));
+  distance = rays.facet[0] == no_facet
+                 ? std::numeric_limits<double>::infinity()
+                 : glm::length(tracer_.world_vector(double{rays.length[0]} * glm::dvec3(rays.direction(0))));
+  return rays.facet[0];
+}
+
+double ColumnTracer::distance(const glm::dvec3& from, const glm::dvec3& direction) {
+  double distance = 0.0;
+  facet_from(from, direction, distance);
+  return distance;
+}
+
+bool ColumnTracer::meets_front(const glm::dvec3& from, const glm::dvec3& direction) {
+  double distance = 0.0;
+  const std::uint32_t facet = facet_from(from, direction, distance);
+  if (facet == no_facet) return false;
+  const Surface& surface = room_.surfaces[triangle_of_[facet].surface];
+  const glm::uvec3 corner = surface.triangles[triangle_of_[facet].number];
+  const glm::dvec3 a = surface.positions[corner.x];
+  return glm::dot(glm::cross(surface.positions[corner.y] - a, surface.positions[corner.z] - a), direction) < 0.0;
 }
 
 }  // namespace lichtmc

@@ -42,6 +42,8 @@ class ColumnTracer {
   bool sees(const glm::dvec3& from, const glm::dvec3& to);
   // Where a ray from a free point meets a surface: the distance in m, infinite if it meets none.
   double distance(const glm::dvec3& from, const glm::dvec3& direction);
+  // Whether a ray from a free point meets the front of a surface.
+  bool meets_front(const glm::dvec3& from, const glm::dvec3& direction);
   // Whether a point lies on a surface, within the rounding of float coordinates.
   bool on_surface(const glm::dvec3& point) const { return tracer_.start(point, glm::dvec3(0.0)).on_surface; }
 
@@ -57,6 +59,7 @@ class ColumnTracer {
 
   void trace_down(std::vector<Column>& columns, std::size_t first, std::size_t n,
                   std::vector<std::vector<double>>& heights);
+  std::uint32_t facet_from(const glm::dvec3& from, const glm::dvec3& direction, double& distance);
   double height_on(std::uint32_t facet, const glm::dvec2& at) const;
 
   const Room& room_;

@@ -96,7 +96,8 @@ FloorPoints::Level FloorPoints::at_level(const Column& line, double y) const {
     if (std::abs(y - gap->low) <= rounding) return {PointPlace::on_surface, room, gap->low};
     return {tracer_.on_surface({line.at.x, y, line.at.y}) ? PointPlace::in_wall : PointPlace::free, room, y};
   }
-  return {gap->open_above ? PointPlace::no_floor : PointPlace::in_wall, no_number, y};
+  if (gap->open_above) return {PointPlace::no_floor, no_number, y};
+  return {lit_.is_dark(line, *gap) ? PointPlace::no_light : PointPlace::in_wall, no_number, y};
 }
 
 FloorPoints::FloorBelow FloorPoints::floor_below(const Column& line, std::size_t room, double y) const {

@@ -10,7 +10,8 @@
 namespace lichtmc {
 
 // What a point above a floor is.
-enum class PointPlace { free, on_surface, in_furniture, in_wall, no_floor };
+// no_light: in a room that no light reaches.
+enum class PointPlace { free, on_surface, in_furniture, in_wall, no_light, no_floor };
 
 struct FloorPoint {
   PointPlace place = PointPlace::no_floor;

@@ -33,6 +33,13 @@ struct LitRoom {
   glm::dvec2 high{0.0};
 };
 
+// A room without light: closed on all sides, at least 4 m² and 1 m wide, high enough to stand in.
+struct DarkRoom {
+  glm::dvec2 middle{0.0};  // m, (x, z)
+  double area_m2 = 0.0;
+  double floor_m = 0.0;  // lowest
+};
+
 // What light reaches is found by some flights of photons from the emitters, and from there to all places that are
 // connected with it: so the insides of walls, furniture and the ground do not count, whatever the winding of their
 // faces, nor do closed rooms without an emitter. Under the open sky outside a roofed building nothing counts.
@@ -49,6 +56,12 @@ class LitRooms {
   const std::vector<Floor>& floors() const { return floors_; }
   const std::vector<LitGap>& gaps() const { return gaps_; }
   double spacing() const { return spacing_; }
+
+  // Rooms under a roof that no light reaches, with surfaces whose fronts face into them: so the insides of bodies do
+  // not count.
+  const std::vector<DarkRoom>& dark_rooms() const { return dark_rooms_; }
+  // Whether a gap of another line belongs to one of them.
+  bool is_dark(const Column& column, const Gap& gap) const;
 
   // The gap with this floor closest to (x, z), no_number if it is farther than `within_m`.
   std::size_t nearest_on_floor(std::size_t floor, const glm::dvec2& at, double within_m) const;
@@ -72,6 +85,11 @@ class LitRooms {
   void light_gaps(const Scene& scene);
   void leave_out_the_sky();
   void connect();
+  void find_dark_rooms();
+  bool is_closed(const LitGap& gap) const;
+  // Whether a gap of another line is connected with one of the raster nearby to which a test applies.
+  template <class Applies>
+  bool is_connected(const Column& column, const Gap& gap, const Applies& applies) const;
   bool connected(const glm::dvec2& a, const Gap& gap_a, const glm::dvec2& b, const Gap& gap_b) const;
   void find_floors();
   void measure_rooms();
@@ -94,6 +112,8 @@ class LitRooms {
   std::vector<char> outdoors_;
   std::vector<LitRoom> rooms_;
   std::vector<Floor> floors_;
+  std::vector<DarkRoom> dark_rooms_;
+  std::vector<char> dark_;  // of each gap: part of a dark room
 };
 
 }  // namespace lichtmc

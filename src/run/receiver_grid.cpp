@@ -113,6 +113,7 @@ class GridMaker {
     switch (point.place) {
       case PointPlace::no_floor:
         return false;
+      case PointPlace::no_light:  // of points over a floor with light: none
       case PointPlace::in_wall:
         ++grid_.inside_walls;
         return true;

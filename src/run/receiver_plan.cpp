@@ -256,7 +256,7 @@ std::size_t best_of(const std::vector<Trial>& trials) {
   return best;
 }
 
-// Why a plan was chosen, beside the cheapest of each other kind.
+// Why a plan was chosen, beside the cheapest of each other kind of walk and estimator.
 std::string reason_of(const std::vector<Trial>& trials, std::size_t best) {
   const Trial& chosen = trials[best];
   const ReceiverWalk chosen_kind = walk_of(chosen.plan);
@@ -265,26 +265,27 @@ std::string reason_of(const std::vector<Trial>& trials, std::size_t best) {
                      (chosen_kind == ReceiverWalk::next_event ? "' was" : "' were") +
                      " chosen for the receivers: for the same error, ";
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  bool listed = false;
+  std::vector<std::string> others;
+  std::vector<std::string> same_walk;
   for (const ReceiverWalk kind : {ReceiverWalk::two_way, ReceiverWalk::next_event, ReceiverWalk::backward}) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Trial& trial : trials) {
-      if (walk_of(trial.plan) == kind && trial.estimator == chosen.estimator && is_known(trial))
-        least = std::min(least, trial.cost());
+    for (const Estimator estimator : {Estimator::weight, Estimator::collision, Estimator::absorption}) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Trial& trial : trials) {
+        if (walk_of(trial.plan) == kind && trial.estimator == estimator && is_known(trial))
+          least = std::min(least, trial.cost());
+      }
+      const bool same_estimator = estimator == chosen.estimator;
+      if ((kind == chosen_kind && same_estimator) || std::isinf(least)) continue;
+      (kind == chosen_kind ? same_walk : others)
+          .push_back(in_words(kind) + (same_estimator ? "" : " with '" + std::string(to_string(estimator)) + "'") +
+                     (kind == ReceiverWalk::next_event ? " takes " : " take ") + short_number(least / chosen.cost()) +
+                     " times");
     }
-    if (kind == chosen_kind || std::isinf(least)) continue;
-    text += std::string(listed ? ", " : "") + in_words(kind) +
-            (kind == ReceiverWalk::next_event ? " takes " : " take ") + short_number(least / chosen.cost()) +
-            " times the work";
-    listed = true;
   }
-  for (const Trial& trial : trials) {
-    if (trial.estimator == chosen.estimator || !is_known(trial)) continue;
-    text += std::string(listed ? ", '" : "'") + std::string(to_string(trial.estimator)) + "' " +
-            short_number(trial.cost() / chosen.cost()) + " times";
-    listed = true;
-  }
-  return listed ? text + " (by a short pilot)." : std::string();
+  others.insert(others.end(), same_walk.begin(), same_walk.end());
+  if (others.empty()) return {};
+  for (std::size_t k = 0; k < others.size(); ++k) text += (k > 0 ? ", " : "") + others[k] + (k == 0 ? " the work" : "");
+  return text + " (by a short pilot).";
 }
 
 }  // namespace

@@ -177,6 +177,13 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result, con
     for (const Advised& outside : receivers_outside(room, enclosure))
       warnings.push_back(outside.what + " " + outside.advice);
   }
+  if (result.settings.measured == Measured::tiles && !room.areas.empty()) {
+    Names names;
+    for (const Area& area : room.areas) names.add(in_quotes(area.properties.name));
+    warnings.push_back(to_text(room.areas.size(), "calculation area") + " (" + names.text() + ") " +
+                       (room.areas.size() == 1 ? "is" : "are") +
+                       " not measured: only tiles were requested. Leave out --only tiles to measure their points.");
+  }
   if (result.settings.measured != Measured::receivers && result.walk.impacts == 0) {
     warnings.push_back(
         "No photon hit a surface. Check the positions and directions of the emitters; a surface emits light from its "

@@ -26,9 +26,9 @@ std::vector<Advised> receivers_outside(const Room& room, const Enclosure* enclos
 // Materials that reflect more than 95 %, if there are any.
 std::optional<Advised> high_reflectances(const Room& room);
 
-// Emitters outside the room; receivers outside, if they are measured; no impacts at all; residual power of truncated
-// walks; lost photons; covered area lights; surfaces between which no rule decides; materials of reflectance 1. One or
-// two sentences each, with what to do.
+// Emitters outside the room; receivers outside, if they are measured; areas that are not measured; no impacts at all;
+// residual power of truncated walks; lost photons; covered area lights; surfaces between which no rule decides;
+// materials of reflectance 1. One or two sentences each, with what to do.
 std::vector<std::string> warnings_of(const Room& room, const Result& result, const Enclosure* enclosure = nullptr);
 
 }  // namespace lichtmc

@@ -124,6 +124,21 @@ class PlaneLayer {
   std::size_t without_points_ = 0;
 };
 
+// "A room of about 20 m² around x = 7.2, y = 0, z = −2.5 m has no light and no working plane." The largest three.
+std::string without_light(std::vector<DarkRoom> rooms) {
+  constexpr std::size_t most = 3;
+  std::sort(rooms.begin(), rooms.end(), [](const DarkRoom& a, const DarkRoom& b) { return a.area_m2 > b.area_m2; });
+  std::string list;
+  for (std::size_t k = 0; k < std::min(most, rooms.size()); ++k) {
+    const DarkRoom& room = rooms[k];
+    list += (k > 0 ? "; " : "") + rounded(room.area_m2, 2) + " m² around x = " + decimal(room.middle.x, 1) +
+            ", y = " + decimal(room.floor_m, 1) + ", z = " + decimal(room.middle.y, 1) + " m";
+  }
+  if (rooms.size() == 1) return "A room of about " + list + " has no light and no working plane.";
+  return to_text(rooms.size(), "room") + " have no light and no working plane: " + list +
+         (rooms.size() > most ? "; …." : ".");
+}
+
 }  // namespace
 
 void lay_working_planes(Room& room, double height_m, const AreaProperties& properties) {
@@ -147,6 +162,8 @@ void lay_working_planes(Room& room, double height_m, const AreaProperties& prope
                                         " of the floors, too narrow for this margin and spacing, " +
                                         (layer.without_points() == 1 ? "has" : "have") + " no points.");
   }
+  if (!room.emitters.empty() && !space.rooms.dark_rooms().empty())
+    planes.front().area.notes.push_back(without_light(space.rooms.dark_rooms()));
   for (std::size_t k = 0; k < planes.size(); ++k) {
     if (planes.size() > 1) {
       named.name = properties.name + "_" + std::to_string(k + 1);

@@ -36,6 +36,16 @@ class Areas(ProgramTest):
         self.assertEqual(rows[0]["name"], "plane_0_0")
         self.assertAlmostEqual(float(rows[0]["x"]), 0.75, places=4)
 
+    def test_areas_are_not_measured_with_tiles_only(self):
+        done = lichtmc("run", self.room, "--only", "tiles", "--photons", "20k", "--no-report", "-o", self.folder / "out",
+                       "--plane", "0.75", "--area", "board:0.1,1,1:0,1,0:0,0,2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Area 'board': 50 points of 10 × 5, spacing 0.2 m × 0.2 m; it looks to +x.", done.stderr)
+        warning = "2 calculation areas ('board', 'plane') are not measured: only tiles were requested."
+        self.assertIn("Warning: " + warning, done.stderr)
+        summary = json.loads((self.folder / "out" / "summary.json").read_text(encoding="utf-8"))
+        self.assertTrue(any(one.startswith(warning) for one in summary["warnings"]), summary["warnings"])
+
     def test_several_areas(self):
         notes = self.run_room("--plane", "0.75", "--plane", "1.2:0:name=eyes", "--area", "desk:1,0.8,1:1.6,0,0:0,0,0.8:role=task",
                               "--area-on", "wall_x0:0.5:spacing=1:name=west")

@@ -35,7 +35,8 @@ class Maintenance(ProgramTest):
         aged, emitters, at_aged = self.run_room(room, "--maintenance-factor", 0.8)
         self.assertEqual(aged["maintenance_factor"], 0.8)
         self.assertEqual(aged["emitted"], 1200)
-        said = "Maintained values: maintenance factor 0.8; initial values are 1.25 times as high."
+        said = ("Maintained values: maintenance factor 0.8, the part of the luminous flux when new that remains; "
+                "initial values are 1.25 times as high.")
         self.assertIn(said, self.messages)
         self.assertIn(said, (self.folder / "out" / "report.html").read_text(encoding="utf-8"))
         self.assertAlmostEqual(float(at_aged[0]["direct"]) / float(at_new[0]["direct"]), 0.8, delta=1e-12)
@@ -47,7 +48,7 @@ class Maintenance(ProgramTest):
     def test_a_factor_of_the_file_is_kept(self):
         room = self.room(maintenance_factor=0.7)
         summary, _, _ = self.run_room(room, "--maintenance-factor", 0.8, "--no-report")
-        self.assertIn("Maintained values: maintenance factors 0.7 to 0.8.", self.messages)
+        self.assertIn("Maintained values: maintenance factors 0.7 to 0.8, the part of the luminous flux", self.messages)
         self.assertEqual(summary["maintenance_factor"], None)
         self.assertEqual([(e["power"], e["maintenance_factor"]) for e in summary["emitters"]], [(700, 0.7), (400, 0.8)])
 

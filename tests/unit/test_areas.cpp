@@ -267,6 +267,43 @@ TEST_CASE("areas: pendants, beams and low partitions are no walls; pillars and t
   }
 }
 
+TEST_CASE("areas: a room without a lamp is told, and that no light gets to an area in it") {
+  const std::string note = " has no light and no working plane";
+  Room open = two_rooms_with_a_door();
+  lay_working_planes(open, 0.75, named("plane"));
+  for (const Area& area : open.areas) CHECK_THAT(description_of(area), !ContainsSubstring("no working plane"));
+  const auto with_fronts_outside = [](Room room) {
+    for (Surface& surface : room.surfaces) {
+      for (glm::uvec3& triangle : surface.triangles) std::swap(triangle.y, triangle.z);
+    }
+    return room;
+  };
+  Room closed = two_rooms_with_a_door();
+  closed.surfaces.push_back(box_at("door", {4.25, 0.3, 1.2}, {0.1, 2.0, 0.9}));
+  closed = with_fronts_outside(closed);
+  Room with_area = closed;
+  lay_working_planes(closed, 0.75, named("plane"));
+  REQUIRE(closed.areas.size() == 1);
+  CHECK_THAT(description_of(closed.areas[0]),
+             ContainsSubstring("A room of about 11 m² around x = 6.4, y = 0.3, z = 1.7 m" + note));
+  with_area.area_requests = {request(named("desk"), {6.0, 1.0, 1.5}, {0.0, 0.0, 0.5}, {1.0, 0.0, 0.0})};
+  CHECK_THROWS_WITH(lay_areas(with_area),
+                    ContainsSubstring("in a room where no light gets). Add a lamp there, or move the area."));
+  // A canopy outside, and a solid core of a building.
+  Room outside = two_rooms_with_a_door();
+  outside.surfaces.push_back(box_at("canopy", {8.6, 2.8, 0.0}, {4.0, 0.2, 3.4}));
+  outside.surfaces.push_back(box_at("terrace", {8.6, 0.0, 0.0}, {4.0, 0.3, 3.4}));
+  outside = with_fronts_outside(outside);
+  lay_working_planes(outside, 0.75, named("plane"));
+  for (const Area& area : outside.areas) CHECK_THAT(description_of(area), !ContainsSubstring(note));
+  Room around_core = office();
+  Room core;
+  core.surfaces = {box_at("core", {0.0, 0.0, 0.0}, {2.2, 3.0, 2.2})};
+  around_core.surfaces.push_back(with_fronts_outside(core).surfaces[0]);
+  lay_working_planes(around_core, 0.75, named("plane"));
+  for (const Area& area : around_core.areas) CHECK_THAT(description_of(area), !ContainsSubstring(note));
+}
+
 TEST_CASE("areas: a thin wall with a door divides a room, one with a wide opening does not") {
   const auto divided = [](double thickness, double opening) {
     Room room = make_cuboid({8.0, 3.0, 6.0}, uniform_reflectance(0.5));

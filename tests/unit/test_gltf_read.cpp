@@ -213,6 +213,9 @@ TEST_CASE("properties that are not modelled are named") {
     INFO(what);
     CHECK(ignores(room, what));
   }
+  CHECK_FALSE(ignores(room, "Boxes of spaces"));
+  material["name"] = "IfcSpace";
+  CHECK(ignores(read_document(document), "--without IfcSpace."));
 }
 
 TEST_CASE("triangles without area are left out and counted") {

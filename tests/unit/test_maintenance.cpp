@@ -104,12 +104,15 @@ TEST_CASE("the factor of all emitters leaves those with one of their own, and re
   CHECK(room.overrides.back() ==
         "Maintenance factor 0.8: 1 emitter has this share of the new power; 1 emitter has a factor of the file.");
   CHECK_FALSE(common_maintenance_factor(room));
-  CHECK(maintained_text(room) == "Maintained values: maintenance factors 0.8 to 1");
+  CHECK(maintained_text(room) ==
+        "Maintained values: maintenance factors 0.8 to 1, the part of the radiant flux when new that remains");
   set_maintenance_factor(room, 0.5);
   CHECK(room.emitters[0].power == Approx(500.0).epsilon(1e-15));
   room.emitters[1].power = 0.0;  // its factor has no influence
   CHECK(common_maintenance_factor(room).value() == 0.5);
-  CHECK(maintained_text(room) == "Maintained values: maintenance factor 0.5; initial values are 2 times as high");
+  CHECK(maintained_text(room) ==
+        "Maintained values: maintenance factor 0.5, the part of the radiant flux when new that remains; initial values "
+        "are 2 times as high");
   CHECK(maintained_text(two_lamps()).empty());
   CHECK(common_maintenance_factor(two_lamps()).value() == 1.0);
   for (const double factor : {0.0, -1.0, 1.5, std::nan("")})

@@ -155,9 +155,12 @@ TEST_CASE("lighting report: maintained values have the initial ones beside them"
   result.areas[0].initial_mean = {result.areas[0].mean.value / 0.8, 2.0};
   const std::string first = client_part(page_of(room, result));
   CHECK(has(first, "initially 475 ± 2 lx"));
-  CHECK(has(first, "Maintained values: maintenance factor 0.8; initial"));
+  CHECK(has(first,
+            "Maintained values: maintenance factor 0.8, the part of the luminous flux when new that remains; initial"));
   room.emitters[0].maintenance_factor = 0.67;
-  CHECK(has(client_part(page_of(room, result)), "Maintained values: maintenance factors 0.67 to 0.8."));
+  CHECK(
+      has(client_part(page_of(room, result)),
+          "Maintained values: maintenance factors 0.67 to 0.8, the part of the luminous flux when new that remains."));
 }
 
 TEST_CASE("lighting report: areas alone have pictures too, and other receivers a table without gains") {
