@@ -1,6 +1,6 @@
 // Gives calculation areas their grids: adds a receiver to the room for each point.
 //
-// The grid of EN 12464-1 (2021, 4.4; CIE x005): cells of about p = 0.2 · 5^(log10 d) metres, p ≤ 10 m, where d is the
+// The grid of EN 12464-1 (2011, 4.4 and A.1): cells of about p = 0.2 · 5^(log10 d) metres, p ≤ 10 m, where d is the
 // longer side of the area, or the shorter if the longer is at least twice as long. The number of cells along d is the
 // whole number nearest to d/p, along the other side that nearest to its length over the length of these cells; cells
 // are between 1 : 2 and 2 : 1. The table of the standard (Table A.1) rounds p: for d = 0.4, 0.6, 25 and 50 m it has one

@@ -18,7 +18,7 @@ struct Row {
 
 }  // namespace
 
-// EN 12464-1:2021, Table A.1. At 0.4, 0.6, 25 and 50 m the table, which rounds the greatest cell, has one point less or
+// EN 12464-1:2011, Table A.1. At 0.4, 0.6, 25 and 50 m the table, which rounds the greatest cell, has one point less or
 // more than the standard's formula.
 TEST_CASE("areas: the rows of the standard's table") {
   for (const Row row : {Row{0.4, 3, 4}, Row{0.6, 3, 4}, Row{1.0, 5, 5}, Row{2.0, 6, 6}, Row{5.0, 8, 8},
