@@ -102,7 +102,8 @@ void print_receivers(const Result& result) {
             << describe(walk.stopped_by) << "; " << to_string(walk.receiver_walk) << ", estimator "
             << to_string(walk.estimator) << "), " << short_count(static_cast<double>(walk.shadow_rays))
             << (walk.shadow_rays == 1 ? " shadow ray; relative" : " shadow rays; relative") << " standard error "
-            << percent(walk.rms_relative_error) << " (rms). " << error_text(result, Measured::receivers) << '\n';
+            << percent(walk.rms_relative_error) << (result.areas.empty() ? " (rms). " : " (of Em and Emin). ")
+            << error_text(result, Measured::receivers) << '\n';
   warn_of_missed_target(result.settings, walk.stopped_by, walk.rms_relative_error, histories, walk.histories_to_target,
                         walk.seconds, "");
 }
