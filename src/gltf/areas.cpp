@@ -50,8 +50,9 @@ glm::dvec3 read_direction(const Document& document, const PlacedNode& placed, co
   const tinygltf::Value& value = document.model.nodes[placed.index].extras.Get("direction");
   glm::dvec3 direction(0.0);
   bool valid = value.IsArray() && value.ArrayLen() == 3;
-  for (int k = 0; valid && k < 3; ++k) {
-    const tinygltf::Value& part = value.Get(k);
+  for (glm::length_t k = 0; valid && k < 3; ++k) {
+    // Value::Get() with a number takes other types of it in other versions.
+    const tinygltf::Value& part = value.Get<tinygltf::Value::Array>()[static_cast<std::size_t>(k)];
     valid = part.IsNumber() && std::isfinite(part.GetNumberAsDouble());
     if (valid) direction[k] = part.GetNumberAsDouble();
   }
