@@ -43,6 +43,12 @@ Hdf5Handle hdf5_text_type(std::size_t length) {
   return type;
 }
 
+Hdf5Handle hdf5_any_text_type() {
+  Hdf5Handle type = hdf5_text_type(0);
+  check_hdf5(H5Tset_size(type, H5T_VARIABLE), "describe text");
+  return type;
+}
+
 Hdf5Handle make_hdf5_in_memory(std::uint64_t user_bytes, std::uint64_t about) {
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "set up HDF5");
   check_hdf5(H5Pset_userblock(creation, user_bytes), "set up HDF5");

@@ -65,6 +65,9 @@ Hdf5Handle hdf5_file_access();
 // Text of this length (without the terminating 0) in UTF-8, as a type.
 Hdf5Handle hdf5_text_type(std::size_t length);
 
+// Text of any length in UTF-8, which Python and MATLAB read as text and not as bytes.
+Hdf5Handle hdf5_any_text_type();
+
 // A new file in memory that leaves `user_bytes` (0, or a power of two ≥ 512) free at its beginning. about: its expected
 // size in bytes. The same contents give the same bytes.
 Hdf5Handle make_hdf5_in_memory(std::uint64_t user_bytes, std::uint64_t about);

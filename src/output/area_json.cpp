@@ -14,16 +14,8 @@ namespace lichtmc {
 
 namespace {
 
-Json number_or_null(const std::optional<double>& value) {
-  return value ? number(*value) : Json(nullptr);
-}
-
 Json verdict_or_null(Verdict verdict) {
   return verdict == Verdict::none ? Json(nullptr) : Json(std::string(to_string(verdict)));
-}
-
-Json vector_of(const glm::dvec3& v) {
-  return {number(v.x), number(v.y), number(v.z)};
 }
 
 void add_figures(const AreaResult& result, Json& json) {

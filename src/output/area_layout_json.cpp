@@ -9,16 +9,8 @@ namespace lichtmc {
 
 namespace {
 
-Json json_vector(const glm::dvec3& v) {
-  return Json::array({v.x, v.y, v.z});
-}
-
 glm::dvec3 vector_from(const Json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-
-Json optional_json(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
 }
 
 std::optional<double> optional_from(const Json& json) {
@@ -42,28 +34,28 @@ Json layout_of(const Area& area) {
   Json left_out = Json::array();
   for (const AreaLeftOut& some : area.left_out) left_out.push_back({{"why", some.why}, {"points", some.points}});
   Json outline = Json::array();
-  for (const auto& line : area.outline) outline.push_back({json_vector(line[0]), json_vector(line[1])});
+  for (const auto& line : area.outline) outline.push_back({vector_of(line[0]), vector_of(line[1])});
   return {{"name", properties.name},
           {"role", properties.role},
           {"asked_quantity", properties.quantity ? Json(std::string(to_string(*properties.quantity))) : Json(nullptr)},
-          {"direction", properties.direction ? json_vector(*properties.direction) : Json(nullptr)},
-          {"spacing_m", optional_json(properties.spacing_m)},
-          {"asked_margin_m", optional_json(properties.margin_m)},
+          {"direction", properties.direction ? vector_of(*properties.direction) : Json(nullptr)},
+          {"spacing_m", number_or_null(properties.spacing_m)},
+          {"asked_margin_m", number_or_null(properties.margin_m)},
           {"cells_measured", properties.cells},
-          {"target_lx", optional_json(properties.target_lx)},
-          {"target_uniformity", optional_json(properties.target_uniformity)},
+          {"target_lx", number_or_null(properties.target_lx)},
+          {"target_uniformity", number_or_null(properties.target_uniformity)},
           {"quantity", std::string(to_string(area.quantity))},
-          {"corner", json_vector(area.corner)},
-          {"u", json_vector(area.u)},
-          {"v", json_vector(area.v)},
-          {"normal", json_vector(area.normal)},
+          {"corner", vector_of(area.corner)},
+          {"u", vector_of(area.u)},
+          {"v", vector_of(area.v)},
+          {"normal", vector_of(area.normal)},
           {"columns", area.columns},
           {"rows", area.rows},
           {"first_receiver", area.first_receiver},
           {"cells", area.cells},
           {"left_out", left_out},
           {"margin_m", area.margin_m},
-          {"above_floor_m", optional_json(area.above_floor_m)},
+          {"above_floor_m", number_or_null(area.above_floor_m)},
           {"outline", outline},
           {"notes", area.notes}};
 }

@@ -16,12 +16,6 @@ std::size_t values_of(const Hdf5Handle& set) {
   return static_cast<std::size_t>(count);
 }
 
-Hdf5Handle text_to_read() {
-  Hdf5Handle type = hdf5_text_type(0);
-  check_hdf5(H5Tset_size(type, H5T_VARIABLE), "describe text");
-  return type;
-}
-
 void require_text(hid_t type, const std::string& name) {
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) <= 0) throw Hdf5Error(name + " is not text");
 }
@@ -57,7 +51,7 @@ std::string H5Reader::text(const std::string& attribute) const {
   require_text(type, "attribute " + attribute);
   if (H5Sget_simple_extent_npoints(space) != 1) throw Hdf5Error("attribute " + attribute + " is a list");
   char* read = nullptr;
-  const Hdf5Handle wanted = text_to_read();
+  const Hdf5Handle wanted = hdf5_any_text_type();
   check_hdf5(H5Aread(found, wanted, &read), "read an attribute");
   std::string value(read != nullptr ? read : "");
   H5Dvlen_reclaim(wanted, space, H5P_DEFAULT, &read);
@@ -82,7 +76,7 @@ std::vector<std::string> H5Reader::names(const std::string& name) const {
   std::vector<char*> read(values_of(set), nullptr);
   std::vector<std::string> texts;
   if (read.empty()) return texts;
-  const Hdf5Handle wanted = text_to_read();
+  const Hdf5Handle wanted = hdf5_any_text_type();
   check_hdf5(H5Dread(set, wanted, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()), "read an array");
   for (const char* text : read) texts.emplace_back(text != nullptr ? text : "");
   const Hdf5Handle space(H5Dget_space(set), H5Sclose, "read an array");

@@ -10,13 +10,6 @@ namespace {
 
 constexpr std::size_t chunk_values = std::size_t{1} << 16;  // 512 kB: fits into the cache, and compresses as one piece
 
-// Text of any length, which Python and MATLAB read as text and not as bytes.
-Hdf5Handle h5_text_type() {
-  Hdf5Handle type = hdf5_text_type(0);
-  check_hdf5(H5Tset_size(type, H5T_VARIABLE), "describe text");
-  return type;
-}
-
 // Large arrays are compressed in chunks: of whole rows of the last dimensions, as many as fit.
 Hdf5Handle creation_of(const NamedArray& array) {
   Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "set up HDF5");
@@ -47,7 +40,7 @@ void H5Writer::make_group(const std::string& name) {
 
 void H5Writer::attribute(const std::string& of, const std::string& name, const std::string& text) {
   const char* const pointer = text.c_str();
-  write_attribute(of, name, h5_text_type(), &pointer);
+  write_attribute(of, name, hdf5_any_text_type(), &pointer);
 }
 
 void H5Writer::attribute(const std::string& of, const std::string& name, double value) {
@@ -76,7 +69,7 @@ void H5Writer::array(const NamedArray& array) {
 
 void H5Writer::names(const std::string& name, const std::string& dimension, const std::string& what,
                      const std::vector<std::string>& texts) {
-  const Hdf5Handle type = h5_text_type();
+  const Hdf5Handle type = hdf5_any_text_type();
   const hsize_t count = texts.size();
   const Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, "describe an array");
   const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "set up HDF5");

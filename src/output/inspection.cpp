@@ -8,10 +8,6 @@ namespace lichtmc {
 
 namespace {
 
-Json point(const glm::dvec3& p) {
-  return {number(p.x), number(p.y), number(p.z)};
-}
-
 const char* word_for(Severity severity) {
   switch (severity) {
     case Severity::note:
@@ -50,7 +46,7 @@ Json openings_of(const Inspection& inspection) {
   for (const Opening& opening : inspection.openings) {
     openings.push_back({{"side", opening.side},
                         {"share", number(opening.share)},
-                        {"place", point(opening.place)},
+                        {"place", vector_of(opening.place)},
                         {"from", opening.from}});
   }
   return openings;
@@ -60,8 +56,8 @@ Json receivers_of(const Room& room) {
   Json receivers = Json::array();
   for (const Receiver& r : room.receivers) {
     receivers.push_back({{"name", r.name},
-                         {"position", point(r.position)},
-                         {"normal", point(r.normal)},
+                         {"position", vector_of(r.position)},
+                         {"normal", vector_of(r.normal)},
                          {"fov", number(r.half_angle_deg)},
                          {"area", number(r.area_m2)},
                          {"concentrator_index", r.concentrator_index ? number(*r.concentrator_index) : Json(nullptr)},
@@ -83,9 +79,9 @@ Json areas_of(const Room& room) {
                      {"columns", area.columns},
                      {"rows", area.rows},
                      {"above_floor", area.above_floor_m ? number(*area.above_floor_m) : Json(nullptr)},
-                     {"corner", point(area.corner)},
-                     {"u", point(area.u)},
-                     {"v", point(area.v)},
+                     {"corner", vector_of(area.corner)},
+                     {"u", vector_of(area.u)},
+                     {"v", vector_of(area.v)},
                      {"left_out", left_out}});
   }
   return areas;
@@ -111,7 +107,7 @@ Json luminaires_of(const Inspection& inspection) {
                {"power", number(f.power)},
                {"watts", f.watts > 0.0 ? number(f.watts) : Json(nullptr)},
                {"opening", std::string(name_of(f.opening.form))},
-               {"opening_size", point(f.opening.size_m)},
+               {"opening_size", vector_of(f.opening.size_m)},
                {"in_housing", number(f.in_housing)},
                {"as_points", f.as_points},
                {"limit", number(f.limit_m)},
@@ -129,7 +125,7 @@ Json luminaires_of(const Inspection& inspection) {
 
 Json points_of(const std::vector<glm::dvec3>& list) {
   Json points = Json::array();
-  for (const glm::dvec3& p : list) points.push_back(point(p));
+  for (const glm::dvec3& p : list) points.push_back(vector_of(p));
   return points;
 }
 
@@ -143,8 +139,8 @@ std::string inspection_json(const Room& room, const Inspection& inspection) {
                   {"usable", inspection.count(Severity::fault) == 0},
                   {"faults", inspection.count(Severity::fault)},
                   {"warnings", inspection.count(Severity::warning)},
-                  {"low", point(inspection.low)},
-                  {"high", point(inspection.high)},
+                  {"low", vector_of(inspection.low)},
+                  {"high", vector_of(inspection.high)},
                   {"suggested_scale", number(inspection.suggested_scale)},
                   {"suggested_up", inspection.probably_z_up ? "z" : "y"},
                   {"triangles", inspection.triangles},
@@ -155,7 +151,7 @@ std::string inspection_json(const Room& room, const Inspection& inspection) {
                   {"cuboid", inspection.cuboid},
                   {"convex", inspection.convex},
                   {"closed", inspection.closed},
-                  {"inside", point(inspection.inside)},
+                  {"inside", vector_of(inspection.inside)},
                   {"flights", inspection.flights},
                   {"flights_that_left", inspection.flights_that_left},
                   {"openings", openings_of(inspection)},

@@ -12,6 +12,14 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+Json number_or_null(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+Json vector_of(const glm::dvec3& v) {
+  return {number(v.x), number(v.y), number(v.z)};
+}
+
 std::string_view kind_of(const Emitter& emitter) {
   return visit_shape(
       emitter, [](const auto& point) { return point.law().name(); },

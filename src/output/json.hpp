@@ -1,9 +1,11 @@
 // Functions shared by all JSON output.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
 #include "lichtmc/room.hpp"
@@ -14,6 +16,10 @@ using Json = nlohmann::ordered_json;
 
 // A number; null if it is not finite, because JSON cannot represent NaN and infinity.
 Json number(double value);
+// The same; null also if there is none.
+Json number_or_null(const std::optional<double>& value);
+// An array of three numbers.
+Json vector_of(const glm::dvec3& v);
 
 // "isotropic", "lambert", "spot", "measured" or "surface".
 std::string_view kind_of(const Emitter& emitter);

@@ -30,8 +30,11 @@ struct PointValues {
 PointValues points_of(const Area& area, const EmitterParts& parts, const std::vector<double>& factors) {
   PointValues points;
   std::vector<std::size_t> with_rounds;
+  std::vector<double> shares;  // of all rounds
   for (std::size_t j = 0; j < parts.group_rounds.size(); ++j) {
-    if (parts.group_rounds[j] > 0) with_rounds.push_back(j);
+    if (parts.group_rounds[j] == 0) continue;
+    with_rounds.push_back(j);
+    shares.push_back(static_cast<double>(parts.group_rounds[j]) / static_cast<double>(parts.rounds));
   }
   points.groups = with_rounds.size();
   for (std::size_t k = 0; k < area.cells.size(); ++k) {
@@ -46,11 +49,8 @@ PointValues points_of(const Area& area, const EmitterParts& parts, const std::ve
       reflected += factors[p] * parts.reflected[at];
       variance += std::pow(factors[p] * parts.direct_error[at], 2);
       const double* of_group = parts.of_groups.data() + at * parts.group_rounds.size();
-      for (std::size_t j = 0; j < points.groups; ++j) {
-        const double share =
-            static_cast<double>(parts.group_rounds[with_rounds[j]]) / static_cast<double>(parts.rounds);
-        deviation[j] += factors[p] * share * (of_group[with_rounds[j]] - parts.reflected[at]);
-      }
+      for (std::size_t j = 0; j < points.groups; ++j)
+        deviation[j] += factors[p] * shares[j] * (of_group[with_rounds[j]] - parts.reflected[at]);
     }
     points.value.push_back(direct + reflected);
     points.direct_error.push_back(std::sqrt(variance));

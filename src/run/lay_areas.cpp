@@ -70,7 +70,7 @@ bool measures_from_above(const AreaProperties& properties, const AreaPlane& plan
 
 class AreaLayer {
  public:
-  explicit AreaLayer(const Room& room) : space_(room), places_(space_) {}
+  explicit AreaLayer(const Room& room) : space_(room), places_(space_) { space_.rooms.find_dark_rooms(); }
 
   void lay(const AreaRequest& request, Room& room) {
     check_properties(room, request.properties);

@@ -52,7 +52,6 @@ LitRooms::LitRooms(const Scene& scene, ColumnTracer& tracer) : tracer_(tracer) {
   connect();
   find_floors();
   measure_rooms();
-  find_dark_rooms();
 }
 
 void LitRooms::make_raster() {
@@ -88,16 +87,6 @@ std::size_t LitRooms::column_at(const glm::dvec2& at) const {
     return static_cast<std::size_t>(std::clamp(std::lround(x), 0L, static_cast<long>(n) - 1));
   };
   return clamped(place.y, rows_) * columns_ + clamped(place.x, columns_);
-}
-
-template <class Use>
-void LitRooms::for_each_neighbour(std::size_t column, const Use& use) const {
-  const std::size_t x = column % columns_;
-  const std::size_t y = column / columns_;
-  if (x > 0) use(column - 1);
-  if (x + 1 < columns_) use(column + 1);
-  if (y > 0) use(column - columns_);
-  if (y + 1 < rows_) use(column + columns_);
 }
 
 // A point that light passes is connected with a gap of the line next to it if nothing is between them.
@@ -359,104 +348,8 @@ bool LitRooms::is_between_floors(const glm::dvec2& at, std::size_t room) const {
   return (sides[0] && sides[1]) || (sides[2] && sides[3]);
 }
 
-template <class Applies>
-bool LitRooms::is_connected(const Column& column, const Gap& gap, const Applies& applies) const {
-  const std::size_t middle = column_at(column.at);
-  bool found = false;
-  const auto test = [&](std::size_t other) {
-    for (std::size_t g = first_gap_[other]; !found && g < first_gap_[other + 1]; ++g)
-      found = applies(g) && connected(column.at, gap, raster_[other].at, gaps_[g].gap);
-  };
-  test(middle);
-  for_each_neighbour(middle, [&](std::size_t other) {
-    test(other);
-    if (found) return;
-    for_each_neighbour(other, test);
-  });
-  return found;
-}
-
 bool LitRooms::is_lit(const Column& column, const Gap& gap, std::size_t room) const {
   return is_connected(column, gap, [this, room](std::size_t g) { return gaps_[g].room == room; });
-}
-
-bool LitRooms::is_dark(const Column& column, const Gap& gap) const {
-  return !dark_rooms_.empty() && is_connected(column, gap, [this](std::size_t g) { return dark_[g] != 0; });
-}
-
-bool LitRooms::is_closed(const LitGap& gap) const {
-  const glm::dvec2& at = raster_[gap.column].at;
-  const glm::dvec3 point(at.x, gap.gap.low + std::min(1.0, 0.5 * gap.gap.height()), at.y);
-  constexpr std::array<glm::dvec3, 6> axes{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
-  return std::all_of(axes.begin(), axes.end(),
-                     [&](const glm::dvec3& axis) { return tracer_.meets_front(point, axis); });
-}
-
-namespace {
-
-// The members of squares of `side` × `side` members.
-std::vector<char> in_squares(const std::vector<char>& members, std::size_t columns, std::size_t side) {
-  const std::size_t rows = members.size() / columns;
-  std::vector<char> found(members.size(), 0);
-  for (std::size_t y = 0; y + side <= rows; ++y) {
-    for (std::size_t x = 0; x + side <= columns; ++x) {
-      bool all = true;
-      for (std::size_t k = 0; all && k < side * side; ++k) all = members[(y + k / side) * columns + x + k % side] != 0;
-      for (std::size_t k = 0; all && k < side * side; ++k) found[(y + k / side) * columns + x + k % side] = 1;
-    }
-  }
-  return found;
-}
-
-}  // namespace
-
-void LitRooms::find_dark_rooms() {
-  constexpr double least_m2 = 4.0;
-  constexpr double least_width_m = 1.0;
-  dark_.assign(gaps_.size(), 0);
-  const auto may_be = [this](std::size_t g) {
-    return lit_[g] == 0 && outdoors_[g] == 0 && !gaps_[g].gap.open_above && gaps_[g].gap.height() >= standing_;
-  };
-  DisjointSets<std::size_t> sets(gaps_.size());
-  for (std::size_t g = 0; g < gaps_.size(); ++g) {
-    if (!may_be(g)) continue;
-    const std::size_t column = gaps_[g].column;
-    for_each_neighbour(column, [&](std::size_t other) {
-      for (std::size_t h = first_gap_[other]; other > column && h < first_gap_[other + 1]; ++h) {
-        if (may_be(h) && sets.find(g) != sets.find(h) &&
-            connected(raster_[column].at, gaps_[g].gap, raster_[other].at, gaps_[h].gap))
-          sets.join(g, h);
-      }
-    });
-  }
-  std::map<std::size_t, std::vector<std::size_t>> parts;
-  for (std::size_t g = 0; g < gaps_.size(); ++g) {
-    if (may_be(g)) parts[sets.find(g)].push_back(g);
-  }
-  const double cell_m2 = spacing_ * spacing_;
-  const auto side = static_cast<std::size_t>(std::max(1.0, std::ceil(least_width_m / spacing_ - 1e-9)));
-  for (const auto& [root, part] : parts) {
-    if (static_cast<double>(part.size()) * cell_m2 < least_m2) continue;
-    std::vector<char> members(raster_.size(), 0);
-    for (const std::size_t g : part) members[gaps_[g].column] = 1;
-    const std::vector<char> wide = in_squares(members, columns_, side);
-    DarkRoom room;
-    room.floor_m = std::numeric_limits<double>::infinity();
-    std::size_t closed = 0;
-    std::size_t cells = 0;
-    for (const std::size_t g : part) {
-      if (wide[gaps_[g].column] == 0) continue;
-      ++cells;
-      closed += is_closed(gaps_[g]) ? 1U : 0U;
-      room.middle += raster_[gaps_[g].column].at;
-      room.floor_m = std::min(room.floor_m, gaps_[g].gap.low);
-    }
-    room.area_m2 = static_cast<double>(cells) * cell_m2;
-    if (room.area_m2 < least_m2 || 2 * closed < cells) continue;
-    room.middle /= static_cast<double>(cells);
-    for (const std::size_t g : part) dark_[g] = 1;
-    dark_rooms_.push_back(room);
-  }
 }
 
 }  // namespace lichtmc

@@ -58,7 +58,8 @@ class LitRooms {
   double spacing() const { return spacing_; }
 
   // Rooms under a roof that no light reaches, with surfaces whose fronts face into them: so the insides of bodies do
-  // not count.
+  // not count. Only for those who ask: none are known before find_dark_rooms().
+  void find_dark_rooms();
   const std::vector<DarkRoom>& dark_rooms() const { return dark_rooms_; }
   // Whether a gap of another line belongs to one of them.
   bool is_dark(const Column& column, const Gap& gap) const;
@@ -85,7 +86,6 @@ class LitRooms {
   void light_gaps(const Scene& scene);
   void leave_out_the_sky();
   void connect();
-  void find_dark_rooms();
   bool is_closed(const LitGap& gap) const;
   // Whether a gap of another line is connected with one of the raster nearby to which a test applies.
   template <class Applies>
@@ -115,5 +115,32 @@ class LitRooms {
   std::vector<DarkRoom> dark_rooms_;
   std::vector<char> dark_;  // of each gap: part of a dark room
 };
+
+template <class Use>
+void LitRooms::for_each_neighbour(std::size_t column, const Use& use) const {
+  const std::size_t x = column % columns_;
+  const std::size_t y = column / columns_;
+  if (x > 0) use(column - 1);
+  if (x + 1 < columns_) use(column + 1);
+  if (y > 0) use(column - columns_);
+  if (y + 1 < rows_) use(column + columns_);
+}
+
+template <class Applies>
+bool LitRooms::is_connected(const Column& column, const Gap& gap, const Applies& applies) const {
+  const std::size_t middle = column_at(column.at);
+  bool found = false;
+  const auto test = [&](std::size_t other) {
+    for (std::size_t g = first_gap_[other]; !found && g < first_gap_[other + 1]; ++g)
+      found = applies(g) && connected(column.at, gap, raster_[other].at, gaps_[g].gap);
+  };
+  test(middle);
+  for_each_neighbour(middle, [&](std::size_t other) {
+    test(other);
+    if (found) return;
+    for_each_neighbour(other, test);
+  });
+  return found;
+}
 
 }  // namespace lichtmc

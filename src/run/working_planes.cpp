@@ -150,6 +150,7 @@ void lay_working_planes(Room& room, double height_m, const AreaProperties& prope
   check_properties(room, properties);
   const double margin_m = properties.margin_m.value_or(usual_margin_m);
   LitSpace space(room);
+  space.rooms.find_dark_rooms();
   PlaneLayer layer(space, height_m, properties, margin_m);
   std::vector<WorkingPlane> planes = layer.planes();
   if (planes.empty()) {
