@@ -11,6 +11,7 @@
 #include "support/luminaires.hpp"
 #include "support/rooms.hpp"
 #include "support/surfaces.hpp"
+#include "support/two_sided_wall.hpp"
 #include "support/verdict.hpp"
 
 using namespace lichtmc;
@@ -73,20 +74,9 @@ double by_panel(const Receiver& receiver, const glm::dvec3& corner, const glm::d
   return sum / (n * n);
 }
 
-// A cuboid of 4 × 3 × 5 m with a window, a thin partition whose sides are both lit, and emitters of all laws.
+// The room with a two-sided wall, with emitters of all laws.
 Room furnished() {
-  Room room = without_surface(make_cuboid({4.0, 3.0, 5.0}, {0.3, 0.8, 0.6, 0.5, 0.7, 0.4}), "wall_z1");
-  Surface partition = make_floor(2.5, 2.2);
-  for (glm::dvec3& p : partition.positions) p = {p.x, p.z, 2.0};
-  partition.name = "partition";
-  partition.reflectance = 0.7;
-  partition.sides = Sides::both;
-  room.surfaces.push_back(partition);
-  Surface panel = make_floor(0.5, 0.5);
-  for (glm::dvec3& p : panel.positions) p += glm::dvec3(0.5, 2.9, 3.5);
-  panel.name = "panel";
-  panel.reflectance = 0.5;
-  room.surfaces.push_back(panel);
+  Room room = room_with_two_sided_wall();
   MeasuredEmitter luminaire;
   luminaire.photometry = skew_luminaire();
   luminaire.position = {1.0, 2.8, 1.0};

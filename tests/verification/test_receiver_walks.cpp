@@ -9,6 +9,7 @@
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
 #include "support/surfaces.hpp"
+#include "support/two_sided_wall.hpp"
 
 using namespace lichtmc;
 using namespace lichtmc::test;
@@ -72,21 +73,9 @@ void check_all(const std::string& name, const Room& room, double photons, double
   }
 }
 
-// A cuboid of 4 × 3 × 5 m with a window, a thin partition whose sides are both lit, and emitters of all laws.
+// The room with a two-sided wall, with emitters of all laws.
 Room partitioned() {
-  Room room = make_cuboid({4.0, 3.0, 5.0}, {0.3, 0.8, 0.6, 0.5, 0.7, 0.4});
-  room = without_surface(room, "wall_z1");
-  Surface partition = make_floor(2.5, 2.2);
-  for (glm::dvec3& p : partition.positions) p = {p.x, p.z, 2.0};
-  partition.name = "partition";
-  partition.reflectance = 0.7;
-  partition.sides = Sides::both;
-  room.surfaces.push_back(partition);
-  Surface panel = make_floor(0.5, 0.5);
-  for (glm::dvec3& p : panel.positions) p += glm::dvec3(0.5, 2.9, 3.5);
-  panel.name = "panel";
-  panel.reflectance = 0.5;
-  room.surfaces.push_back(panel);
+  Room room = room_with_two_sided_wall();
   room.emitters = {isotropic({3.0, 2.0, 1.0}, 100.0),
                    lambert({1.0, 2.8, 1.0}, {0, -1, 0}, 3.0, 200.0),
                    {"spot", 150.0, SpotEmitter{{2.0, 2.5, 3.0}, {0.2, -1, 0.1}, 0.2, 0.6}},
