@@ -1,0 +1,12 @@
+"""The command `lichtmc`: the program, from the same code as the module."""
+
+from __future__ import annotations
+
+import sys
+
+from lichtmc import _core
+
+
+def main() -> int:
+    """Runs the program with the words of the command line; returns its exit status."""
+    return _core.run_command_line(["lichtmc", *sys.argv[1:]])

@@ -1,0 +1,119 @@
+"""Runs: simulate() and how it tells its progress."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+
+from lichtmc import _core
+from lichtmc._progress import listener
+
+OnProgress = Callable[[_core.Progress], object]
+
+
+class ResultWarning(UserWarning):
+    """What affects the meaning of the figures of a result: each of Result.warnings is issued as one."""
+
+
+def warn_of(result: _core.Result, *, stacklevel: int) -> _core.Result:
+    """Issues the warnings of a result, as of the line that is `stacklevel` calls above the caller."""
+    for text in result.warnings:
+        warnings.warn(text, ResultWarning, stacklevel=stacklevel + 1)
+    return result
+
+
+def simulate(
+    room: _core.Room,
+    *,
+    photons: int | None = None,
+    target_error: float | None = None,
+    max_time: float | None = None,
+    seed: int = 1,
+    threads: int = 0,
+    estimator: str = "collision",
+    engine: str = "auto",
+    tile: float = 0.1,
+    only: str = "all",
+    tile_walk: str = "forward",
+    receiver_walk: str = "auto",
+    direct: str = "sampled",
+    max_bounces: int | None = None,
+    error_floor: float | None = None,
+    error_floor_share: float = 0.01,
+    histories: tuple[int, int] | None = None,
+    impulse_response: float | None = None,
+    time_span: float | None = None,
+    orders: int = 0,
+    frequencies: tuple[float, float, float] | None = None,
+    squared_weights: bool = False,
+    per_emitter: bool = False,
+    progress: bool | OnProgress | None = None,
+) -> _core.Result:
+    """Simulates a room: the irradiance (W/m²) or illuminance (lx) of every tile and receiver, with its standard error.
+
+    The same room, settings and seed give the same digits for any number of threads, and those of the command line.
+    The first stop rule that is met ends the run: `photons`, `target_error`, `max_time`.
+
+    Ctrl-C stops the run; the result then contains what was simulated so far, and its `stopped_by` is "interrupt". A
+    second Ctrl-C raises KeyboardInterrupt.
+
+    Args:
+        room: The room. The result keeps it as it is now.
+        photons: Histories to simulate, 1 or more: for the tiles, and the same number for all receivers together.
+            Default: a million if there is no other stop rule, else no limit.
+        target_error: Stop at this relative standard error, above 0: 0.01 means 1 %. Of tiles: the rms, weighted by
+            area; of receivers: the rms.
+        max_time: Stop after this time, s.
+        seed: Of the random numbers.
+        threads: Number of threads; 0: one per processor.
+        estimator: "collision", "weight", "absorption", or "auto": the most efficient one, by a short pilot of each.
+        engine: "auto", "cuboid", "embree" or "embree-fast".
+        tile: Edge of a tile, m.
+        only: "all", "tiles" or "receivers": what is measured.
+        tile_walk: "forward" or "backward": photons from the emitters, or walks from the tiles.
+        receiver_walk: "auto", "two-way", "next-event" or "backward".
+        direct: "sampled", or "analytic": the direct light of tiles is integrated, photons score reflected light only.
+        max_bounces: Ends each history after this many flights; with the estimator "weight" only.
+        error_floor: Irradiance (W/m² or lx) to which relative errors refer where it is darker.
+        error_floor_share: The same as a share of the mean irradiance, if `error_floor` is not given.
+        histories: (first, behind the last): a part of a run, for merge(). In place of `photons`.
+        impulse_response: Width of the bins, s: measures impulse responses at the receivers.
+        time_span: Of the impulse responses, s. Default: chosen from the room.
+        orders: Light of 0, 1, … `orders` reflections is kept apart in the impulse responses.
+        frequencies: (first, last, step) in Hz, at which the frequency response is accumulated.
+        squared_weights: Adds the rms delay spread with the weights h².
+        per_emitter: Keeps the part of each emitter apart: at receivers and areas, or in the impulse responses.
+        progress: True: a progress bar (by tqdm if it is installed). Or a function that is called with a Progress
+            some times a second, in the calling thread; an exception from it ends the run and is raised.
+
+    Raises:
+        InputError: The room or an argument is not valid.
+        RuntimeError: Memory or the tracing device fails.
+    """
+    settings = _core.make_settings(
+        photons=photons,
+        target_error=target_error,
+        max_time=max_time,
+        seed=seed,
+        threads=threads,
+        estimator=estimator,
+        engine=engine,
+        tile=tile,
+        only=only,
+        tile_walk=tile_walk,
+        receiver_walk=receiver_walk,
+        direct=direct,
+        max_bounces=max_bounces,
+        error_floor=error_floor,
+        error_floor_share=error_floor_share,
+        histories=histories,
+        impulse_response=impulse_response,
+        time_span=time_span,
+        orders=orders,
+        frequencies=frequencies,
+        squared_weights=squared_weights,
+        per_emitter=per_emitter,
+    )
+    with listener(progress) as on_progress:
+        result = _core.simulate(room, settings, on_progress)
+    return warn_of(result, stacklevel=2)

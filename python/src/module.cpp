@@ -1,0 +1,21 @@
+// The extension module lichtmc._core.
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+
+#include <string>
+
+#include "bindings.hpp"
+#include "lichtmc/version.hpp"
+
+NB_MODULE(_core, module) {
+  using namespace lichtmc::python;
+  module.doc() = "The compiled part of lichtmc. Use `import lichtmc`.";
+  module.attr("__version__") = std::string(lichtmc::version());
+  bind_errors(module);
+  bind_room(module);
+  bind_result(module);
+  bind_tiles(module);
+  bind_settings(module);
+  bind_simulate(module);
+  bind_command_line(module);
+}

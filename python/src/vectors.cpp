@@ -1,0 +1,47 @@
+#include "vectors.hpp"
+
+#include <cstddef>
+
+#include "lichtmc/error.hpp"
+
+namespace lichtmc::python {
+
+DoubleArray doubles_of(nb::handle value, const std::string& what) {
+  try {
+    const nb::object array = nb::module_::import_("numpy").attr("ascontiguousarray")(value, "float64");
+    return nb::cast<DoubleArray>(array);
+  } catch (const nb::python_error&) {
+  } catch (const nb::cast_error&) {
+  }
+  throw InputError("The " + what + " is " + std::string(nb::repr(value).c_str()) +
+                   " (allowed: numbers, as a list, tuple or numpy array). Give it as such.");
+}
+
+std::string shape_text(const DoubleArray& array) {
+  std::string text = "(";
+  for (std::size_t k = 0; k < array.ndim(); ++k) text += (k > 0 ? ", " : "") + std::to_string(array.shape(k));
+  return text + (array.ndim() == 1 ? ",)" : ")");
+}
+
+glm::dvec3 vec3_of(nb::handle value, const std::string& what) {
+  const DoubleArray array = doubles_of(value, what);
+  if (array.ndim() != 1 || array.shape(0) != 3)
+    throw InputError("The " + what + " has the shape " + shape_text(array) +
+                     " (allowed: (3,)). Give three numbers: x, y, z.");
+  return {array.data()[0], array.data()[1], array.data()[2]};
+}
+
+std::vector<glm::dvec3> rows_of_3(nb::handle value, const std::string& what) {
+  const DoubleArray array = doubles_of(value, what);
+  const bool one = array.ndim() == 1 && array.shape(0) == 3;
+  if (!one && !(array.ndim() == 2 && array.shape(1) == 3))
+    throw InputError("The " + what + " has the shape " + shape_text(array) +
+                     " (allowed: (n, 3), or (3,) for a single one). Give x, y, z in each row.");
+  const std::size_t count = one ? 1 : array.shape(0);
+  std::vector<glm::dvec3> rows(count);
+  for (std::size_t k = 0; k < count; ++k)
+    rows[k] = {array.data()[3 * k], array.data()[3 * k + 1], array.data()[3 * k + 2]};
+  return rows;
+}
+
+}  // namespace lichtmc::python

@@ -1,0 +1,29 @@
+// Points, directions and arrays of them as arguments: anything that numpy makes an array of floats of.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace lichtmc::python {
+
+namespace nb = nanobind;
+
+// Three numbers, as a list, tuple or array. Throws InputError. what: "position of the emitter", for messages.
+glm::dvec3 vec3_of(nb::handle value, const std::string& what);
+
+// An array (n, 3), or (3,) as one row.
+std::vector<glm::dvec3> rows_of_3(nb::handle value, const std::string& what);
+
+// The value as a C-contiguous array of doubles of any shape. Throws InputError if it is no array of numbers.
+using DoubleArray = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
+DoubleArray doubles_of(nb::handle value, const std::string& what);
+
+// "(4, 3)", for messages.
+std::string shape_text(const DoubleArray& array);
+
+}  // namespace lichtmc::python

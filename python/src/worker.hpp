@@ -1,0 +1,94 @@
+// Long work for Python code: it runs in a thread of its own, while the calling thread waits without Python's lock, so
+// that other Python threads go on.
+//
+// The calling thread passes progress on to Python and looks for signals some times a second. Hence a callback needs no
+// thought about threads, an exception from it ends the work and is raised, and Ctrl-C (KeyboardInterrupt) requests a
+// stop: the work then returns what it has. A second Ctrl-C is raised, after the work has stopped.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+namespace lichtmc::python {
+
+namespace nb = nanobind;
+
+// How often the calling thread looks for signals: a response to Ctrl-C that feels immediate. 20 times a second costs
+// nothing measurable.
+inline constexpr std::chrono::milliseconds look_for_signals{50};
+
+// The part that does not depend on the types of the work.
+class CallingThread {
+ public:
+  explicit CallingThread(std::stop_source stop) : stop_(std::move(stop)) {}
+
+  // Runs `call`, which may call Python, and Python's signal handlers. The lock is taken for it.
+  void visit_python(const std::function<void()>& call) noexcept;
+  // Raises the first exception that `visit_python` has met, if any. With the lock.
+  void raise() const;
+
+ private:
+  void note(std::exception_ptr error);
+
+  std::stop_source stop_;
+  bool interrupted_ = false;
+  std::exception_ptr error_;
+};
+
+// Carries out work(stop, tell) -> Outcome, where tell(const Report&) may be called from any thread, and passes the
+// reports on to on_report(const Report&), which may be empty. A report replaces one that has not been passed on yet.
+template <class Outcome, class Report>
+Outcome work_aside(const std::function<Outcome(std::stop_token, const std::function<void(const Report&)>&)>& work,
+                   const std::function<void(const Report&)>& on_report) {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::optional<Report> report;
+  std::optional<Outcome> outcome;
+  std::exception_ptr failure;
+  bool done = false;
+  std::stop_source stop;
+  CallingThread caller(stop);
+  {
+    const nb::gil_scoped_release without_lock;
+    std::jthread thread([&] {
+      try {
+        outcome.emplace(work(stop.get_token(), [&](const Report& latest) {
+          const std::scoped_lock lock(mutex);
+          report = latest;
+          changed.notify_one();
+        }));
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      const std::scoped_lock lock(mutex);
+      done = true;
+      changed.notify_one();
+    });
+    for (bool working = true; working;) {
+      std::optional<Report> latest;
+      {
+        std::unique_lock lock(mutex);
+        changed.wait_for(lock, look_for_signals, [&] { return done || (report.has_value() && on_report); });
+        std::swap(latest, report);
+        working = !done;
+      }
+      caller.visit_python([&] {
+        if (latest && on_report) on_report(*latest);
+      });
+    }
+  }
+  caller.raise();
+  if (failure) std::rethrow_exception(failure);
+  return std::move(*outcome);
+}
+
+}  // namespace lichtmc::python
