@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks that a folder of src/ includes only folders below it, that the files of a folder do not include each other in a
-circle, and that a library is included in its own folder only.
+circle, that a library is included in its own folder only, and that the Python extension uses public headers.
 
 Usage: check_layers.py PROJECT_DIR
 """
@@ -49,7 +49,11 @@ LIBRARIES = {
     r"matio": ["src/output/"],
     r"xxhash": ["src/base/"],
     r"mpi\.h": ["src/mpi/"],
+    r"nanobind/|Python\.h": ["python/src/"],
+    r"cereal/": ["python/src/"],
 }
+# The Python extension is a program like any other: public headers, its own, and the commands of the program.
+BESIDE_PYTHON = ["python/src", "apps/lichtmc"]
 
 
 def faults(project):
@@ -64,7 +68,12 @@ def faults(project):
                     yield f"{file}: includes {include}, which belongs to the layer '{provider}'"
             elif folder != layer and folder not in BELOW[layer]:
                 yield f"{file}: includes {include}, which is not below the layer '{layer}'"
-    for pattern in ("src/*/*.[ch]pp", "include/lichtmc/*.hpp", "apps/*/*.[ch]pp"):
+    for file in sorted(project.glob("python/src/*.[ch]pp")):
+        for include in re.findall(r'#include "([^"]+)"', file.read_text()):
+            is_public = include.startswith("lichtmc/") and (project / "include" / include).exists()
+            if not is_public and not any((project / folder / include).exists() for folder in BESIDE_PYTHON):
+                yield f"{file}: includes {include}, which is neither a public header nor in {', '.join(BESIDE_PYTHON)}"
+    for pattern in ("src/*/*.[ch]pp", "include/lichtmc/*.hpp", "apps/*/*.[ch]pp", "python/src/*.[ch]pp"):
         for file in sorted(project.glob(pattern)):
             name = file.relative_to(project).as_posix()
             for include in re.findall(r"#include <([^>]+)>", file.read_text()):
