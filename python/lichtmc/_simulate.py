@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Callable
 
 from lichtmc import _core
+from lichtmc._arguments import count, flag, histories_of, number, numbers, optional, word
 from lichtmc._progress import listener
 
 OnProgress = Callable[[_core.Progress], object]
@@ -90,29 +91,34 @@ def simulate(
         InputError: The room or an argument is not valid.
         RuntimeError: Memory or the tracing device fails.
     """
+    if not isinstance(room, _core.Room):
+        raise _core.InputError(
+            f"The first argument of simulate() is {room!r} (allowed: a Room). Make one, for example with "
+            "Room.from_gltf(path)."
+        )
     settings = _core.make_settings(
-        photons=photons,
-        target_error=target_error,
-        max_time=max_time,
-        seed=seed,
-        threads=threads,
-        estimator=estimator,
-        engine=engine,
-        tile=tile,
-        only=only,
-        tile_walk=tile_walk,
-        receiver_walk=receiver_walk,
-        direct=direct,
-        max_bounces=max_bounces,
-        error_floor=error_floor,
-        error_floor_share=error_floor_share,
-        histories=histories,
-        impulse_response=impulse_response,
-        time_span=time_span,
-        orders=orders,
-        frequencies=frequencies,
-        squared_weights=squared_weights,
-        per_emitter=per_emitter,
+        photons=optional(count, "photons", photons, least=1),
+        target_error=optional(number, "target_error", target_error, "above 0; 0.01 means 1 %"),
+        max_time=optional(number, "max_time", max_time, "above 0, in s"),
+        seed=count("seed", seed),
+        threads=count("threads", threads, most=2**31 - 1),
+        estimator=word("estimator", estimator),
+        engine=word("engine", engine),
+        tile=number("tile", tile, "above 0, in m"),
+        only=word("only", only),
+        tile_walk=word("tile_walk", tile_walk),
+        receiver_walk=word("receiver_walk", receiver_walk),
+        direct=word("direct", direct),
+        max_bounces=optional(count, "max_bounces", max_bounces, least=1, most=4_000_000_000),
+        error_floor=optional(number, "error_floor", error_floor, "0 or more, in W/m² or lx"),
+        error_floor_share=number("error_floor_share", error_floor_share, "0 or more; 0.01 means 1 %"),
+        histories=optional(histories_of, "histories", histories),
+        impulse_response=optional(number, "impulse_response", impulse_response, "above 0, in s"),
+        time_span=optional(number, "time_span", time_span, "above 0, in s"),
+        orders=count("orders", orders, most=2**32 - 1),
+        frequencies=optional(numbers, "frequencies", frequencies, 3, "first, last, step in Hz"),
+        squared_weights=flag("squared_weights", squared_weights),
+        per_emitter=flag("per_emitter", per_emitter),
     )
     with listener(progress) as on_progress:
         result = _core.simulate(room, settings, on_progress)

@@ -42,16 +42,43 @@ void set_histories(Settings& settings, const Histories& histories) {
 }  // namespace
 
 void bind_settings(nb::module_& module) {
-  nb::class_<Settings>(module, "Settings", "The settings of a run. Make them with the arguments of simulate().")
-      .def_prop_ro("estimator", [](const Settings& s) { return to_string(s.estimator); })
-      .def_prop_ro("engine", [](const Settings& s) { return to_string(s.engine); })
-      .def_ro("photons", &Settings::photons)
-      .def_ro("first_history", &Settings::first_history)
-      .def_ro("target_error", &Settings::target_error)
-      .def_ro("max_time", &Settings::max_seconds)
-      .def_ro("seed", &Settings::seed)
-      .def_ro("threads", &Settings::threads)
-      .def_ro("tile", &Settings::tile_edge_m);
+  nb::class_<Settings> settings(module, "Settings",
+                                "The settings of a run: the arguments of simulate(), under their names.");
+  const auto add = [&settings](const char* name, const auto& value) {
+    settings.def_prop_ro(name, value, "See simulate().");
+  };
+  add("photons", [](const Settings& s) -> std::optional<std::uint64_t> {
+    if (s.part || s.photons == no_photon_limit) return std::nullopt;
+    return s.photons;
+  });
+  add("target_error", [](const Settings& s) { return s.target_error; });
+  add("max_time", [](const Settings& s) { return s.max_seconds; });
+  add("seed", [](const Settings& s) { return s.seed; });
+  add("threads", [](const Settings& s) { return s.threads; });
+  add("estimator", [](const Settings& s) { return to_string(s.estimator); });
+  add("engine", [](const Settings& s) { return to_string(s.engine); });
+  add("tile", [](const Settings& s) { return s.tile_edge_m; });
+  add("only", [](const Settings& s) { return to_string(s.measured); });
+  add("tile_walk", [](const Settings& s) { return to_string(s.tile_walk); });
+  add("receiver_walk", [](const Settings& s) { return to_string(s.receiver_walk); });
+  add("direct", [](const Settings& s) { return to_string(s.direct); });
+  add("max_bounces", [](const Settings& s) { return s.max_bounces; });
+  add("error_floor", [](const Settings& s) { return s.error_floor; });
+  add("error_floor_share", [](const Settings& s) { return s.error_floor_share; });
+  add("histories", [](const Settings& s) -> std::optional<Histories> {
+    if (!s.part) return std::nullopt;
+    return Histories{s.first_history, s.first_history + s.photons};
+  });
+  add("impulse_response", [](const Settings& s) { return s.channel.bin_width_s; });
+  add("time_span", [](const Settings& s) { return s.channel.time_span_s; });
+  add("orders", [](const Settings& s) { return s.channel.orders; });
+  add("frequencies", [](const Settings& s) -> std::optional<Frequencies> {
+    const FrequencyRange& range = s.channel.frequencies;
+    if (range.size() == 0) return std::nullopt;
+    return Frequencies{range.first_hz, range.last_hz, range.step_hz};
+  });
+  add("squared_weights", [](const Settings& s) { return s.channel.squared_weights; });
+  add("per_emitter", [](const Settings& s) { return s.per_emitter || s.channel.per_emitter; });
   module.def(
       "make_settings",
       [](std::optional<std::uint64_t> photons, std::optional<double> target_error, std::optional<double> max_time,
