@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests the readers of rooms, of tables of receivers and of photometric files with malformed files, under the address and undefined-behaviour sanitizers. Requires clang.
+# Tests the readers of rooms, of tables of receivers and of photometric files with malformed files, under the address and undefined-behaviour sanitizers, as built by clang without precompiled headers. Requires clang.
 #   tools/fuzz.sh [SECONDS]     default 60, a quarter of it each for tables and for photometric files; ends with 1 if a reader fails on a file, with 77
 #                               if clang is missing
 # Seeds are the room files of LICHTMC_ROOMS (../shared/rooms), scenes/ and tests/fuzz/rooms/, for tables and photometric files tests/fuzz/receivers/ and

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 
 #include <unistd.h>
 
@@ -16,14 +17,25 @@
 namespace {
 
 // A file for this process, in memory if the system has a folder for that.
-const std::filesystem::path& file() {
-  static const std::filesystem::path path = [] {
+struct OwnFile {
+  std::filesystem::path path;
+  OwnFile() {
     const std::filesystem::path memory = "/dev/shm";
     const std::filesystem::path folder =
         std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
-    return folder / ("lichtmc_fuzz_" + std::to_string(::getpid()) + ".gltf");
-  }();
-  return path;
+    path = folder / ("lichtmc_fuzz_" + std::to_string(::getpid()) + ".gltf");
+  }
+  ~OwnFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+  OwnFile(const OwnFile&) = delete;
+  OwnFile& operator=(const OwnFile&) = delete;
+};
+
+const std::filesystem::path& file() {
+  static const OwnFile own;
+  return own.path;
 }
 
 }  // namespace
