@@ -70,7 +70,7 @@ def listener(progress: bool | Callable[[Any], object] | None) -> Iterator[Callab
         yield None
     elif progress is True:
         try:
-            from tqdm.auto import tqdm
+            from tqdm.auto import tqdm  # type: ignore[import-untyped]
         except ImportError:
             shown: _Bar | _Line = _Line()
         else:

@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from typing import Literal
 
 from lichtmc import _core
 from lichtmc._arguments import count, flag, histories_of, number, numbers, optional, word
 from lichtmc._progress import listener
 
+Estimator = Literal["collision", "weight", "absorption", "auto"]
+Engine = Literal["auto", "cuboid", "embree", "embree-fast"]
+Measured = Literal["all", "tiles", "receivers"]
+WalkDirection = Literal["forward", "backward"]
+ReceiverWalk = Literal["auto", "two-way", "next-event", "backward"]
+Direct = Literal["sampled", "analytic"]
 OnProgress = Callable[[_core.Progress], object]
 
 
@@ -31,13 +38,13 @@ def simulate(
     max_time: float | None = None,
     seed: int = 1,
     threads: int = 0,
-    estimator: str = "collision",
-    engine: str = "auto",
+    estimator: Estimator = "collision",
+    engine: Engine = "auto",
     tile: float = 0.1,
-    only: str = "all",
-    tile_walk: str = "forward",
-    receiver_walk: str = "auto",
-    direct: str = "sampled",
+    only: Measured = "all",
+    tile_walk: WalkDirection = "forward",
+    receiver_walk: ReceiverWalk = "auto",
+    direct: Direct = "sampled",
     max_bounces: int | None = None,
     error_floor: float | None = None,
     error_floor_share: float = 0.01,

@@ -25,7 +25,7 @@ void bind_room(nb::module_& module) {
           "Reads a room from a .gltf or .glb file.")
       .def_static(
           "cuboid",
-          [](nb::handle size, double reflectance) {
+          [](const ArrayLike& size, double reflectance) {
             return SharedRoom(make_cuboid(vec3_of(size, "size of the cuboid"), uniform_reflectance(reflectance)));
           },
           nb::arg("size"), nb::arg("reflectance") = 0.5,

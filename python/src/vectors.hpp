@@ -13,6 +13,12 @@ namespace lichtmc::python {
 
 namespace nb = nanobind;
 
+// What numpy makes an array of: the type of such arguments in stubs and messages. Any object is accepted here.
+class ArrayLike : public nb::object {
+  NB_OBJECT(ArrayLike, nb::object, "numpy.typing.ArrayLike", always)
+  static bool always(PyObject* /*object*/) { return true; }
+};
+
 // Three numbers, as a list, tuple or array. Throws InputError. what: "position of the emitter", for messages.
 glm::dvec3 vec3_of(nb::handle value, const std::string& what);
 
