@@ -8,6 +8,7 @@
 #include "lichtmc/area.hpp"
 #include "lichtmc/dimmed_scene.hpp"
 #include "lichtmc/emitter_parts.hpp"
+#include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
 #include "lichtmc/units.hpp"
 
@@ -22,6 +23,9 @@ struct KeptParts {
   // Upright strips where the room's surfaces cross the plane of each level area: what plans show of the room.
   Room section;
 };
+
+// The parts of a result, as read_emitter_parts() reads them after the run was written. result.parts must be set.
+KeptParts kept_parts(const Room& room, const Result& result);
 
 // Reads emitter_parts.h5 from the folder of a run. Throws InputError if there is none (then the run had no
 // --per-emitter) or if it is damaged.

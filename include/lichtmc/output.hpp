@@ -32,10 +32,10 @@ struct ResultFiles {
   bool tile_images = true;  // tiles/NAME.exr
 };
 
-// Writes summary.json and emitters.csv into a folder; with results of tiles also tiles.csv, surfaces.csv and tiles/NAME.exr; with
-// results of receivers also receivers.csv; with impulse responses also impulse_response.csv, channels.csv, channels.h5
-// and channels.mat, except those that files_left_out() names; with calculation areas also areas.csv, and of each area
-// areas/NAME.csv (its grid), areas/NAME.svg and areas/NAME.dxf (its plan).
+// Writes summary.json and emitters.csv into a folder; with results of tiles also tiles.csv, surfaces.csv and
+// tiles/NAME.exr; with results of receivers also receivers.csv; with impulse responses also impulse_response.csv,
+// channels.csv, channels.h5 and channels.mat, except those that files_left_out() names; with calculation areas also
+// areas.csv, and of each area areas/NAME.csv (its grid), areas/NAME.svg and areas/NAME.dxf (its plan).
 //
 // All files are first written and flushed to disk under temporary names, then renamed; summary.json is renamed last: a
 // folder with a summary.json is complete. Tile maps and the report of an earlier run are removed. Throws RuntimeError
@@ -111,9 +111,25 @@ std::string luminaire_svg(const Photometry& photometry);
 // Writes it to a file, atomically. Throws RuntimeError if that fails.
 void write_luminaire_svg(const Photometry& photometry, const std::filesystem::path& file);
 
+// A figure with its standard error, to one digit of the error and at most so many of the value: "349 ± 2", "0.55 ±
+// 0.01". The error is rounded up. An error of 0 or an unknown one is left out. "–" without a value.
+std::string figure_text(const Figure& figure, int most_digits = 4);
+
 // The figures of a calculation area, for readers: "desk (task): Em 349 ± 2 lx, U0 0.55 ± 0.01, target 500 lx, 0.60:
 // fail".
 std::string area_line(const AreaResult& result, Quantity quantity);
+
+// The pixels of a picture: red, green, blue (sRGB, not multiplied by opacity) and opacity, 0 … 255 each, row by row
+// from the top left.
+std::vector<std::uint8_t> rgba_of(const Picture& picture);
+
+// The same as a PNG file. Throws RuntimeError if the memory does not suffice.
+std::string png_of(const Picture& picture);
+
+// A picture of the room with its title, the colour scale, marks for the emitters and dots in false colour for the
+// receivers, as an SVG file. `png`: png_of(picture).
+std::string room_svg(const Room& room, const Result& result, const Picture& picture, const std::string& png,
+                     const ColourScale& scale, View view);
 
 // The content of summary.json.
 std::string summary_json(const Room& room, const Result& result, const ResultFiles& files = {});

@@ -14,6 +14,7 @@
 #include "lichtmc/error.hpp"
 #include "lichtmc/settings.hpp"
 #include "named_values.hpp"
+#include "settings.hpp"
 
 namespace lichtmc::python {
 
@@ -39,7 +40,42 @@ void set_histories(Settings& settings, const Histories& histories) {
   settings.part = true;
 }
 
+template <class Value>
+nb::object number_or_none(const std::optional<Value>& value) {
+  return value ? nb::cast(*value) : nb::none();
+}
+
 }  // namespace
+
+nb::dict keywords_of(const Settings& s) {
+  nb::dict words;
+  const bool limited = !s.part && s.photons != no_photon_limit;
+  words["photons"] = limited ? nb::cast(s.photons) : nb::none();
+  words["target_error"] = number_or_none(s.target_error);
+  words["max_time"] = number_or_none(s.max_seconds);
+  words["seed"] = s.seed;
+  words["threads"] = s.threads;
+  words["estimator"] = to_string(s.estimator);
+  words["engine"] = to_string(s.engine);
+  words["tile"] = s.tile_edge_m;
+  words["only"] = to_string(s.measured);
+  words["tile_walk"] = to_string(s.tile_walk);
+  words["receiver_walk"] = to_string(s.receiver_walk);
+  words["direct"] = to_string(s.direct);
+  words["max_bounces"] = number_or_none(s.max_bounces);
+  words["error_floor"] = number_or_none(s.error_floor);
+  words["error_floor_share"] = s.error_floor_share;
+  words["histories"] = s.part ? nb::object(nb::make_tuple(s.first_history, s.first_history + s.photons)) : nb::none();
+  words["impulse_response"] = number_or_none(s.channel.bin_width_s);
+  words["time_span"] = number_or_none(s.channel.time_span_s);
+  words["orders"] = s.channel.orders;
+  const FrequencyRange& range = s.channel.frequencies;
+  words["frequencies"] =
+      range.size() > 0 ? nb::object(nb::make_tuple(range.first_hz, range.last_hz, range.step_hz)) : nb::none();
+  words["squared_weights"] = s.channel.squared_weights;
+  words["per_emitter"] = s.per_emitter || s.channel.per_emitter;
+  return words;
+}
 
 void bind_settings(nb::module_& module) {
   nb::class_<Settings> settings(module, "Settings",

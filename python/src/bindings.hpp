@@ -16,7 +16,15 @@ void bind_room(nb::module_& module);
 void bind_settings(nb::module_& module);
 void bind_simulate(nb::module_& module);
 void bind_result(nb::module_& module);
+void bind_figures(nb::module_& module);
 void bind_tiles(nb::module_& module);
+void bind_surfaces(nb::module_& module);
+void bind_receiver_results(nb::module_& module);
+void bind_area_results(nb::module_& module);
+void bind_reports(nb::module_& module);
+void bind_channels(nb::module_& module);  // after bind_result(), as the following
+void bind_parts(nb::module_& module);
+void bind_pictures(nb::module_& module);
 void bind_command_line(nb::module_& module);
 
 }  // namespace lichtmc::python

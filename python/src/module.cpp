@@ -13,8 +13,16 @@ NB_MODULE(_core, module) {
   module.attr("__version__") = std::string(lichtmc::version());
   bind_errors(module);
   bind_room(module);
-  bind_result(module);
+  bind_figures(module);
   bind_tiles(module);
+  bind_surfaces(module);
+  bind_receiver_results(module);
+  bind_area_results(module);
+  bind_reports(module);
+  bind_result(module);
+  bind_channels(module);
+  bind_parts(module);
+  bind_pictures(module);
   bind_settings(module);
   bind_simulate(module);
   bind_command_line(module);

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "lichtmc/error.hpp"
 
@@ -15,6 +16,19 @@ Enumeration named(std::string_view what, std::string_view name, std::initializer
   std::string allowed;
   for (const Enumeration value : values) {
     const std::string_view word = to_string(value);
+    if (word == name) return value;
+    allowed += (allowed.empty() ? "'" : ", '") + std::string(word) + "'";
+  }
+  throw InputError("The argument " + std::string(what) + " is '" + std::string(name) + "' (allowed: " + allowed +
+                   "). Choose one of these.");
+}
+
+// The same for enumerations without such a function.
+template <class Enumeration>
+Enumeration named(std::string_view what, std::string_view name,
+                  std::initializer_list<std::pair<std::string_view, Enumeration>> values) {
+  std::string allowed;
+  for (const auto& [word, value] : values) {
     if (word == name) return value;
     allowed += (allowed.empty() ? "'" : ", '") + std::string(word) + "'";
   }

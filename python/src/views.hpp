@@ -55,6 +55,22 @@ View<Scalar> shaped(const std::shared_ptr<Kept>& kept, const std::vector<Scalar>
   return View<Scalar>(first, dimensions, shape.data(), keep(kept));
 }
 
+// Of numbers at fixed distances, in units of a number, from `first`, which `kept` owns.
+template <class Scalar, std::size_t dimensions, class Kept>
+View<Scalar> strided(const std::shared_ptr<Kept>& kept, const Scalar* first,
+                     const std::array<std::size_t, dimensions>& shape,
+                     const std::array<std::int64_t, dimensions>& strides) {
+  static constexpr Scalar nothing{};
+  return View<Scalar>(first == nullptr ? &nothing : first, dimensions, shape.data(), keep(kept), strides.data());
+}
+
+// What a class's __array__(dtype, copy) returns, by numpy's protocol.
+inline nb::object as_array(const nb::object& array, const nb::object& dtype, const nb::object& copy) {
+  const nb::object numpy = nb::module_::import_("numpy");
+  const bool must_copy = !copy.is_none() && nb::cast<bool>(copy);
+  return must_copy ? numpy.attr("array")(array, dtype) : numpy.attr("asarray")(array, dtype);
+}
+
 // A new array that owns these values. Elsewhere only views are given: use it for what the library does not store so.
 template <class Scalar, std::size_t dimensions>
 View<Scalar> owned(std::vector<Scalar> values, const std::array<std::size_t, dimensions>& shape) {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/message.hpp"
-#include "lichtmc/output.hpp"
 
 namespace lichtmc {
 

@@ -4,14 +4,11 @@
 #include <string>
 
 #include "lichtmc/area.hpp"
+#include "lichtmc/output.hpp"  // figure_text()
 #include "lichtmc/result.hpp"
 #include "lichtmc/units.hpp"
 
 namespace lichtmc {
-
-// A figure with its standard error, to one digit of the error and at most so many of the value: "349 ± 2", "0.55 ±
-// 0.01". The error is rounded up. An error of 0 or an unknown one is left out. "–" without a value.
-std::string figure_text(const Figure& figure, int most_digits = 4);
 
 // "0.60"
 std::string uniformity_target_text(double target);

@@ -132,6 +132,14 @@ void write_arrays(const Result& result, H5Writer& writer) {
 
 }  // namespace
 
+KeptParts kept_parts(const Room& room, const Result& result) {
+  KeptParts kept{result.room, result.quantity, *result.parts, result.receivers, {}, {}};
+  for (const AreaResult& one : result.areas) kept.areas.push_back(one.area);
+  kept.section = strips_about(section_lines(room, result));
+  kept.section.source = kept.room;
+  return kept;
+}
+
 void write_emitter_parts(const Room& room, const Result& result, const Sink& sink) {
   const EmitterParts& parts = *result.parts;
   try {

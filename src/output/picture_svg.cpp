@@ -42,7 +42,7 @@ constexpr double plan_side = 480.0;  // units of a plan's longer side
 
 }  // namespace
 
-std::string png_of(const Picture& picture) {
+std::vector<std::uint8_t> rgba_of(const Picture& picture) {
   std::vector<std::uint8_t> pixels;
   pixels.reserve(4 * picture.colour.size());
   const auto byte = [](double value) {
@@ -61,7 +61,11 @@ std::string png_of(const Picture& picture) {
     }
     pixels.insert(pixels.end(), bytes.begin(), bytes.end());
   }
-  return png_file(picture.width, picture.height, 4, pixels);
+  return pixels;
+}
+
+std::string png_of(const Picture& picture) {
+  return png_file(picture.width, picture.height, 4, rgba_of(picture));
 }
 
 std::string exr_of(const Picture& picture, const Result& result) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "lichtmc/output.hpp"  // png_of(), room_svg()
 #include "lichtmc/paths.hpp"
 #include "lichtmc/picture.hpp"
 #include "lichtmc/result.hpp"
@@ -11,19 +12,11 @@
 
 namespace lichtmc {
 
-// The pixels as a PNG file with transparency.
-std::string png_of(const Picture& picture);
-
 // The pixels as an OpenEXR file of floats: R, G, B, A as in Picture::colour; Y is the irradiance (NaN without a
 // surface). Throws RuntimeError if OpenEXR or the allocation of memory fails.
 std::string exr_of(const Picture& picture, const Result& result);
 
-// The room with marks for the emitters, and dots in false colour for the receivers. `png`: png_of(picture), as in
-// plan_svg().
-std::string room_svg(const Room& room, const Result& result, const Picture& picture, const std::string& png,
-                     const ColourScale& scale, View view);
-
-// A plan with its isolines; `name`: its title.
+// A plan with its isolines; `png`: png_of(picture) of the plan; `name`: its title.
 std::string plan_svg(const Result& result, const SurfacePlan& plan, const std::string& png, const ColourScale& scale,
                      const std::string& name);
 
