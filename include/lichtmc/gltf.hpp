@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lichtmc/room.hpp"
@@ -53,11 +54,16 @@ struct ReadOptions {
 // pattern of `without` fits nothing.
 Room read_gltf(const std::filesystem::path& file, const ReadOptions& options = {});
 
+// The same from the content of a .glb file, or of a .gltf file with all its data embedded. source: its name, for
+// messages. Files that it names are refused; the option follow_links has no meaning. Limit: 2 GiB.
+Room parse_gltf(std::string_view bytes, const std::string& source, const ReadOptions& options = {});
+
 // Writes a room as a .glb (binary) or .gltf (JSON with embedded buffer) file; the extension of the name determines
-// which; photometric files are embedded. The points of calculation areas are written as receivers, areas without a grid as
-// areas. read_gltf() returns the same room, except that coordinates are rounded to float and reflectance maps to grey
-// images of 8 bits (their coordinates are then also used for the tiles of a surface without coordinates of its own).
-// The file is replaced atomically. Throws InputError for another extension, RuntimeError if the file cannot be written.
+// which; photometric files are embedded. The points of calculation areas are written as receivers, areas without a grid
+// as areas. read_gltf() returns the same room, except that coordinates are rounded to float and reflectance maps to
+// grey images of 8 bits (their coordinates are then also used for the tiles of a surface without coordinates of its
+// own). The file is replaced atomically. Throws InputError for another extension, RuntimeError if the file cannot be
+// written.
 void write_gltf(const Room& room, const std::filesystem::path& file);
 
 }  // namespace lichtmc

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "aside.hpp"
 #include "bindings.hpp"
 #include "lichtmc/simulate.hpp"
 #include "run_result.hpp"
@@ -77,8 +78,8 @@ void bind_simulate(nb::module_& module) {
           "Forecast of the time until target_error is met, s; NaN if there is none.");
   module.def(
       "simulate",
-      [](const SharedRoom& room, const Settings& settings, nb::object progress) {
-        const auto kept = room.kept();
+      [](SharedRoom& room, const Settings& settings, nb::object progress) {
+        const auto kept = with_areas(room).kept();
         return run_aside(kept, settings.threads, std::move(progress),
                          [&](const Control& control) { return simulate(kept->room, settings, control); });
       },

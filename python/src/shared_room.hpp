@@ -1,6 +1,7 @@
 // A room that Python code may change, and that results keep as it was when they were made.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -18,6 +19,7 @@ using StepListener = std::function<void(std::string_view)>;
 inline thread_local const StepListener* step_listener = nullptr;
 
 // A room, and what is known of its surfaces (lichtmc/prepared_room.hpp), which a second run then need not find again.
+// Results and views hold it as const.
 class KeptRoom {
  public:
   explicit KeptRoom(Room of) : room(std::move(of)) {}
@@ -36,7 +38,10 @@ class KeptRoom {
     return prepared_;
   }
 
-  const Room room;
+  // Before the surfaces change.
+  void forget_surfaces() { prepared_.reset(); }
+
+  Room room;
 
  private:
   mutable std::mutex mutex_;
@@ -44,31 +49,49 @@ class KeptRoom {
   mutable unsigned threads_ = 0;
 };
 
-// Copy on write: any number of results and copies share a room; a change is made to a copy of its own.
+// Copy on write: any number of results, views and copies share a room. A change is made in place if nothing else holds
+// the room, so that a thousand changes of a large room cost no copies; else to a copy of its own.
+//
+// All functions are called with Python's lock. Work without the lock holds kept() meanwhile, and so sees no change.
 class SharedRoom {
  public:
   explicit SharedRoom(Room room) : kept_(std::make_shared<KeptRoom>(std::move(room))) {}
-  explicit SharedRoom(std::shared_ptr<const KeptRoom> kept) : kept_(std::move(kept)) {}
+  // Made by this class: results return what they hold.
+  explicit SharedRoom(const std::shared_ptr<const KeptRoom>& kept) : kept_(std::const_pointer_cast<KeptRoom>(kept)) {}
 
   const Room& room() const { return kept_->room; }
-  const std::shared_ptr<const KeptRoom>& kept() const { return kept_; }
+  std::shared_ptr<const KeptRoom> kept() const { return kept_; }
 
-  // Changes the room by `change(Room&)`, whose value is returned; if that throws, the room is as before.
+  // Changes the room by change(Room&), and returns its value. The change must leave the room as it was if it throws,
+  // and its surfaces as they are but for reflectances.
   template <class Change>
-  auto change(const Change& change) {
-    Room changed = kept_->room;
-    if constexpr (std::is_void_v<decltype(change(changed))>) {
-      change(changed);
-      kept_ = std::make_shared<KeptRoom>(std::move(changed));
+  decltype(auto) change(const Change& change) {
+    take();
+    return change(kept_->room);
+  }
+
+  // The same for a change of surfaces.
+  template <class Change>
+  decltype(auto) change_surfaces(const Change& change) {
+    take();
+    kept_->forget_surfaces();
+    return change(kept_->room);
+  }
+
+  void replace(Room room) { kept_ = std::make_shared<KeptRoom>(std::move(room)); }
+
+ private:
+  // Makes the room its own.
+  void take() {
+    if (kept_.use_count() > 1) {
+      replace(Room(kept_->room));
     } else {
-      auto value = change(changed);
-      kept_ = std::make_shared<KeptRoom>(std::move(changed));
-      return value;
+      // What others did with the room before they let go of it is over: use_count() alone does not say so.
+      std::atomic_thread_fence(std::memory_order_acquire);
     }
   }
 
- private:
-  std::shared_ptr<const KeptRoom> kept_;
+  std::shared_ptr<KeptRoom> kept_;
 };
 
 }  // namespace lichtmc::python

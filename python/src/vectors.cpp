@@ -1,20 +1,26 @@
 #include "vectors.hpp"
 
+#include <nanobind/stl/string.h>
+
 #include <cstddef>
 
+#include "arguments.hpp"
 #include "lichtmc/error.hpp"
 
 namespace lichtmc::python {
 
+// Texts that look like numbers are refused, which numpy would convert.
 DoubleArray doubles_of(nb::handle value, const std::string& what) {
   try {
-    const nb::object array = nb::module_::import_("numpy").attr("ascontiguousarray")(value, "float64");
-    return nb::cast<DoubleArray>(array);
+    const nb::module_ numpy = nb::module_::import_("numpy");
+    const nb::object given = numpy.attr("asarray")(value);
+    const auto kind = nb::cast<std::string>(given.attr("dtype").attr("kind"));
+    if (kind == "f" || kind == "i" || kind == "u" || kind == "b")
+      return nb::cast<DoubleArray>(numpy.attr("ascontiguousarray")(given, "float64"));
   } catch (const nb::python_error&) {
   } catch (const nb::cast_error&) {
   }
-  throw InputError("The " + what + " is " + std::string(nb::repr(value).c_str()) +
-                   " (allowed: numbers, as a list, tuple or numpy array). Give it as such.");
+  refuse_value(what, value, "numbers, as a list, tuple or numpy array", "Give it as such.");
 }
 
 std::string shape_text(const DoubleArray& array) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,9 +24,10 @@ struct ExtensionUse {
 };
 
 struct Document {
-  std::string file;              // the path as the user gave it, for messages
-  std::filesystem::path folder;  // that contains it; buffers and images are beneath it
-  bool follow_links = false;     // whether they may be symbolic links that lead out of it
+  std::string file;  // the path as the user gave it, or the name of the bytes, for messages
+  // That contains it; buffers and images are beneath it. None: of bytes in memory, which may name no files.
+  std::optional<std::filesystem::path> folder;
+  bool follow_links = false;  // whether they may be symbolic links that lead out of it
   std::vector<ExtensionUse> extensions;
   std::vector<Ignored> property_notes;  // of check_custom_properties()
   tinygltf::Model model;

@@ -79,9 +79,22 @@ bool simplify_data_uri(Json& uri) {
 
 }  // namespace
 
+namespace {
+
+ContainedPath refused_without_folder() {
+  ContainedPath refused;
+  refused.fault = "the room is read from bytes in memory, which have no folder";
+  refused.allowed = "embedded data: a .glb file, or data: in a .gltf file";
+  refused.remedy = "Export the room as .glb with everything embedded, or read it from its file.";
+  return refused;
+}
+
+}  // namespace
+
 ContainedPath locate_name(const Document& document, const std::string& name) {
+  if (!document.folder) return refused_without_folder();
   const std::string scheme = scheme_of(name);
-  if (scheme.empty()) return path_within(document.folder, name, document.follow_links);
+  if (scheme.empty()) return path_within(*document.folder, name, document.follow_links);
   ContainedPath refused;
   refused.fault = "it has the scheme '" + scheme + ":'";
   refused.allowed = "a file beneath the folder of the file that names it, or data:";
@@ -91,8 +104,9 @@ ContainedPath locate_name(const Document& document, const std::string& name) {
 
 ContainedPath locate_uri(const Document& document, const std::string& uri) {
   // The scheme is looked for in the URI itself: "a%3Ab" is a name with a colon.
-  return scheme_of(uri).empty() ? path_within(document.folder, percent_decoded(uri), document.follow_links)
-                                : locate_name(document, uri);
+  return document.folder && scheme_of(uri).empty()
+             ? path_within(*document.folder, percent_decoded(uri), document.follow_links)
+             : locate_name(document, uri);
 }
 
 bool ExternalFiles::take(Json& json, Document& document) {

@@ -16,7 +16,7 @@
 namespace lichtmc {
 
 // The file that a URI names: its percent-encoding is decoded. Faults are those of path_within(), and a URI with a
-// scheme ("http:", "file:").
+// scheme ("http:", "file:"). Of a document in memory every file is a fault.
 ContainedPath locate_uri(const Document& document, const std::string& uri);
 
 // The file of a name that is not encoded, as people write it into custom properties; the same faults.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <new>
 #include <sstream>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -171,14 +172,8 @@ void parse(Document& document, const std::string& bytes, bool binary, ExternalFi
   store_images_in_buffers(document);
 }
 
-}  // namespace
-
-Document load_document(const std::filesystem::path& path, bool follow_links) {
-  Document document;
-  document.folder = path.parent_path();
-  document.follow_links = follow_links;
-  document.file = path.string();
-  std::string bytes = read_bytes(path, document.file);
+// The document of these bytes; its file and folder are set.
+Document load(Document document, std::string bytes) {
   const bool binary = is_binary(bytes);
   if (binary) check_container(bytes, document.file);
   const JsonText text = binary ? JsonText{20, word_at(bytes, 12)} : JsonText{0, bytes.size()};
@@ -199,6 +194,27 @@ Document load_document(const std::filesystem::path& path, bool follow_links) {
   decompress_views(document);
   decompress_primitives(document);
   return document;
+}
+
+}  // namespace
+
+Document load_document(const std::filesystem::path& path, bool follow_links) {
+  Document document;
+  document.folder = path.parent_path();
+  document.follow_links = follow_links;
+  document.file = path.string();
+  std::string bytes = read_bytes(path, document.file);
+  return load(std::move(document), std::move(bytes));
+}
+
+Document parse_document(std::string_view bytes, const std::string& source) {
+  if (bytes.empty() || bytes.size() > most_bytes) {
+    throw InputError(source + ": there are " + std::to_string(bytes.size()) + " bytes (allowed: 1 to " +
+                     std::to_string(most_bytes) + "). Give the content of a .gltf or .glb file.");
+  }
+  Document document;
+  document.file = source;
+  return load(std::move(document), std::string(bytes));
 }
 
 }  // namespace lichtmc

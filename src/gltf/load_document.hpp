@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "gltf/document.hpp"
 
@@ -14,5 +15,9 @@ namespace lichtmc {
 // unknown extension; if its GLB container or compressed data is damaged; or if a buffer is missing, too short or not
 // beneath the folder of the file.
 Document load_document(const std::filesystem::path& file, bool follow_links);
+
+// The same of the content of a file, up to 2 GiB. source: its name, for messages. Throws InputError also if it names a
+// file of a buffer; texture_source.hpp and photometric_files.hpp refuse those of images and luminaires.
+Document parse_document(std::string_view bytes, const std::string& source);
 
 }  // namespace lichtmc

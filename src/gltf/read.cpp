@@ -436,4 +436,9 @@ Room read_gltf(const std::filesystem::path& file, const ReadOptions& options) {
   return RoomReader(document, options).read();
 }
 
+Room parse_gltf(std::string_view bytes, const std::string& source, const ReadOptions& options) {
+  const Document document = parse_document(bytes, source);
+  return RoomReader(document, options).read();
+}
+
 }  // namespace lichtmc

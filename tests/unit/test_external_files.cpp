@@ -168,3 +168,58 @@ TEST_CASE("a room file that is no regular file is refused") {
   fs::resize_file(large, std::uintmax_t{1} << 42);
   CHECK_THAT(message(large), ContainsSubstring("4398046511104 bytes"));
 }
+
+namespace {
+
+std::string refusal_of_bytes(const json& document) {
+  try {
+    parse_gltf(document.dump(), "bytes");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a room is read from the content of a file, as from the file") {
+  const TemporaryFolder folder;
+  for (const char* name : {"room.glb", "room.gltf"}) {
+    INFO(name);
+    const Room room = read_document(triangle_document());
+    write_gltf(room, folder.path() / name);
+    std::ifstream in(folder.path() / name, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const Room from_file = read_gltf(folder.path() / name);
+    ReadOptions options;
+    options.scale = 0.01;
+    const Room parsed = parse_gltf(bytes, "bytes");
+    CHECK(parsed.source == "bytes");
+    REQUIRE(parsed.surfaces.size() == from_file.surfaces.size());
+    CHECK(parsed.surfaces[0].positions == from_file.surfaces[0].positions);
+    CHECK(parsed.surfaces[0].reflectance == from_file.surfaces[0].reflectance);
+    CHECK(parsed.emitters.size() == from_file.emitters.size());
+    CHECK(parse_gltf(bytes, "bytes", options).surfaces[0].positions != parsed.surfaces[0].positions);
+    CHECK_THROWS_WITH(parse_gltf(bytes.substr(0, bytes.size() / 2), "half"), ContainsSubstring("half: "));
+  }
+  CHECK_THROWS_WITH(parse_gltf("", "nothing"), ContainsSubstring("nothing: there are 0 bytes"));
+  CHECK_THROWS_AS(parse_gltf("a letter", "bytes"), InputError);
+}
+
+// A file of this name in the working folder must not be read either.
+TEST_CASE("bytes in memory name no files") {
+  const auto refused = ContainsSubstring("which have no folder (allowed: embedded data");
+  CHECK_THAT(refusal_of_bytes(with_buffer("a.bin")), refused && ContainsSubstring("buffer 0"));
+  CHECK_THAT(refusal_of_bytes(with_buffer("file:///etc/passwd")), refused);
+  json textured = triangle_document();
+  textured["images"] = {{{"uri", "paint.png"}}};
+  textured["textures"] = {{{"source", 0}}};
+  textured["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+      add_accessor(textured, std::vector<float>{0, 0, 0, 1, 1, 0}, "VEC2", 5126, 2);
+  textured["materials"][0]["extras"].erase("reflectance");
+  textured["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  CHECK_THAT(refusal_of_bytes(textured), refused && ContainsSubstring("paint.png"));
+  json with_luminaire = triangle_document();
+  with_luminaire["nodes"][1]["extras"] = {{"ies", "lamp.ies"}};
+  CHECK_THAT(refusal_of_bytes(with_luminaire), refused && ContainsSubstring("lamp.ies"));
+}

@@ -1,0 +1,141 @@
+#include "arguments.hpp"
+
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/string.h>
+
+#include <cmath>
+
+#include "lichtmc/error.hpp"
+#include "vectors.hpp"
+
+namespace lichtmc::python {
+
+namespace {
+
+// The name of the type, for values whose repr tells little.
+std::string type_of(nb::handle value) {
+  return nb::type_name(value.type()).c_str();
+}
+
+// True, False, or one of numpy.
+bool is_flag(nb::handle value) {
+  return nb::isinstance<nb::bool_>(value) || type_of(value).starts_with("numpy.bool");
+}
+
+}  // namespace
+
+std::string shown(nb::handle value) {
+  constexpr std::size_t longest = 80;  // bytes
+  std::string text = nb::repr(value).c_str();
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not within a character
+  return text.substr(0, end) + "…";
+}
+
+void refuse_value(const std::string& what, nb::handle value, const std::string& allowed, const std::string& remedy) {
+  throw InputError("The " + what + " is " + shown(value) + " (allowed: " + allowed + "). " + remedy);
+}
+
+double number_of(nb::handle value, const std::string& what) {
+  const double number = is_flag(value) ? 0.0 : PyFloat_AsDouble(value.ptr());
+  if (!is_flag(value) && PyErr_Occurred() == nullptr) return number;
+  PyErr_Clear();
+  refuse_value(what, value, "a number", "Give a number, for example 0.5.");
+}
+
+std::optional<double> optional_number(nb::handle value, const std::string& what) {
+  if (value.is_none()) return std::nullopt;
+  return number_of(value, what);
+}
+
+std::int64_t whole_number_of(nb::handle value, const std::string& what, std::int64_t least, std::int64_t most) {
+  const nb::object integer =
+      nb::isinstance<nb::float_>(value) && std::trunc(nb::cast<double>(value)) == nb::cast<double>(value)
+          ? nb::steal(PyNumber_Long(value.ptr()))  // such as 1e6
+          : nb::steal(PyNumber_Index(value.ptr()));
+  const long long number = integer.is_valid() ? PyLong_AsLongLong(integer.ptr()) : 0;
+  const bool whole = PyErr_Occurred() == nullptr && !is_flag(value);
+  PyErr_Clear();
+  if (whole && number >= least && number <= most) return number;
+  refuse_value(what, value, "a whole number, " + std::to_string(least) + " to " + std::to_string(most),
+               "Give such a number.");
+}
+
+std::vector<double> numbers_of(nb::handle value, const std::string& what, std::size_t count, const std::string& each) {
+  const DoubleArray array = doubles_of(value, what);
+  const std::size_t given = array.ndim() == 1 ? array.shape(0) : 0;
+  if (given == count && array.ndim() == 1) return {array.data(), array.data() + count};
+  if (given == 1) return std::vector<double>(count, array.data()[0]);
+  throw InputError("The " + what + " has the shape " + shape_text(array) + " (allowed: (" + std::to_string(count) +
+                   ",), one for each " + each + ", or one number). Give as many as there are.");
+}
+
+std::string text_of(nb::handle value, const std::string& what) {
+  std::string text;
+  if (nb::isinstance<nb::str>(value) && nb::try_cast(value, text)) return text;
+  refuse_value(what, value, "a text", "Give a str.");
+}
+
+std::vector<std::string> texts_of(nb::handle value, const std::string& what) {
+  if (nb::isinstance<nb::str>(value)) return {text_of(value, what)};
+  const nb::object items = nb::steal(PyObject_GetIter(value.ptr()));
+  if (!items.is_valid()) {
+    PyErr_Clear();
+    refuse_value(what, value, "texts, as a list or tuple", "Give a list of str.");
+  }
+  std::vector<std::string> texts;
+  while (true) {
+    const nb::object item = nb::steal(PyIter_Next(items.ptr()));
+    if (!item.is_valid()) break;
+    texts.push_back(text_of(item, what + " at position " + std::to_string(texts.size())));
+  }
+  if (PyErr_Occurred() != nullptr) throw nb::python_error();
+  return texts;
+}
+
+bool flag_of(nb::handle value, const std::string& what) {
+  if (is_flag(value)) return PyObject_IsTrue(value.ptr()) == 1;
+  refuse_value(what, value, "True or False", "Give one of these.");
+}
+
+std::filesystem::path path_of(nb::handle value, const std::string& what) {
+  std::filesystem::path path;
+  if (nb::try_cast(value, path)) return path;
+  PyErr_Clear();
+  refuse_value(what, value, "the name of a file, as str or pathlib.Path",
+               "Give such a name" + std::string(nb::isinstance<nb::bytes>(value)
+                                                    ? "; for the content of a file in memory use the function for it."
+                                                    : "."));
+}
+
+Quantity unit_of(nb::handle value) {
+  const std::string unit = nb::isinstance<nb::str>(value) ? text_of(value, "unit") : std::string();
+  for (const Quantity quantity : {Quantity::photometric, Quantity::radiometric}) {
+    if (unit == power_unit(quantity)) return quantity;
+  }
+  refuse_value("unit", value, "'lm' for luminous flux, 'W' for radiant flux", "Give one of these.");
+}
+
+WholeArray whole_numbers_of(nb::handle value, const std::string& what) {
+  std::string type = type_of(value);
+  try {
+    const nb::module_ numpy = nb::module_::import_("numpy");
+    const nb::object array = numpy.attr("asarray")(value);
+    const auto kind = nb::cast<std::string>(array.attr("dtype").attr("kind"));
+    if (kind == "i" || kind == "u") return nb::cast<WholeArray>(numpy.attr("ascontiguousarray")(array, "int64"));
+    type = nb::cast<std::string>(array.attr("dtype").attr("name"));
+  } catch (const nb::python_error&) {
+  } catch (const nb::cast_error&) {
+  }
+  throw InputError("The type of the " + what + " is " + type +
+                   " (allowed: integers, as a list, tuple or numpy array). Convert it, for example by .astype(int).");
+}
+
+std::string shape_text(const WholeArray& array) {
+  std::string text = "(";
+  for (std::size_t k = 0; k < array.ndim(); ++k) text += (k > 0 ? ", " : "") + std::to_string(array.shape(k));
+  return text + (array.ndim() == 1 ? ",)" : ")");
+}
+
+}  // namespace lichtmc::python

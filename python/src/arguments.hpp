@@ -1,0 +1,52 @@
+// Arguments of Python code: numbers, texts, file names, arrays of whole numbers. Where a value is of another type, the
+// message says what was expected in words of the user, in place of a TypeError with types of C++.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lichtmc/units.hpp"
+
+namespace lichtmc::python {
+
+namespace nb = nanobind;
+
+// Text of a value for messages: its repr, shortened.
+std::string shown(nb::handle value);
+
+// Throws InputError: "The {what} is {value} (allowed: {allowed}). {remedy}"
+[[noreturn]] void refuse_value(const std::string& what, nb::handle value, const std::string& allowed,
+                               const std::string& remedy);
+
+// A number; numpy's scalars are numbers, texts are not.
+double number_of(nb::handle value, const std::string& what);
+// None: none.
+std::optional<double> optional_number(nb::handle value, const std::string& what);
+// A whole number, least ≤ n ≤ most.
+std::int64_t whole_number_of(nb::handle value, const std::string& what, std::int64_t least, std::int64_t most);
+// `count` numbers: an array of that length, or one number for all. each: "receiver", for messages.
+std::vector<double> numbers_of(nb::handle value, const std::string& what, std::size_t count, const std::string& each);
+
+std::string text_of(nb::handle value, const std::string& what);
+// A sequence of texts; a single text is one.
+std::vector<std::string> texts_of(nb::handle value, const std::string& what);
+bool flag_of(nb::handle value, const std::string& what);
+std::filesystem::path path_of(nb::handle value, const std::string& what);
+// "lm" or "W".
+Quantity unit_of(nb::handle value);
+
+// A C-contiguous array of whole numbers of any shape. Throws InputError if the value is none: also for floats.
+using WholeArray = nb::ndarray<const std::int64_t, nb::c_contig, nb::device::cpu>;
+WholeArray whole_numbers_of(nb::handle value, const std::string& what);
+// "(4, 3)", for messages.
+std::string shape_text(const WholeArray& array);
+
+}  // namespace lichtmc::python

@@ -1,0 +1,41 @@
+// Work without Python's lock that cannot be stopped half-way: reading files, checks, grids.
+#pragma once
+
+#include <functional>
+#include <stop_token>
+
+#include "shared_room.hpp"
+#include "worker.hpp"
+
+namespace lichtmc::python {
+
+// Ctrl-C came during work that goes on to its end.
+struct Interrupted {};
+
+// The outcome of work(), which runs in another thread while other Python threads go on. After Ctrl-C KeyboardInterrupt
+// is raised, once the work has ended.
+template <class Outcome>
+Outcome aside(const std::function<Outcome()>& work) {
+  const std::function<Outcome(std::stop_token, const std::function<void(const int&)>&)> stoppable =
+      [&](const std::stop_token& stop, const std::function<void(const int&)>& /*tell*/) {
+        Outcome outcome = work();
+        if (stop.stop_requested()) throw Interrupted{};
+        return outcome;
+      };
+  try {
+    return work_aside<Outcome, int>(stoppable, {});
+  } catch (const Interrupted&) {
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    throw nb::python_error();
+  }
+}
+
+// A room that calculation areas have been added to, or other slow work been done on: change(Room&) works on a copy.
+// Throws InputError if the room was changed meanwhile by another thread.
+void change_aside(SharedRoom& room, const std::function<void(Room&)>& change);
+
+// The room with the areas of its file laid out: when they are first needed, because the emitters that are added after
+// reading tell which rooms are lit.
+const SharedRoom& with_areas(SharedRoom& room);
+
+}  // namespace lichtmc::python

@@ -1,0 +1,51 @@
+// The parts of the class Room, and what they share.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <memory>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "shared_room.hpp"
+#include "views.hpp"
+
+namespace lichtmc::python {
+
+using RoomClass = nb::class_<SharedRoom>;
+
+void bind_surfaces_of_room(nb::module_& module, RoomClass& room);
+void bind_emitters_of_room(nb::module_& module, RoomClass& room);
+void bind_receivers_of_room(nb::module_& module, RoomClass& room);
+void bind_areas_of_room(nb::module_& module, RoomClass& room);
+void bind_check(nb::module_& module, RoomClass& room);
+void bind_paths(nb::module_& module, RoomClass& room);
+
+using KeptRoomPtr = std::shared_ptr<const KeptRoom>;
+
+// A room of this source and quantity that is valid, with nothing in it but a triangle and an emitter: parts are put
+// into it to be checked with the library's messages before they enter the room.
+Room room_for_checks(const Room& like);
+
+// Three numbers as a new array, shape (3,).
+inline View<double> array_of(const glm::dvec3& v) {
+  return owned<double, 1>({v.x, v.y, v.z}, {3});
+}
+
+// Views (n, 2) or (n, 3) of points.
+template <class Kept>
+View<double> points_view(const std::shared_ptr<Kept>& kept, const std::vector<glm::dvec3>& points) {
+  static constexpr glm::dvec3 none{};
+  const std::size_t shape[2] = {points.size(), 3};
+  return View<double>(points.empty() ? &none.x : &points.front().x, 2, shape, keep(kept));
+}
+template <class Kept>
+View<double> points_view(const std::shared_ptr<Kept>& kept, const std::vector<glm::dvec2>& points) {
+  static constexpr glm::dvec2 none{};
+  const std::size_t shape[2] = {points.size(), 2};
+  return View<double>(points.empty() ? &none.x : &points.front().x, 2, shape, keep(kept));
+}
+
+}  // namespace lichtmc::python
