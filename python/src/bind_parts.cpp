@@ -120,7 +120,7 @@ std::vector<double> factors_from(const EmitterParts& parts, nb::handle given) {
   return {array.data(), array.data() + array.size()};
 }
 
-ScenePtr dim_emitters(const RunResultPtr& run, nb::handle given) {
+ScenePtr dim_emitters(const RunResultPtr& run, nb::object given) {
   const EmitterParts& parts = parts_of(*run);
   std::vector<Area> areas;
   for (const AreaResult& one : run->result.areas) areas.push_back(one.area);

@@ -12,7 +12,6 @@
 #include "bindings.hpp"
 #include "lichtmc/units.hpp"
 #include "result_parts.hpp"
-#include "settings.hpp"
 
 namespace lichtmc::python {
 
@@ -75,9 +74,8 @@ void bind_facts_of(nb::class_<RunResult>& of) {
           "irradiance_unit", [](const RunResult& run) { return irradiance_unit(run.result.quantity); },
           "Unit of irradiances: 'W/m^2' or 'lx'.")
       .def_prop_ro(
-          "settings", [](const RunResult& run) { return keywords_of(run.result.settings); },
-          nb::sig("def settings(self) -> dict[str, typing.Any]"),
-          "The settings as requested: simulate(room, **result.settings) repeats the run. A new dict.")
+          "settings", [](const RunResult& run) { return run.result.settings; },
+          "The settings as requested, by attribute or as a dict: simulate(room, **result.settings) repeats the run.")
       .def_prop_ro(
           "engine", [](const RunResult& run) { return to_string(run.result.engine); },
           "'cuboid', 'embree' or 'embree-fast', as used.")

@@ -3,18 +3,20 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
+#include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bindings.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/settings.hpp"
 #include "named_values.hpp"
-#include "settings.hpp"
 
 namespace lichtmc::python {
 
@@ -40,48 +42,41 @@ void set_histories(Settings& settings, const Histories& histories) {
   settings.part = true;
 }
 
-template <class Value>
-nb::object number_or_none(const std::optional<Value>& value) {
-  return value ? nb::cast(*value) : nb::none();
+// The methods that **settings and dict(settings) need.
+void bind_keys(nb::class_<Settings>& settings, const std::vector<std::string>& names) {
+  settings
+      .def(
+          "keys", [names](const Settings& /*s*/) { return names; }, "The names of the settings.")
+      .def("__len__", [names](const Settings& /*s*/) { return names.size(); })
+      .def(
+          "__getitem__",
+          [names](nb::object s, const std::string& name) {
+            if (std::find(names.begin(), names.end(), name) == names.end()) {
+              const std::string text = "There is no setting '" + name + "'. Their names are in .keys().";
+              throw nb::key_error(text.c_str());
+            }
+            return nb::object(s.attr(name.c_str()));
+          },
+          nb::arg("name"), "By name.")
+      .def("__iter__",
+           [](nb::object s) -> nb::typed<nb::iterator, std::string> {
+             return nb::steal<nb::iterator>(PyObject_GetIter(nb::object(s.attr("keys")()).ptr()));
+           })
+      .def("__repr__", [](nb::object s) {
+        return "Settings(" + std::string(nb::repr(nb::module_::import_("builtins").attr("dict")(s)).c_str()) + ")";
+      });
 }
 
 }  // namespace
 
-nb::dict keywords_of(const Settings& s) {
-  nb::dict words;
-  const bool limited = !s.part && s.photons != no_photon_limit;
-  words["photons"] = limited ? nb::cast(s.photons) : nb::none();
-  words["target_error"] = number_or_none(s.target_error);
-  words["max_time"] = number_or_none(s.max_seconds);
-  words["seed"] = s.seed;
-  words["threads"] = s.threads;
-  words["estimator"] = to_string(s.estimator);
-  words["engine"] = to_string(s.engine);
-  words["tile"] = s.tile_edge_m;
-  words["only"] = to_string(s.measured);
-  words["tile_walk"] = to_string(s.tile_walk);
-  words["receiver_walk"] = to_string(s.receiver_walk);
-  words["direct"] = to_string(s.direct);
-  words["max_bounces"] = number_or_none(s.max_bounces);
-  words["error_floor"] = number_or_none(s.error_floor);
-  words["error_floor_share"] = s.error_floor_share;
-  words["histories"] = s.part ? nb::object(nb::make_tuple(s.first_history, s.first_history + s.photons)) : nb::none();
-  words["impulse_response"] = number_or_none(s.channel.bin_width_s);
-  words["time_span"] = number_or_none(s.channel.time_span_s);
-  words["orders"] = s.channel.orders;
-  const FrequencyRange& range = s.channel.frequencies;
-  words["frequencies"] =
-      range.size() > 0 ? nb::object(nb::make_tuple(range.first_hz, range.last_hz, range.step_hz)) : nb::none();
-  words["squared_weights"] = s.channel.squared_weights;
-  words["per_emitter"] = s.per_emitter || s.channel.per_emitter;
-  return words;
-}
-
 void bind_settings(nb::module_& module) {
   nb::class_<Settings> settings(module, "Settings",
-                                "The settings of a run: the arguments of simulate(), under their names.");
-  const auto add = [&settings](const char* name, const auto& value) {
+                                "The settings of a run: the arguments of simulate() as attributes or, as in a dict, by "
+                                "name: simulate(room, **result.settings) repeats a run.");
+  std::vector<std::string> names;
+  const auto add = [&](const char* name, const auto& value) {
     settings.def_prop_ro(name, value, "See simulate().");
+    names.emplace_back(name);
   };
   add("photons", [](const Settings& s) -> std::optional<std::uint64_t> {
     if (s.part || s.photons == no_photon_limit) return std::nullopt;
@@ -115,6 +110,7 @@ void bind_settings(nb::module_& module) {
   });
   add("squared_weights", [](const Settings& s) { return s.channel.squared_weights; });
   add("per_emitter", [](const Settings& s) { return s.per_emitter || s.channel.per_emitter; });
+  bind_keys(settings, names);
   module.def(
       "make_settings",
       [](std::optional<std::uint64_t> photons, std::optional<double> target_error, std::optional<double> max_time,
