@@ -23,4 +23,9 @@ struct DimmedScene {
 DimmedScene dim(const EmitterParts& parts, const std::vector<Receiver>& receivers, const std::vector<Area>& areas,
                 const std::vector<double>& factors);
 
+// Covariances of the irradiances by the parts, direct and reflected light together, in (W/m²)² or lx²: receiver, part,
+// part, the last one fastest. √(Σ fᵢ fⱼ Cᵢⱼ) is the standard error of a receiver of dim() with the factors f: they
+// include the factor by which few rounds make errors uncertain (Student's).
+std::vector<double> covariances(const EmitterParts& parts);
+
 }  // namespace lichtmc

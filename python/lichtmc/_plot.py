@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -45,6 +45,12 @@ class _Paper:
     across_falls: bool = False  # the coordinate decreases to the right
     upwards_falls: bool = False  # it decreases upwards
     metres: bool = True
+
+    def part(self, rows: slice, columns: slice) -> _Paper:
+        def cut(corners: Array) -> Array:
+            return corners[rows.start : rows.stop + 1, columns.start : columns.stop + 1]
+
+        return replace(self, across=cut(self.across), upwards=cut(self.upwards))
 
     def centres(self) -> tuple[Array, Array]:
         def middle(corners: Array) -> Array:
@@ -102,10 +108,9 @@ def _cell_paper(rows: int, columns: int) -> _Paper:
     return _Paper(across, upwards, "column of the tile", "row of the tile", metres=False)
 
 
-def _edges_of_cells(surface: _core.SurfaceResult) -> tuple[Array, Array, Array] | None:
+def _edges_of_cells(position: Array, area: Array) -> tuple[Array, Array, Array] | None:
     """Corner of the grid and edges of a cell, m; None if the tiles are not cells of one plane grid."""
-    position, area = surface.grid_position, surface.grid_area
-    whole = np.nan_to_num(area) > 0.999 * np.nanmax(area)  # the points of these are their centres
+    whole = np.nan_to_num(area) > 0.999 * np.nanmax(area, initial=0.0)  # the points of these are their centres
     rows, columns = np.nonzero(whole)
     numbers = np.column_stack([np.ones(len(rows)), columns + 0.5, rows + 0.5])
     fit, _, rank, _ = np.linalg.lstsq(numbers, position[whole], rcond=None)
@@ -124,13 +129,25 @@ def _corners(rows: int, columns: int, corner: Array, u: Array, v: Array) -> Arra
     return corner + np.arange(columns + 1.0)[None, :, None] * u + np.arange(rows + 1.0)[:, None, None] * v
 
 
-def _surface_paper(result: _core.Result, surface: _core.SurfaceResult) -> _Paper:
-    edges = _edges_of_cells(surface)
+def _reached(result: _core.Result, surface: _core.SurfaceResult) -> NDArray[np.bool_]:
+    """Cells with a tile that light can reach; all tiles if it reaches none."""
+    tiles = result.tiles
+    reached = np.zeros((surface.rows, surface.columns), dtype=bool)
+    reached[tiles.row[surface.tile_slice], tiles.column[surface.tile_slice]] = ~tiles.unreached[surface.tile_slice]
+    return reached if reached.any() else np.isfinite(surface.grid_area)
+
+
+def _surface_paper(result: _core.Result, surface: _core.SurfaceResult, reached: NDArray[np.bool_]) -> _Paper:
+    edges = _edges_of_cells(surface.grid_position, np.where(reached, surface.grid_area, np.nan))
     if edges is None:
         return _cell_paper(surface.rows, surface.columns)
-    position, area = result.tiles.position, result.tiles.area
-    middle = np.average(position, axis=0, weights=area)
+    middle = np.average(result.tiles.position, axis=0, weights=result.tiles.area)
     return _flat_paper(_corners(surface.rows, surface.columns, *edges), edges[1], edges[2], middle)
+
+
+def _span(used: NDArray[np.bool_]) -> slice:
+    numbers = np.nonzero(used)[0]
+    return slice(int(numbers[0]), int(numbers[-1]) + 1)
 
 
 # --- Drawing ----------------------------------------------------------------------------------------------------------
@@ -195,10 +212,10 @@ def _draw_cells(ax: Any, paper: _Paper, values: Array, norm: Any, colours: str) 
 
 
 def _smoothed(values: Array, errors: Array) -> Array:
-    """By a Gaussian that leaves 2 % of statistical error, so that isolines show the light and not its noise."""
+    """By a Gaussian that leaves 0.5 % of statistical error, so that isolines show the light and not its noise."""
     mean = float(np.nanmean(values))
     error = float(np.sqrt(np.nanmean(np.square(errors)))) / mean if mean > 0 else 0.0
-    width = min(error / (2 * math.sqrt(math.pi) * 0.02), min(values.shape) / 8)
+    width = min(error / (2 * math.sqrt(math.pi) * 0.005), min(values.shape) / 8)
     if not width > 0.3:
         return values
     reach = np.arange(-math.ceil(3 * width), math.ceil(3 * width) + 1)
@@ -254,6 +271,11 @@ def _number(value: float) -> str:
     return f"{value:.{min(decimals, 9)}f}"
 
 
+def _plain(value: float) -> str:
+    """The same with a space between thousands, for large values."""
+    return f"{float(f'{value:.3g}'):,.0f}".replace(",", "\u2009") if value >= 1000 else _number(value)
+
+
 def _write_values(ax: Any, paper: _Paper, values: Array, image: Any) -> None:
     if values.size > _MOST_TEXTS:
         return
@@ -279,7 +301,7 @@ def _write_values(ax: Any, paper: _Paper, values: Array, image: Any) -> None:
 
 
 def _finish(ax: Any, paper: _Paper, title: str) -> None:
-    ax.set_aspect("equal" if paper.metres else "auto")
+    ax.set_aspect("equal")
     low, high = float(paper.across.min()), float(paper.across.max())
     ax.set_xlim((high, low) if paper.across_falls else (low, high))
     low, high = float(paper.upwards.min()), float(paper.upwards.max())
@@ -290,10 +312,16 @@ def _finish(ax: Any, paper: _Paper, title: str) -> None:
 
 
 def _add_colour_bar(ax: Any, paper: _Paper, image: Any, label: str, extend: str) -> None:
+    from matplotlib.colors import LogNorm
+    from matplotlib.ticker import FuncFormatter, LogLocator
+
     width, height = float(np.ptp(paper.across)), float(np.ptp(paper.upwards))
-    thickness = 0.035 * max(1.0, height / width) if paper.metres else 0.035
+    thickness = 0.035 * max(1.0, height / width)
     bar = ax.figure.colorbar(image, cax=ax.inset_axes((1 + thickness, 0, thickness, 1)), extend=extend)
     bar.set_label(label)
+    if isinstance(image.norm, LogNorm):
+        bar.set_ticks(LogLocator(subs=(1.0, 2.0, 5.0)), format=FuncFormatter(lambda value, _: f"{value:g}"))
+        bar.minorticks_off()
 
 
 def _unit_text(result: _core.Result) -> tuple[str, str]:
@@ -325,11 +353,17 @@ def plot_surface(
     """See Result.plot_surface()."""
     _pyplot()
     one = result.surfaces[surface]
-    paper = _surface_paper(result, one)
+    reached = _reached(result, one)
+    rows, columns = _span(reached.any(axis=1)), _span(reached.any(axis=0))
+    paper = _surface_paper(result, one, reached).part(rows, columns)
+
+    def shown(grid: Array) -> Array:
+        return np.where(reached, grid, np.nan)[rows, columns]
+
     _, unit = _unit_text(result)
     return _plot_grid(
-        result, ax, paper, one.grid, one.grid_error, np.nan_to_num(one.grid_area), f"{one.name}: {one.figure} {unit}",
-        error=error, texts=False, isolines=isolines, colours=colours, scale=scale, scale_max=scale_max,
+        result, ax, paper, shown(one.grid), shown(one.grid_error), np.nan_to_num(shown(one.grid_area)),
+        f"{one.name}: {one.figure} {unit}", error=error, texts=False, isolines=isolines, colours=colours, scale=scale, scale_max=scale_max,
     )  # fmt: skip
 
 
@@ -386,7 +420,7 @@ def _order_colours(count: int) -> list[Any]:
 def _channel_title(channels: _core.Channels, e: int, r: int) -> str:
     gain = channels.gain[e, r]
     emitter = "all emitters" if channels.emitters[e] == "all" else channels.emitters[e]
-    decibels = f" = {10 * math.log10(gain.value):.2f} dB" if gain.value > 0 else ""
+    decibels = f" = {10 * math.log10(gain.value):.2f} dB".replace("-", "−") if gain.value > 0 else ""
     return f"{emitter} → {channels.receivers[r]}: H(0) = {gain}{decibels}"
 
 
@@ -398,7 +432,11 @@ def _draw_stack(ax: Any, edges: Array, h: Array, names: list[str]) -> None:
 
 
 def _draw_lines(ax: Any, edges: Array, h: Array, names: list[str], log: bool) -> None:
+    few = 3  # bins: a pulse, not a curve
     for row, name, colour in zip(h, names, _order_colours(len(names))):
+        if np.count_nonzero(row) <= few:
+            ax.vlines((edges[:-1] + edges[1:])[row > 0] / 2, 0.0, row[row > 0], color=colour, label=name)
+            continue
         shown = np.where(row > 0, row, np.nan) if log else row
         ax.stairs(shown, edges, baseline=None, color=colour, label=name, linewidth=1.2)
 
@@ -414,17 +452,17 @@ def _draw_band(ax: Any, edges: Array, total: Array, errors: Array, log: bool) ->
     )  # fmt: skip
 
 
-def _cut_line_of_sight(ax: Any, edges: Array, h: Array) -> bool:
+def _cut_line_of_sight(ax: Any, edges: Array, h: Array, errors: Array) -> bool:
     """A line of sight in one bin would leave nothing to see of the rest."""
-    reflected = float(h[1:].sum(axis=0).max())
+    reflected = float((h[1:].sum(axis=0) + np.where(h[0] > 0, 0.0, np.nan_to_num(errors))).max())
     peak = int(np.argmax(h[0]))
     highest = float(h[:, peak].sum())
     if not 0 < reflected < highest / _TALL:
         return False
-    ax.set_ylim(0.0, 1.25 * reflected)
+    ax.set_ylim(0.0, 1.15 * reflected)
     ax.annotate(
-        f"line of sight, up to {highest:.3g} 1/s", xy=((edges[peak] + edges[peak + 1]) / 2, 1.24 * reflected),
-        xytext=(8, -2), textcoords="offset points", va="top", fontsize="small",
+        f"line of sight: up to {_plain(highest)} 1/s", xy=((edges[peak] + edges[peak + 1]) / 2, 1.15 * reflected),
+        xytext=(5, -3), textcoords="offset points", va="top", fontsize="small",
     )  # fmt: skip
     return True
 
@@ -467,7 +505,7 @@ def plot_channel(
             top = float(h.sum(axis=0).max())
             ax.set_yscale("log")
             ax.set_ylim(max(1e-6 * top, 0.5 * float(h[h > 0].min())), 2 * top)
-        elif not _cut_line_of_sight(ax, edges, h):
+        elif not _cut_line_of_sight(ax, edges, h, channels.standard_error_all[e, r]):
             ax.set_ylim(bottom=0.0)
     ax.set_xlabel(f"time since emission ({unit_text})")
     ax.set_ylabel("h(t) (1/s)")

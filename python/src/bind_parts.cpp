@@ -5,6 +5,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -53,34 +54,20 @@ View<double> irradiance(const Parts& parts) {
   return owned(std::move(values), parts.shape());
 }
 
-// Of direct and reflected light together, which are independent of each other.
-double covariance(const EmitterParts& all, std::size_t receiver, std::size_t i, std::size_t j) {
-  const std::size_t high = std::max(i, j);
-  const double reflected = all.covariance[receiver * all.pairs() + high * (high + 1) / 2 + std::min(i, j)];
-  const double direct = all.direct_error[all.at(receiver, i)];
-  return i == j ? reflected + direct * direct : reflected;
-}
-
-View<double> covariances(const Parts& parts) {
-  const EmitterParts& all = parts.parts();
-  const std::size_t count = all.parts.size();
-  std::vector<double> values;
-  values.reserve(all.receivers * count * count);
-  for (std::size_t receiver = 0; receiver < all.receivers; ++receiver) {
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; j < count; ++j) values.push_back(covariance(all, receiver, i, j));
-    }
-  }
-  return owned(std::move(values), std::array<std::size_t, 3>{all.receivers, count, count});
+View<double> all_covariances(const Parts& parts) {
+  const auto [receivers, count] = parts.shape();
+  return owned(covariances(parts.parts()), std::array<std::size_t, 3>{receivers, count, count});
 }
 
 View<double> standard_errors(const Parts& parts) {
-  const EmitterParts& all = parts.parts();
-  std::vector<double> values;
-  for (std::size_t receiver = 0; receiver < all.receivers; ++receiver) {
-    for (std::size_t i = 0; i < all.parts.size(); ++i) values.push_back(std::sqrt(covariance(all, receiver, i, i)));
+  const auto [receivers, count] = parts.shape();
+  const std::vector<double> all = covariances(parts.parts());
+  std::vector<double> errors;
+  for (std::size_t k = 0; k < receivers; ++k) {
+    for (std::size_t i = 0; i < count; ++i)
+      errors.push_back(std::sqrt(std::max(0.0, all[(k * count + i) * count + i])));
   }
-  return owned(std::move(values), parts.shape());
+  return owned(std::move(errors), parts.shape());
 }
 
 const EmitterParts& parts_of(const RunResult& run) {
@@ -111,7 +98,7 @@ std::vector<double> factors_from(const EmitterParts& parts, nb::handle given) {
     }
     return factors_of(parts, dimmed);
   }
-  const DoubleArray array = doubles_of(given, "factors");
+  const DoubleArray array = doubles_of(given, "array of factors");
   if (array.ndim() != 1 || array.shape(0) != parts.parts.size())
     throw InputError("The array of factors has the shape " + shape_text(array) + " (allowed: (" +
                      std::to_string(parts.parts.size()) +
@@ -161,7 +148,7 @@ void bind_parts_class(nb::module_& module) {
       .def_prop_ro("standard_error", &standard_errors, has_owner,
                    "Standard errors of irradiance, same unit, float64 (R, P). A copy. The errors of different parts "
                    "are correlated, see covariance.")
-      .def_prop_ro("covariance", &covariances, has_owner,
+      .def_prop_ro("covariance", &all_covariances, has_owner,
                    "Covariances of the irradiances by the parts, (W/m²)² or lx², float64 (R, P, P). A copy.")
       .def_prop_ro(
           "direct", [](const Parts& parts) { return shaped(parts.run, parts.parts().direct, parts.shape()); },
@@ -224,7 +211,7 @@ void bind_parts(nb::module_& module) {
           "parts",
           [](const RunResultPtr& run) { return run->result.parts ? std::optional<Parts>(Parts{run}) : std::nullopt; },
           "The parts of the emitters at receivers and areas; None unless the run had per_emitter=True.")
-      .def("dim", &dim_emitters, nb::arg("factors"),
+      .def("dim", &dim_emitters, nb::arg("factors").none(),
            nb::sig("def dim(self, factors: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike) -> Scene"),
            "The receivers and areas with some emitters dimmed, without new photons; for runs with per_emitter=True.\n\n"
            "factors: a dict of names or patterns ('desk*') and factors of 0 or more, 1 for all others; or an array "

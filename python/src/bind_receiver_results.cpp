@@ -94,11 +94,11 @@ void bind_receiver_results(nb::module_& module) {
           [](const ReceiverResults& receivers, nb::object key) {
             return OneReceiver{receivers.of, elements(receivers).find(key)};
           },
-          nb::arg("key"), "By name, or by number.")
+          nb::arg("key").none(), "By name, or by number.")
       .def(
           "__contains__",
           [](const ReceiverResults& receivers, nb::object key) { return elements(receivers).contains(key); },
-          nb::arg("key"), "Whether a receiver has this name.")
+          nb::arg("key").none(), "Whether a receiver has this name.")
       .def("__repr__",
            [](const ReceiverResults& receivers) {
              return "ReceiverResults(" + std::to_string(places(receivers).size()) + ")";

@@ -40,11 +40,11 @@ void bind_mapping(nb::class_<Mapping>& of, const Elements& elements, const Eleme
           [elements, element](const Mapping& mapping, nb::object key) {
             return element(mapping, elements(mapping).find(key));
           },
-          nb::arg("key"), "By name, or by number.")
+          nb::arg("key").none(), "By name, or by number.")
       .def(
           "__contains__",
           [elements](const Mapping& mapping, nb::object key) { return elements(mapping).contains(key); },
-          nb::arg("key"))
+          nb::arg("key").none())
       .def("__iter__",
            [elements](const Mapping& mapping) -> nb::typed<nb::iterator, std::string> {
              return nb::steal<nb::iterator>(PyObject_GetIter(elements(mapping).names().ptr()));
@@ -77,7 +77,7 @@ void bind_mapping(nb::class_<Mapping>& of, const Elements& elements, const Eleme
             const NamedElements named = elements(mapping);
             return named.contains(key) ? nb::cast(element(mapping, named.find(key))) : otherwise;
           },
-          nb::arg("key"), nb::arg("default").none() = nb::none(), "The element, or `default` if there is none.");
+          nb::arg("key").none(), nb::arg("default").none() = nb::none(), "The element, or `default` if there is none.");
   nb::module_::import_("collections.abc").attr("Mapping").attr("register")(of);
 }
 

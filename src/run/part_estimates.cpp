@@ -149,6 +149,23 @@ std::vector<ReceiverResult> receivers_by_parts(const EmitterParts& parts, const 
   return results;
 }
 
+std::vector<double> covariances(const EmitterParts& parts) {
+  const std::size_t count = parts.parts.size();
+  const double student = student_factor(static_cast<double>(parts.rounds) - 1.0);
+  std::vector<double> all;
+  all.reserve(parts.receivers * count * count);
+  for (std::size_t k = 0; k < parts.receivers; ++k) {
+    const double* reflected = parts.covariance.data() + k * parts.pairs();
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        const double direct = i == j ? std::pow(parts.direct_error[parts.at(k, i)], 2) : 0.0;
+        all.push_back(student * student * reflected[PartSums::pair(std::max(i, j), std::min(i, j))] + direct);
+      }
+    }
+  }
+  return all;
+}
+
 DimmedScene dim(const EmitterParts& parts, const std::vector<Receiver>& receivers, const std::vector<Area>& areas,
                 const std::vector<double>& factors) {
   if (factors.size() != parts.parts.size())
