@@ -34,7 +34,7 @@ Room living_room(std::size_t receivers) {
 Settings receiver_settings(std::uint64_t histories) {
   Settings settings;
   settings.estimator = Estimator::weight;
-  settings.measured = Measured::receivers;
+  settings.measured = lichtmc::Measured::receivers;
   settings.photons = histories;
   settings.threads = 1;
   return settings;

@@ -34,7 +34,7 @@ TimeRatio time_of_points(const Room& room, Engine engine, std::uint64_t historie
   Settings settings;
   settings.estimator = Estimator::weight;
   settings.engine = engine;
-  settings.measured = Measured::receivers;
+  settings.measured = lichtmc::Measured::receivers;
   settings.photons = histories;
   settings.threads = 1;
   const Result result = simulate(room, settings);

@@ -108,7 +108,7 @@ class Faults(FaultTest):
         failed = 0
         left = []  # the sets of files that were new after a failure
         # Limits from 0 to the largest file: the state, a table or the report is the first that does not fit.
-        for kilobytes in [0, 1, 2, 4, 8] + [largest * k // 12 for k in range(1, 12)]:
+        for kilobytes in [0, 1, 2, 4, 8] + [largest * k // 8 for k in range(1, 8)]:
             done = self.limited(kilobytes, "run", CUBE, "-o", out, "--seed", "2", *options)
             if done.returncode == 0:
                 continue
