@@ -1,6 +1,5 @@
 // lichtmc compare: do two results agree within their standard errors?
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -10,7 +9,6 @@
 
 #include "commands.hpp"
 #include "lichtmc/compare.hpp"
-#include "lichtmc/visible_text.hpp"
 
 namespace lichtmc::app {
 
@@ -26,60 +24,9 @@ struct CompareOptions {
   std::size_t worst = 5;
 };
 
-std::string text(const char* form, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, form, value);
-  return buffer;
-}
-
-std::string p_value(double probability) {
-  return probability < 1e-9 ? "less than 1e-9" : text("%.2g", probability);
-}
-
-// The values with the largest |z|, the largest first.
-std::vector<const FigurePair*> worst_of(const Comparison& comparison, std::size_t count) {
-  std::vector<const FigurePair*> worst;
-  for (const FigurePair& pair : comparison.figures) worst.push_back(&pair);
-  count = std::min(count, worst.size());
-  std::partial_sort(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(count), worst.end(),
-                    [](const FigurePair* a, const FigurePair* b) { return std::abs(a->z()) > std::abs(b->z()); });
-  worst.resize(count);
-  return worst;
-}
-
-void print(const Comparison& comparison, std::size_t count) {
-  std::cout << to_string(comparison.what) << ": " << comparison.figures.size() << " compared";
-  if (comparison.dark > 0) std::cout << "; " << comparison.dark << " are 0 in both";
-  if (comparison.unknown > 0) std::cout << "; " << comparison.unknown << " excluded: their standard errors are unknown";
-  if (comparison.unmatched > 0)
-    std::cout << "; " << comparison.unmatched << " receivers excluded: not at the point of exactly one tile";
-  std::cout << ".\n";
-  if (comparison.figures.empty()) return;
-  std::cout << "  B over A: " << text("%+.3g", 100.0 * comparison.difference) << " % with a standard error of "
-            << text("%.2g", 100.0 * comparison.difference_error) << " % (mean of all)\n"
-            << "  chi-square " << text("%.5g", comparison.chi_square) << ", expected "
-            << text("%.5g", comparison.expected_chi_square) << "; p-value " << p_value(comparison.chi_square_chance)
-            << '\n'
-            << "  largest |z| " << text("%.3g", std::abs(comparison.largest_z)) << " ("
-            << visible_text(comparison.figures[comparison.largest].name) << "); p-value "
-            << p_value(comparison.largest_chance) << " for the largest of " << comparison.figures.size() << '\n';
-  if (!comparison.agree) {
-    for (const FigurePair* pair : worst_of(comparison, count)) {
-      std::cout << "    " << visible_text(pair->name) << ": A " << text("%.5g", pair->a) << " +- "
-                << text("%.2g", pair->error_a) << ", B " << text("%.5g", pair->b) << " +- "
-                << text("%.2g", pair->error_b) << ", z " << text("%+.3g", pair->z()) << '\n';
-    }
-  }
-  std::cout << (comparison.agree ? "  They agree within their standard errors.\n"
-                                 : "  They disagree: by chance this occurs less than once in a million comparisons.\n");
-  if (!comparison.agree && comparison.what == ComparisonOf::tiles_at_receivers)
-    std::cout << "  A tile gives the mean over its area, a receiver the value at one point. Smaller tiles reduce this "
-                 "difference.\n";
-}
-
 nlohmann::ordered_json json_of(const Comparison& comparison, std::size_t count) {
   nlohmann::ordered_json worst = nlohmann::ordered_json::array();
-  for (const FigurePair* pair : worst_of(comparison, count)) {
+  for (const FigurePair* pair : worst_figures(comparison, count)) {
     worst.push_back({{"name", pair->name},
                      {"a", pair->a},
                      {"a_standard_error", pair->error_a},
@@ -188,7 +135,7 @@ void compare(const CompareOptions& options, int& status) {
     if (options.json) {
       all.push_back(json_of(comparison, options.worst));
     } else {
-      print(comparison, options.worst);
+      std::cout << comparison_text(comparison, options.worst);
     }
   }
   if (options.json) print_json(all);

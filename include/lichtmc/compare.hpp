@@ -68,6 +68,12 @@ std::vector<Comparison> compare_results(const std::filesystem::path& a, const st
 // The same for two results in memory, called "a" and "b" in messages.
 std::vector<Comparison> compare(const Result& a, const Result& b);
 
+// Those of its figures with the largest |z|, the largest first; at most `count`.
+std::vector<const FigurePair*> worst_figures(const Comparison& comparison, std::size_t count);
+
+// The comparison in words, a few lines; if they disagree, with the `count` worst figures.
+std::string comparison_text(const Comparison& comparison, std::size_t count = 5);
+
 // A calculation area of a design.
 struct DesignArea {
   std::string name;

@@ -38,6 +38,7 @@
 #include "lichtmc/settings.hpp"            // IWYU pragma: export
 #include "lichtmc/simulate.hpp"            // IWYU pragma: export
 #include "lichtmc/state.hpp"               // IWYU pragma: export
+#include "lichtmc/state_bytes.hpp"         // IWYU pragma: export
 #include "lichtmc/study.hpp"               // IWYU pragma: export
 #include "lichtmc/tiles.hpp"               // IWYU pragma: export
 #include "lichtmc/units.hpp"               // IWYU pragma: export

@@ -30,6 +30,8 @@ namespace lichtmc {
 // Which files write_results() writes.
 struct ResultFiles {
   bool tile_images = true;  // tiles/NAME.exr
+  // The content of result.lichtmc, in which a program keeps what it needs to have the result again; empty: none.
+  std::string kept = {};
 };
 
 // Writes summary.json and emitters.csv into a folder; with results of tiles also tiles.csv, surfaces.csv and

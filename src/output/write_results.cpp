@@ -29,6 +29,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* kept_result_file = "result.lichtmc";
+
 // Creates, writes and removes a file; returns the error if that fails. A check of permissions is not sufficient: the
 // disk may be full or mounted read-only.
 std::error_code try_to_write(const fs::path& folder) {
@@ -106,6 +108,7 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
   write_areas(room, result, staged);
   if (result.parts)
     staged.write(emitter_parts_file, [&](const Sink& sink) { write_emitter_parts(room, result, sink); });
+  if (!files.kept.empty()) staged.write(kept_result_file, files.kept);
   staged.write("emitters.csv", emitters_csv(room));
   staged.write("summary.json", [&](const Sink& sink) { write_summary(room, result, files, sink); });
   staged.flush();
@@ -130,6 +133,7 @@ void write_results(const Room& room, const Result& result, const fs::path& folde
   if (result.receiver_results.empty()) remove_old(folder / "receivers.csv");
   remove_old_areas(result, folder);
   if (!result.parts) remove_old(folder / emitter_parts_file);
+  if (files.kept.empty()) remove_old(folder / kept_result_file);
   if (!result.channels) {
     for (const char* name : {"impulse_response.csv", "channels.csv", "channels.h5"}) remove_old(folder / name);
   }

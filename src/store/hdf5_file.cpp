@@ -112,6 +112,19 @@ Hdf5File::Hdf5File(const std::filesystem::path& file) : Hdf5File() {
   handles_->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "open the file");
 }
 
+Hdf5File Hdf5File::of_bytes(std::string_view bytes) {
+  Hdf5File made;
+  const Handle access = hdf5_file_access();
+  constexpr std::size_t growth = 1 << 16;  // never needed: the file is only read
+  constexpr bool on_disk = false;
+  check(H5Pset_fapl_core(access, growth, on_disk), "set up HDF5");
+  // HDF5 takes the bytes by a pointer to variable ones, and copies them.
+  check(H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()), "set up HDF5");
+  made.handles_->file_bytes = bytes.size();
+  made.handles_->file = Handle(H5Fopen("memory.h5", H5F_ACC_RDONLY, access), H5Fclose, "open the file");
+  return made;
+}
+
 std::string_view Hdf5File::image() {
   Handles& h = *handles_;
   h.group.close();

@@ -31,6 +31,8 @@ class Hdf5File {
   static Hdf5File in_memory(std::uint64_t user_bytes, std::uint64_t about);
   // An existing file, to read.
   explicit Hdf5File(const std::filesystem::path& file);
+  // The same, of the bytes of a file, which are copied.
+  static Hdf5File of_bytes(std::string_view bytes);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;

@@ -17,4 +17,7 @@ std::string seal_of(std::string_view title, std::string_view rest);
 // Throws InputError if the file is missing, has another title, or is damaged.
 void check_seal(const std::filesystem::path& file, std::string_view title);
 
+// The same for the bytes of such a file. source: what messages call them.
+void check_seal(std::string_view bytes, const std::string& source, std::string_view title);
+
 }  // namespace lichtmc

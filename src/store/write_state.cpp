@@ -1,6 +1,11 @@
+#include <functional>
+#include <string>
+#include <string_view>
+
 #include "base/atomic_file.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/state.hpp"
+#include "lichtmc/state_bytes.hpp"
 #include "store/sealed_file.hpp"
 #include "store/state_layout.hpp"
 
@@ -24,9 +29,9 @@ std::uint64_t size_of(const StateData& data) {
   return bytes;
 }
 
-}  // namespace
-
-void write_state(const State& state, const std::filesystem::path& file, std::string_view note) {
+// Passes the seal and the rest of the file to `take`. what: what is made of it, for messages.
+void produce(const State& state, std::string_view note, const std::string& what,
+             const std::function<void(const std::string& seal, std::string_view rest)>& take) {
   if (state.empty()) throw InputError("The state is empty (allowed: one that simulate() has returned).");
   StateData data = state.data();
   data.note = note;
@@ -34,14 +39,32 @@ void write_state(const State& state, const std::filesystem::path& file, std::str
     Hdf5File hdf5 = Hdf5File::in_memory(seal_bytes, size_of(data));
     write_layout(hdf5, data);
     const std::string_view rest = hdf5.image();
-    write_file_atomically(file, [rest](const Sink& sink) {
-      sink(seal_of(state_title, rest));
-      sink(rest);
-    });
+    take(seal_of(state_title, rest), rest);
   } catch (const Hdf5Error& error) {
-    throw RuntimeError("Cannot write " + file.string() + " (" + error.what() +
+    throw RuntimeError("Cannot write " + what + " (" + error.what() +
                        "). There may be too little memory: use larger tiles.");
   }
+}
+
+}  // namespace
+
+void write_state(const State& state, const std::filesystem::path& file, std::string_view note) {
+  produce(state, note, file.string(), [&](const std::string& seal, std::string_view rest) {
+    write_file_atomically(file, [&](const Sink& sink) {
+      sink(seal);
+      sink(rest);
+    });
+  });
+}
+
+std::string state_bytes(const State& state, std::string_view note) {
+  std::string bytes;
+  produce(state, note, "the state", [&](const std::string& seal, std::string_view rest) {
+    bytes.reserve(seal.size() + rest.size());
+    bytes += seal;
+    bytes += rest;
+  });
+  return bytes;
 }
 
 }  // namespace lichtmc

@@ -29,7 +29,7 @@ PUBLIC = {
     "error": "base", "walk_direction": "base", "emitter_law": "chance", "candela_table": "chance", "intensity_cut": "chance", "luminous_opening": "chance", "units": "base", "version": "base", "visible_text": "base",
     "room": "room", "area": "room", "figure": "room", "emitter_parts": "room", "photometry": "room", "cover": "room", "cuboid": "room", "overrides": "room", "tiles": "room", "receiver_table": "room",
     "settings": "room", "channel": "room", "fingerprint": "room",  # plain data that every layer may read
-    "communicator": "run", "control": "run", "progress": "run", "state": "run", "mpi": "mpi",
+    "communicator": "run", "control": "run", "progress": "run", "state": "run", "state_bytes": "run", "mpi": "mpi",
     "result": "run", "dimmed_scene": "run", "lay_areas": "run", "simulate": "run", "receivers": "run", "study": "run", "inspect": "inspect",
     "prepared_room": "tracer", "paths": "walk", "picture": "view", "area_drawing": "view",
     "gltf": "gltf", "lit_room": "gltf", "output": "output", "emitter_parts_file": "output", "compare": "output", "luminaire_figures": "output", "folder_lock": "output",
@@ -47,7 +47,7 @@ LIBRARIES = {
     r"hwy/": ["src/chance/", "src/walk/"],
     r"hdf5\.h": ["src/base/hdf5", "src/store/", "src/output/channels_h5", "src/output/h5_"],
     r"matio": ["src/output/"],
-    r"xxhash": ["src/base/"],
+    r"xxhash": ["src/base/", "python/src/"],
     r"mpi\.h": ["src/mpi/"],
     r"nanobind/|Python\.h": ["python/src/"],
     r"cereal/": ["python/src/"],

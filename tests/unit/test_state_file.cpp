@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lichtmc/error.hpp"
+#include "lichtmc/state_bytes.hpp"
 #include "support/catch.hpp"
 #include "support/rooms.hpp"
 #include "support/state_files.hpp"
@@ -60,6 +61,30 @@ TEST_CASE("a state reads back as it was written") {
   const std::string first = bytes_of(scratch.file());
   write_state(read, scratch.file(), read.note());
   CHECK(bytes_of(scratch.file()) == first);
+}
+
+TEST_CASE("the bytes of a state are those of its file") {
+  const Scratch scratch;
+  const State state = small_state();
+  write_state(state, scratch.file(), "note");
+  const std::string bytes = state_bytes(state, "note");
+  CHECK(bytes == bytes_of(scratch.file()));
+  CHECK(state_bytes(parse_state(bytes, "bytes"), "note") == bytes);
+  std::size_t accepted = 0;
+  for (std::size_t place = 0; place < bytes.size(); place += place < 1024 ? 1 : 37) {
+    std::string damaged = bytes;
+    damaged[place] = static_cast<char>(damaged[place] ^ 8);
+    for (const std::string& changed : {damaged, bytes.substr(0, place)}) {
+      try {
+        parse_state(changed, "bytes");
+        ++accepted;
+      } catch (const InputError&) {
+      }
+    }
+  }
+  CHECK(accepted == 0);
+  CHECK_THROWS_WITH(parse_state("", "the pickle"), ContainsSubstring("the pickle") && ContainsSubstring("no state"));
+  CHECK_THROWS_AS(state_bytes({}), InputError);
 }
 
 TEST_CASE("a changed bit anywhere in a state is detected") {
