@@ -18,6 +18,7 @@ packages=(
   libopenmpi-dev openmpi-bin                 # runs on several machines
   libhwy-dev                                 # SIMD random numbers
   libcli11-dev                               # command line
+  libcereal-dev                              # pickles of the Python package
   nlohmann-json3-dev                         # summary.json, writing of glTF
   catch2                                     # tests
   python3                                    # test scripts of the command line, pictures of the paper

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lichtmc/error.hpp"
+#include "noted_room.hpp"
 #include "quantities.hpp"
 
 namespace lichtmc::app {
@@ -40,6 +41,11 @@ RunOptions noted_options(const State& state, const fs::path& file) {
                      " (allowed: a state written by `lichtmc run`). Continue it with the program that wrote it.");
   };
   const nlohmann::json note = nlohmann::json::parse(state.note(), nullptr, false);
+  if (note.is_object() && note.contains("python"))
+    throw InputError("The state " + file.string() +
+                     " was written from Python, whose rooms have no options of a command line (allowed here: a state "
+                     "written by `lichtmc run`). Continue it in Python: lichtmc.resume(lichtmc.Result.load(FOLDER), "
+                     "…), or lichtmc.merge().");
   if (!note.is_object() || !note.contains("arguments") || !note["arguments"].is_array() ||
       !note.contains("directory") || !note["directory"].is_string())
     refuse("");
@@ -80,19 +86,20 @@ RunOptions options_of(const State& state, const fs::path& file, const OverrideOp
 
 namespace {
 
-void check_exists(const std::string& file, const std::string& what, const std::string& option) {
+void check_exists(const std::string& file, const std::string& what, const std::string& remedy) {
   std::error_code unknown;
   if (fs::exists(file, unknown)) return;
-  throw InputError("Cannot find " + what + " " + file +
-                   " of the run (allowed: the same content at any path). Give its path with " + option + ".");
+  throw InputError("Cannot find " + what + " " + file + " of the run (allowed: the same content at any path). " +
+                   remedy + ".");
 }
 
 }  // namespace
 
 RunJob job_of(const State& state, const RunOptions& run, const OverrideOptions& overrides,
               const std::string& command_line) {
-  if (!overrides.room) check_exists(run.reading.file, "the room", "--room");
-  if (!overrides.receivers && run.receivers) check_exists(*run.receivers, "the table of receivers", "--receivers");
+  if (!overrides.room) check_exists(run.reading.file, "the room", "Give its path with --room");
+  if (!overrides.receivers && run.receivers)
+    check_exists(*run.receivers, "the table of receivers", "Give its path with --receivers");
   RunJob job;
   job.settings = state.settings();
   job.report = parse_report(run.report_arguments, overrides.threads, command_line);
@@ -103,6 +110,15 @@ RunJob job_of(const State& state, const RunOptions& run, const OverrideOptions& 
   job.progress = parse_progress(overrides.progress, overrides.quiet);
   job.room = read_run_room(run, job.notes);
   return job;
+}
+
+Room noted_room(const State& state, const fs::path& file) {
+  RunOptions run = options_of(state, file, {});
+  const std::string remedy = "Give the room to Result.load(), as room=…";
+  check_exists(run.reading.file, "the room", remedy);
+  if (run.receivers) check_exists(*run.receivers, "the table of receivers", remedy);
+  std::vector<std::string> notes;
+  return read_run_room(run, notes);
 }
 
 fs::path state_file(const std::string& name) {

@@ -141,6 +141,14 @@ void print_channels(const ImpulseResponses& responses) {
 
 }  // namespace
 
+std::vector<std::string> without_repeated(std::vector<std::string> warnings, const std::vector<std::string>& of_check) {
+  std::erase_if(warnings, [&of_check](const std::string& warning) {
+    return std::any_of(of_check.begin(), of_check.end(),
+                       [&warning](const std::string& line) { return line.starts_with(warning); });
+  });
+  return warnings;
+}
+
 void print_outcome(const Room& room, const Result& result, const std::filesystem::path& folder, bool with_report,
                    bool with_images) {
   if (!result.tiles.empty()) print_tiles(result);

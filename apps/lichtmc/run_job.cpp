@@ -112,15 +112,6 @@ std::vector<std::string> print_warnings_of_check(const RunJob& job, const Inspec
   return lines;
 }
 
-// Warnings of the run itself, without those that were printed before it.
-std::vector<std::string> without(std::vector<std::string> warnings, const std::vector<std::string>& printed) {
-  std::erase_if(warnings, [&printed](const std::string& warning) {
-    return std::any_of(printed.begin(), printed.end(),
-                       [&warning](const std::string& line) { return line.starts_with(warning); });
-  });
-  return warnings;
-}
-
 // The greater error of those of tiles and receivers.
 std::optional<double> error_of(const Result& result) {
   std::optional<double> error;
@@ -132,7 +123,7 @@ std::optional<double> error_of(const Result& result) {
 void write_all(RunJob& job, Result& result, const std::vector<std::string>& printed, ProgressForm form) {
   hold_folder(job);
   hold_folder(job);
-  const std::vector<std::string> of_the_run = without(result.warnings, printed);
+  const std::vector<std::string> of_the_run = without_repeated(result.warnings, printed);
   result.warnings = of_the_run;
   result.warnings.insert(result.warnings.end(), printed.begin(), printed.end());
   {

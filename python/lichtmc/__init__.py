@@ -8,13 +8,21 @@ Units are m, s, W or lm, W/m² or lx. Points and directions have glTF's axes, Y 
 
 from __future__ import annotations
 
+from lichtmc._compare import compare
+from lichtmc._continue import merge, resume
 from lichtmc._core import (
+    Advice,
     Area,
     AreaLight,
     AreaResult,
     AreaResults,
     Balance,
     Channels,
+    Comparison,
+    DesignArea,
+    DesignAreas,
+    DesignComparison,
+    DesignTotals,
     Emitter,
     EmitterParts,
     Error,
@@ -39,22 +47,32 @@ from lichtmc._core import (
     Scene,
     Settings,
     Spot,
+    Study,
+    StudyProgress,
     Surface,
     SurfaceResult,
     Surfaces,
     Tiles,
     WalkReport,
     __version__,
+    compare_designs,
 )
 from lichtmc._simulate import ResultWarning, simulate
+from lichtmc._study import study
 
 __all__ = [
+    "Advice",
     "Area",
     "AreaLight",
     "AreaResult",
     "AreaResults",
     "Balance",
     "Channels",
+    "Comparison",
+    "DesignArea",
+    "DesignAreas",
+    "DesignComparison",
+    "DesignTotals",
     "Emitter",
     "EmitterParts",
     "Error",
@@ -80,11 +98,18 @@ __all__ = [
     "Scene",
     "Settings",
     "Spot",
+    "Study",
+    "StudyProgress",
     "Surface",
     "SurfaceResult",
     "Surfaces",
     "Tiles",
     "WalkReport",
+    "compare",
+    "compare_designs",
+    "merge",
+    "resume",
     "simulate",
+    "study",
     "__version__",
 ]

@@ -1,16 +1,79 @@
-"""Progress for people: a bar by tqdm if it is installed, else a line of text."""
+"""Progress for people: a bar by tqdm if it is installed, else a line of text.
+
+On a terminal the line is written anew, in a notebook it is an output that changes; elsewhere, as in a file, there is a
+line every few seconds.
+"""
 
 from __future__ import annotations
 
+import importlib.util
 import math
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, Protocol
+
+from lichtmc import _core
+
+_LINE_INTERVAL = 5.0  # s
+_NO_LIMIT = 2**62  # of histories: other stop rules alone end the run
 
 
-def _error_text(progress: Any) -> str:
+class _Shown(Protocol):
+    def __call__(self, progress: Any) -> None: ...
+    def close(self) -> None: ...
+
+
+def _count(number: float) -> str:
+    for suffix in ("", "k", "M", "G", "T"):
+        if number < 999.5:
+            break
+        number /= 1000
+    return f"{number:.3g}{suffix}"
+
+
+def _duration(seconds: float) -> str:
+    whole = math.ceil(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60} s"
+    return f"{whole // 3600} h {whole % 3600 // 60} min"
+
+
+def _error_text(progress: _core.Progress) -> str:
     return "" if math.isnan(progress.rms_relative_error) else f"error {100 * progress.rms_relative_error:.2g} %"
+
+
+def _is_limited(progress: _core.Progress) -> bool:
+    return progress.target < _NO_LIMIT
+
+
+def _text(progress: _core.Progress | _core.StudyProgress) -> str:
+    """What a line says."""
+    if isinstance(progress, _core.StudyProgress):
+        of = f"{progress.done + 1} of {progress.of}: " if progress.of else ""
+        return f"{of}{progress.what}, {progress.seconds:.0f} s of about {progress.of_seconds:.0f} s"
+    if progress.stage == "preparation":
+        return progress.step
+    if progress.stage == "pilot":
+        return "choosing the estimator"
+    done = _count(progress.histories)
+    if _is_limited(progress):
+        done += f" of {_count(progress.target)}"
+    if progress.stage == "direct light":
+        return f"direct light of {done}"
+    parts = [f"{done} histories for the {progress.stage}"]
+    if error := _error_text(progress):
+        parts.append(error)
+    left = progress.seconds_to_target
+    if _is_limited(progress) and progress.histories:
+        to_limit = progress.seconds * (progress.target - progress.histories) / progress.histories
+        left = to_limit if math.isnan(left) else min(left, to_limit)
+    if not math.isnan(left):
+        parts.append(f"about {_duration(max(left, 0.0))} left")
+    return ", ".join(parts)
 
 
 class _Bar:
@@ -22,62 +85,127 @@ class _Bar:
         self._stage = ""
 
     def __call__(self, progress: Any) -> None:
-        if progress.stage == "preparation":
-            return
-        if progress.stage != self._stage:
+        if isinstance(progress, _core.StudyProgress):
+            self._show("study", progress.of or None, progress.done, progress.what, "")
+        elif progress.stage not in ("preparation", "pilot"):
+            total = progress.target if _is_limited(progress) else None
+            self._show(progress.stage, total, progress.histories, _error_text(progress), "")
+
+    def _show(self, stage: str, total: int | None, done: int, text: str, unit: str) -> None:
+        if stage != self._stage:
             self.close()
-            self._stage = progress.stage
-            limited = progress.target < 2**62
-            self._bar = self._tqdm(
-                total=progress.target if limited else None, desc=progress.stage, unit="", unit_scale=True
-            )
-        self._bar.set_postfix_str(_error_text(progress), refresh=False)
-        self._bar.update(progress.histories - self._bar.n)
+            self._stage = stage
+            self._bar = self._tqdm(total=total, desc=stage, unit=unit, unit_scale=True)
+        self._bar.total = total
+        self._bar.set_postfix_str(text, refresh=False)
+        self._bar.update(done - self._bar.n)
 
     def close(self) -> None:
         if self._bar is not None:
             self._bar.close()
+            self._bar = None
 
 
-class _Line:
-    """A line on stderr that is written anew; a notebook shows it the same way."""
+class _TerminalLine:
+    """A line on stderr that is written anew, and removed at the end."""
 
     def __init__(self) -> None:
-        self._length = 0
+        self._drawn = False
 
     def __call__(self, progress: Any) -> None:
-        if progress.stage == "preparation":
-            text = f"lichtmc: {progress.step}"
-        else:
-            text = f"lichtmc: {progress.stage}, {progress.histories:.3g}"
-            if progress.target < 2**62:
-                text += f" of {progress.target:.3g}"
-            text += f", {progress.seconds:.0f} s"
-            if error := _error_text(progress):
-                text += f", {error}"
-        print("\r" + text.ljust(self._length), end="", file=sys.stderr, flush=True)
-        self._length = len(text)
+        print(f"\r{_text(progress)}\x1b[K", end="", file=sys.stderr, flush=True)
+        self._drawn = True
 
     def close(self) -> None:
-        if self._length:
-            print(file=sys.stderr)
+        if self._drawn:
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+class _Lines:
+    """A line on stderr every few seconds."""
+
+    def __init__(self) -> None:
+        self._last = time.monotonic()
+
+    def __call__(self, progress: Any) -> None:
+        now = time.monotonic()
+        if now - self._last >= _LINE_INTERVAL:
+            self._last = now
+            print(_text(progress), file=sys.stderr, flush=True)
+
+    def close(self) -> None:
+        pass
+
+
+class _NotebookLine:
+    """An output of a notebook's cell that changes, and is empty at the end."""
+
+    def __init__(self, display: Callable[..., Any]) -> None:
+        self._display = display
+        self._handle: Any = None
+
+    def _show(self, text: str) -> None:
+        data = {"text/plain": text}
+        if self._handle is None:
+            self._handle = self._display(data, raw=True, display_id=True)
+        else:
+            self._handle.update(data, raw=True)
+
+    def __call__(self, progress: Any) -> None:
+        self._show(_text(progress))
+
+    def close(self) -> None:
+        if self._handle is not None:
+            self._show("")
+
+
+def _notebook_display() -> Callable[..., Any] | None:
+    """IPython's display() if this is a kernel of a notebook."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython is not None else None
+    if shell is None or not hasattr(shell, "kernel"):
+        return None
+    from IPython.display import display
+
+    return display
+
+
+def _installed(module: str) -> bool:
+    return importlib.util.find_spec(module) is not None
+
+
+def _shown() -> _Shown:
+    display = _notebook_display()
+    if display is not None:
+        if _installed("tqdm") and _installed("ipywidgets"):
+            from tqdm.notebook import tqdm as notebook_tqdm  # type: ignore[import-untyped]
+
+            return _Bar(notebook_tqdm)
+        return _NotebookLine(display)
+    if not sys.stderr.isatty():
+        return _Lines()
+    if _installed("tqdm"):
+        from tqdm import tqdm  # type: ignore[import-untyped]
+
+        return _Bar(tqdm)
+    return _TerminalLine()
 
 
 @contextmanager
 def listener(progress: bool | Callable[[Any], object] | None) -> Iterator[Callable[[Any], object] | None]:
-    """The callback that `progress` (of simulate()) asks for, or None."""
+    """The callback that `progress` (of simulate() and its like) asks for, or None."""
     if progress is None or progress is False:
         yield None
     elif progress is True:
-        try:
-            from tqdm.auto import tqdm  # type: ignore[import-untyped]
-        except ImportError:
-            shown: _Bar | _Line = _Line()
-        else:
-            shown = _Bar(tqdm)
+        shown = _shown()
         try:
             yield shown
         finally:
             shown.close()
-    else:
+    elif callable(progress):
         yield progress
+    else:
+        raise _core.InputError(
+            f"The argument progress is of type {type(progress).__name__} (allowed: True, False, None, or a function "
+            "that takes a Progress). Give one of these."
+        )

@@ -9,25 +9,13 @@
 
 namespace lichtmc::python {
 
-// Ctrl-C came during work that goes on to its end.
-struct Interrupted {};
-
 // The outcome of work(), which runs in another thread while other Python threads go on. After Ctrl-C KeyboardInterrupt
 // is raised, once the work has ended.
 template <class Outcome>
 Outcome aside(const std::function<Outcome()>& work) {
-  const std::function<Outcome(std::stop_token, const std::function<void(const int&)>&)> stoppable =
-      [&](const std::stop_token& stop, const std::function<void(const int&)>& /*tell*/) {
-        Outcome outcome = work();
-        if (stop.stop_requested()) throw Interrupted{};
-        return outcome;
-      };
-  try {
-    return work_aside<Outcome, int>(stoppable, {});
-  } catch (const Interrupted&) {
-    PyErr_SetNone(PyExc_KeyboardInterrupt);
-    throw nb::python_error();
-  }
+  return work_aside<Outcome, int>(
+      [&](const std::stop_token& /*stop*/, const std::function<void(const int&)>& /*tell*/) { return work(); }, {},
+      Interrupted::raises);
 }
 
 // A room that calculation areas have been added to, or other slow work been done on: change(Room&) works on a copy.

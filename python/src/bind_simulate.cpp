@@ -36,7 +36,7 @@ std::string_view stage_word(Progress::Stage stage) {
 }  // namespace
 
 RunResultPtr run_aside(const std::shared_ptr<const KeptRoom>& room, unsigned threads, nb::object on_progress,
-                       const std::function<Result(const Control&)>& run) {
+                       const std::function<Result(const Control&)>& run, Interrupted interrupted) {
   const auto work = [&](std::stop_token stop, const std::function<void(const ProgressReport&)>& tell) {
     const StepListener on_step = [&](std::string_view step) {
       ProgressReport report;
@@ -53,7 +53,7 @@ RunResultPtr run_aside(const std::shared_ptr<const KeptRoom>& room, unsigned thr
   };
   std::function<void(const ProgressReport&)> on_report;
   if (!on_progress.is_none()) on_report = [&](const ProgressReport& report) { on_progress(report); };
-  return make_run_result(room, work_aside<Result, ProgressReport>(work, on_report));
+  return make_run_result(room, work_aside<Result, ProgressReport>(work, on_report, interrupted));
 }
 
 void bind_simulate(nb::module_& module) {

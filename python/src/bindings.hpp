@@ -26,6 +26,11 @@ void bind_reports(nb::module_& module);
 void bind_channels(nb::module_& module);  // after bind_result(), as the following
 void bind_parts(nb::module_& module);
 void bind_pictures(nb::module_& module);
+void bind_continue(nb::module_& module);
+void bind_compare(nb::module_& module);
+void bind_study(nb::module_& module);
+void bind_files(nb::module_& module);
+void bind_pickle(nb::module_& module);
 void bind_command_line(nb::module_& module);
 
 }  // namespace lichtmc::python

@@ -26,5 +26,10 @@ NB_MODULE(_core, module) {
   bind_pictures(module);
   bind_settings(module);
   bind_simulate(module);
+  bind_continue(module);
+  bind_compare(module);
+  bind_study(module);
+  bind_files(module);
+  bind_pickle(module);
   bind_command_line(module);
 }

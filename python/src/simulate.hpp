@@ -19,8 +19,9 @@ struct ProgressReport {
 };
 
 // The result of run(control) for a room, with the room's preparation kept for the next run. on_progress: called with
-// a ProgressReport, or None. threads: as Settings::threads.
+// a ProgressReport, or None. threads: as Settings::threads. interrupted: what Ctrl-C does.
 RunResultPtr run_aside(const std::shared_ptr<const KeptRoom>& room, unsigned threads, nb::object on_progress,
-                       const std::function<Result(const Control&)>& run);
+                       const std::function<Result(const Control&)>& run,
+                       Interrupted interrupted = Interrupted::returns);
 
 }  // namespace lichtmc::python

@@ -8,8 +8,8 @@ void CallingThread::visit_python(const std::function<void()>& call) noexcept {
     if (!error_) call();
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
   } catch (const nb::python_error& error) {
-    if (!interrupted_ && error.matches(PyExc_KeyboardInterrupt)) {
-      interrupted_ = true;
+    if (!interrupt_ && policy_ == Interrupted::returns && error.matches(PyExc_KeyboardInterrupt)) {
+      interrupt_ = std::current_exception();
       stop_.request_stop();
     } else {
       note(std::current_exception());
@@ -24,8 +24,9 @@ void CallingThread::note(std::exception_ptr error) {
   stop_.request_stop();
 }
 
-void CallingThread::raise() const {
+void CallingThread::raise(bool failed) const {
   if (error_) std::rethrow_exception(error_);
+  if (failed && interrupt_) std::rethrow_exception(interrupt_);
 }
 
 }  // namespace lichtmc::python

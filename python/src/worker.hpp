@@ -3,7 +3,8 @@
 //
 // The calling thread passes progress on to Python and looks for signals some times a second. Hence a callback needs no
 // thought about threads, an exception from it ends the work and is raised, and Ctrl-C (KeyboardInterrupt) requests a
-// stop: the work then returns what it has. A second Ctrl-C is raised, after the work has stopped.
+// stop: the work then returns what it has. If it has nothing yet, or nothing that is of use alone, and after a second
+// Ctrl-C, KeyboardInterrupt is raised when the work has stopped.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -26,29 +27,39 @@ namespace nb = nanobind;
 // nothing measurable.
 inline constexpr std::chrono::milliseconds look_for_signals{50};
 
+// What becomes of work that the first Ctrl-C has stopped.
+enum class Interrupted {
+  returns,  // what it has
+  raises,   // nothing: KeyboardInterrupt
+};
+
 // The part that does not depend on the types of the work.
 class CallingThread {
  public:
-  explicit CallingThread(std::stop_source stop) : stop_(std::move(stop)) {}
+  CallingThread(std::stop_source stop, Interrupted interrupted) : stop_(std::move(stop)), policy_(interrupted) {}
 
   // Runs `call`, which may call Python, and Python's signal handlers. The lock is taken for it.
   void visit_python(const std::function<void()>& call) noexcept;
-  // Raises the first exception that `visit_python` has met, if any. With the lock.
-  void raise() const;
+  // Raises the first exception that `visit_python` has met, if any; `failed`: also a first Ctrl-C, because the work has
+  // nothing to return. With the lock.
+  void raise(bool failed) const;
 
  private:
   void note(std::exception_ptr error);
 
   std::stop_source stop_;
-  bool interrupted_ = false;
+  Interrupted policy_;
+  std::exception_ptr interrupt_;  // the first Ctrl-C
   std::exception_ptr error_;
 };
 
 // Carries out work(stop, tell) -> Outcome, where tell(const Report&) may be called from any thread, and passes the
 // reports on to on_report(const Report&), which may be empty. A report replaces one that has not been passed on yet.
+// `work` may not call Python.
 template <class Outcome, class Report>
 Outcome work_aside(const std::function<Outcome(std::stop_token, const std::function<void(const Report&)>&)>& work,
-                   const std::function<void(const Report&)>& on_report) {
+                   const std::function<void(const Report&)>& on_report,
+                   Interrupted interrupted = Interrupted::returns) {
   std::mutex mutex;
   std::condition_variable changed;
   std::optional<Report> report;
@@ -56,7 +67,7 @@ Outcome work_aside(const std::function<Outcome(std::stop_token, const std::funct
   std::exception_ptr failure;
   bool done = false;
   std::stop_source stop;
-  CallingThread caller(stop);
+  CallingThread caller(stop, interrupted);
   {
     const nb::gil_scoped_release without_lock;
     std::jthread thread([&] {
@@ -86,7 +97,7 @@ Outcome work_aside(const std::function<Outcome(std::stop_token, const std::funct
       });
     }
   }
-  caller.raise();
+  caller.raise(failure != nullptr);
   if (failure) std::rethrow_exception(failure);
   return std::move(*outcome);
 }

@@ -1,0 +1,88 @@
+"""Runs in pieces: resume() and merge()."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable
+
+from lichtmc import _core
+from lichtmc._arguments import count, number, optional
+from lichtmc._progress import listener
+from lichtmc._simulate import OnProgress, ResultWarning, warn_of
+
+
+def _require_result(value: object, what: str) -> _core.Result:
+    if not isinstance(value, _core.Result):
+        raise _core.InputError(
+            f"{what} is of type {type(value).__name__} (allowed: a Result). Give what simulate() or Result.load() "
+            "has returned."
+        )
+    return value
+
+
+def resume(
+    result: _core.Result,
+    *,
+    photons: int | None = None,
+    target_error: float | None = None,
+    max_time: float | None = None,
+    threads: int = 0,
+    progress: bool | OnProgress | None = None,
+) -> _core.Result:
+    """Continues a run: the new result has the digits of one run with these rules. The old result does not change.
+
+    The first rule that is met ends the run. Without any, the run continues to its own rules: that completes a run
+    that Ctrl-C has stopped. All other settings are those of the run.
+
+    Args:
+        result: Of simulate(), resume(), merge() (without gaps) or Result.load().
+        photons: Histories in total, from the start of the run.
+        target_error: Stop at this relative standard error, above 0: 0.01 means 1 %.
+        max_time: Stop after this time of the continuation, s.
+        threads: Number of threads; 0: one per processor.
+        progress: As for simulate().
+
+    Raises:
+        InputError: A rule is not valid, or the result has gaps.
+        RuntimeError: Memory or the tracing device fails.
+    """
+    _require_result(result, "The first argument of resume()")
+    rules = (
+        optional(count, "photons", photons, least=1),
+        optional(number, "target_error", target_error, "above 0; 0.01 means 1 %"),
+        optional(number, "max_time", max_time, "above 0, in s"),
+    )
+    workers = count("threads", threads, most=2**31 - 1)
+    with listener(progress) as on_progress:
+        resumed = _core.resume(result, *rules, workers, on_progress)
+    return warn_of(resumed, stacklevel=2)
+
+
+def merge(
+    results: Iterable[_core.Result], *, threads: int = 0, progress: bool | OnProgress | None = None
+) -> _core.Result:
+    """Adds results of parts of one run: the sum has the digits of one run of all their histories.
+
+    Parts are made with `histories` of simulate(), for example on several machines: histories=(0, 1024_000) and
+    histories=(1024_000, 2048_000). All but the last end at a multiple of 1024. Order has no influence. A gap is
+    allowed; it is told by a ResultWarning.
+
+    Args:
+        results: Results of the same room with the same settings, whose histories do not overlap; one or more.
+        threads: Number of threads for the direct light, which is computed again; 0: one per processor.
+        progress: As for simulate().
+
+    Raises:
+        InputError: Rooms, settings or versions differ, or histories overlap.
+    """
+    if isinstance(results, _core.Result):
+        raise _core.InputError(
+            "The argument of merge() is one Result (allowed: a list of them). Give the parts as a list."
+        )
+    workers = count("threads", threads, most=2**31 - 1)
+    parts = [_require_result(part, f"results[{k}]") for k, part in enumerate(results)]
+    with listener(progress) as on_progress:
+        merged, gaps = _core.merge(parts, workers, on_progress)
+    for text in gaps:
+        warnings.warn(text, ResultWarning, stacklevel=2)
+    return warn_of(merged, stacklevel=2)

@@ -1,0 +1,221 @@
+// Results in folders: what `lichtmc run` writes, and reading it again.
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "lichtmc/error.hpp"
+#include "lichtmc/inspect.hpp"
+#include "lichtmc/output.hpp"
+#include "lichtmc/simulate.hpp"
+#include "lichtmc/state.hpp"
+#include "noted_room.hpp"
+#include "outcome.hpp"
+#include "packed.hpp"
+#include "run_result.hpp"
+#include "simulate.hpp"
+
+namespace lichtmc::python {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The note of states that have no other: then `lichtmc resume` tells where to continue.
+constexpr const char* python_note = R"({"python":"lichtmc.Result.write"})";
+
+// The first bytes of state.h5, among them its checksum: they tell whether result.lichtmc belongs to it.
+std::string seal_of_state(const fs::path& file) {
+  constexpr std::size_t length = 512;
+  std::string seal(length, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(seal.data(), length);
+  seal.resize(static_cast<std::size_t>(stream.gcount()));
+  return seal;
+}
+
+// The value of a table of words. Throws InputError that lists them.
+template <class Value>
+Value of_word(const std::string& what, const std::string& word,
+              const std::vector<std::pair<const char*, Value>>& words) {
+  std::string allowed;
+  for (const auto& [name, value] : words) {
+    if (word == name) return value;
+    allowed += (allowed.empty() ? "'" : ", '") + std::string(name) + "'";
+  }
+  throw InputError("The argument " + what + " is '" + word + "' (allowed: " + allowed + "). Choose one of these.");
+}
+
+struct FileOptions {
+  bool report = true;
+  ResultFiles files;
+  ReportOptions page;
+};
+
+void write_files(const RunResult& run, const fs::path& folder, FileOptions options) {
+  const Room& room = run.room->room;
+  const FolderLock lock = prepare_output(folder);
+  options.page.prepared = run.room->prepared(run.result.settings.threads);
+  options.page.inspection =
+      std::make_shared<const Inspection>(inspect(room, run.result.settings.tile_edge_m, options.page.prepared));
+  const fs::path state = folder / "state.h5";
+  const std::string& note = run.result.state.note();
+  write_state(run.result.state, state, note.empty() ? python_note : note);
+  options.files.kept = pack_beside_state(room, run.result, seal_of_state(state));
+
+  // As the command line does: with the warnings of the check. Only they need a copy.
+  const std::vector<std::string> of_check = warning_lines(room, *options.page.inspection);
+  std::optional<Result> with_warnings;
+  if (!of_check.empty()) {
+    with_warnings = run.result;
+    with_warnings->warnings = app::without_repeated(run.result.warnings, of_check);
+    with_warnings->warnings.insert(with_warnings->warnings.end(), of_check.begin(), of_check.end());
+  }
+  const Result& written = with_warnings ? *with_warnings : run.result;
+  write_results(room, written, folder, options.files);
+  if (options.report) write_report(room, written, folder, options.page);
+}
+
+std::string content_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// A state with the seal that its file had.
+struct SealedState {
+  State state;
+  std::string seal;
+};
+
+SealedState state_in(const fs::path& folder) {
+  const fs::path file = folder / "state.h5";
+  std::error_code unknown;
+  if (!fs::exists(file, unknown))
+    throw InputError("The folder " + folder.string() +
+                     " contains no state.h5 (allowed: the folder of a result that Result.write() or `lichtmc run` has "
+                     "written). Give that folder.");
+  SealedState found;
+  found.seal = seal_of_state(file);
+  found.state = read_state(file);
+  if (seal_of_state(file) != found.seal)
+    throw InputError("The file " + file.string() +
+                     " was replaced while it was read (allowed: a folder that nobody writes into). Load it again.");
+  return found;
+}
+
+// The result that Result.write() has kept, if it belongs to this state.
+RunResultPtr kept_result(const fs::path& folder, const SealedState& sealed) {
+  const fs::path file = folder / "result.lichtmc";
+  std::error_code unknown;
+  if (!fs::exists(file, unknown)) return nullptr;
+  ResultBesideState kept = unpack_beside_state(content_of(file), "the file " + file.string());
+  if (kept.seal != sealed.seal) return nullptr;
+  kept.result.state = sealed.state;
+  return make_run_result(std::make_shared<const KeptRoom>(std::move(kept.room)), std::move(kept.result));
+}
+
+RunResultPtr load(const fs::path& folder, const std::optional<SharedRoom>& room) {
+  SealedState sealed;
+  std::shared_ptr<const KeptRoom> of_state = room ? room->kept() : nullptr;
+  {
+    const nb::gil_scoped_release without_lock;
+    sealed = state_in(folder);
+    if (!of_state) {
+      if (RunResultPtr kept = kept_result(folder, sealed)) return kept;
+      of_state = std::make_shared<const KeptRoom>(app::noted_room(sealed.state, folder / "state.h5"));
+    }
+  }
+  constexpr unsigned all_processors = 0;
+  return run_aside(
+      of_state, all_processors, nb::none(),
+      [&](const Control& control) { return result_of(of_state->room, sealed.state, all_processors, control); },
+      Interrupted::raises);
+}
+
+}  // namespace
+
+void bind_files(nb::module_& module) {
+  auto result = nb::borrow<nb::class_<RunResult>>(module.attr("Result"));
+  result.def(
+      "write",
+      [](const RunResult& run, const fs::path& folder, bool report, bool images, const std::string& report_style,
+         const std::string& project, const std::string& author, const std::string& date, const std::string& colours,
+         const std::string& scale, std::optional<double> scale_max, std::uint64_t paths) {
+        FileOptions options;
+        options.report = report;
+        options.files.tile_images = images;
+        ReportOptions& page = options.page;
+        page.style = of_word<ReportStyle>("report_style", report_style,
+                                          {{"automatic", ReportStyle::automatic},
+                                           {"lighting", ReportStyle::lighting},
+                                           {"technical", ReportStyle::technical}});
+        page.project = project;
+        page.author = author;
+        page.date = date;
+        page.scale.colours =
+            of_word<ColourMap>("colours", colours, {{"viridis", ColourMap::viridis}, {"inferno", ColourMap::inferno}});
+        page.scale.type = of_word<ScaleType>("scale", scale,
+                                             {{"automatic", ScaleType::automatic},
+                                              {"linear", ScaleType::linear},
+                                              {"logarithmic", ScaleType::logarithmic}});
+        page.scale.high = scale_max;
+        page.tile_images = images;
+        page.paths = paths;
+        page.threads = run.result.settings.threads;
+        const nb::gil_scoped_release without_lock;
+        write_files(run, folder, std::move(options));
+      },
+      nb::arg("folder"), nb::kw_only(), nb::arg("report") = true, nb::arg("images") = true,
+      nb::arg("report_style") = "automatic", nb::arg("project") = "", nb::arg("author") = "", nb::arg("date") = "",
+      nb::arg("colours") = "viridis", nb::arg("scale") = "automatic", nb::arg("scale_max").none() = nb::none(),
+      nb::arg("paths") = 0,
+      R"(Writes the files that `lichtmc run` writes into a folder: tables, state.h5, a report; docs/results.md lists them.
+
+One more, result.lichtmc, is for Result.load(), which gives the same result again, exactly. The folder and its parents
+are created. Files are replaced all together, when the new ones are complete: never is one half written. Files of an
+earlier result that this one does not have are removed.
+
+Args:
+    folder: The folder.
+    report: Whether report.html, room_lit.glb and pictures are written too.
+    images: Whether the tiles are written as OpenEXR images too.
+    report_style: "lighting" (pages for a client), "technical", or "automatic": lighting if there are areas.
+    project: Words for the title of lighting pages.
+    author: The same.
+    date: The same.
+    colours: "viridis" or "inferno".
+    scale: "linear", "logarithmic", or "automatic": logarithmic if few tiles are far brighter than the others.
+    scale_max: Irradiance of the top colour, W/m² or lx. Default: chosen from the tiles.
+    paths: Number of photon paths in the report, 0 to 10 000.
+
+Raises:
+    InputError: The folder cannot be used, another run is writing into it, or an argument is not valid.
+    RuntimeError: A file cannot be written; those of an earlier result are then unchanged.)");
+  result.def_static("load", &load, nb::arg("folder"), nb::arg("room").none() = nb::none(),
+                    R"(The result in a folder that Result.write() or `lichtmc run` has written.
+
+A folder of Result.write() gives the result that was written, exactly. A folder of `lichtmc run` contains the sums of the
+walks and how the room was read: the room is read again, and the figures, to the last digit those of the run, are
+computed again. This takes as long as the direct light of the run, but no photons are simulated.
+
+Args:
+    folder: The folder.
+    room: The room, if its file was moved, or if another program has written the folder. It must be the same.
+
+Raises:
+    InputError: The folder contains no result, or one of another version of lichtmc; it is damaged; or the room is
+        missing or not the same.)");
+}
+
+}  // namespace lichtmc::python

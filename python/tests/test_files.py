@@ -1,0 +1,136 @@
+"""Result.write() and Result.load()."""
+
+from __future__ import annotations
+
+import json
+import pickle
+import shutil
+
+import lichtmc
+import numpy as np
+import pytest
+from rooms import SCENES, command_line, cube, living_room, same_tiles
+
+RUN = ("--photons", "20000", "--tile", "0.5", "--estimator", "collision")
+
+
+@pytest.fixture(scope="module")
+def result() -> lichtmc.Result:
+    return lichtmc.simulate(cube(), photons=20_000, tile=0.5)
+
+
+def test_a_folder_gives_the_same_result_again(result, tmp_path):
+    result.write(tmp_path / "new" / "folder")
+    again = lichtmc.Result.load(tmp_path / "new" / "folder")
+    assert pickle.dumps(again) == pickle.dumps(lichtmc.Result.load(str(tmp_path / "new" / "folder")))
+    assert same_tiles(again, result)
+    assert again.warnings == result.warnings
+    assert same_tiles(lichtmc.resume(again, photons=30_000), lichtmc.simulate(cube(), photons=30_000, tile=0.5))
+
+
+def test_the_files_are_those_of_the_command_line(result, tmp_path):
+    result.write(tmp_path / "python", paths=3)
+    command_line("run", SCENES / "cube_paper.gltf", *RUN, "--paths", 3, "-o", "program", folder=tmp_path)
+
+    def files(folder):
+        return {str(file.relative_to(folder)) for file in folder.rglob("*") if file.is_file()}
+
+    assert files(tmp_path / "python") == files(tmp_path / "program") | {"result.lichtmc"}
+    for name in ("tiles.csv", "surfaces.csv", "emitters.csv", "pictures/room.svg"):
+        assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "program" / name).read_bytes(), name
+    summaries = [json.loads((tmp_path / folder / "summary.json").read_text()) for folder in ("python", "program")]
+    for key in ("warnings", "ignored", "surfaces", "balance", "histories", "rms_relative_error", "settings"):
+        assert summaries[0].get(key) == summaries[1].get(key), key
+
+
+def test_parts_of_a_folder(result, tmp_path):
+    result.write(tmp_path, report=False, images=False)
+    names = {file.name for file in tmp_path.iterdir()}
+    assert names == {"emitters.csv", "result.lichtmc", "state.h5", "summary.json", "surfaces.csv", "tiles.csv"}
+
+
+def test_a_run_of_the_command_line_has_its_figures(tmp_path):
+    command_line("run", SCENES / "living_room.glb", "--receivers", SCENES / "living_room_receivers.csv", *RUN,
+                 "--no-report", "-o", "run", folder=tmp_path)
+    loaded = lichtmc.Result.load(tmp_path / "run")
+    table = np.genfromtxt(tmp_path / "run" / "tiles.csv", delimiter=",", names=True, usecols=range(2, 12), dtype=None)
+    for column, array in (("irradiance", loaded.tiles.irradiance), ("standard_error", loaded.tiles.standard_error)):
+        assert np.array_equal(table[column], array), column
+    more = lichtmc.resume(loaded, photons=30_000)
+    command_line("resume", "run", "--photons", 30_000, folder=tmp_path)
+    assert same_tiles(more, lichtmc.Result.load(tmp_path / "run"))
+
+
+def test_a_later_run_of_the_command_line_counts(result, tmp_path):
+    result.write(tmp_path / "run", report=False)
+    command_line("run", SCENES / "cube_paper.gltf", *RUN, "--seed", 5, "--no-report", "-o", "run", folder=tmp_path)
+    assert not (tmp_path / "run" / "result.lichtmc").exists()
+    assert same_tiles(
+        lichtmc.Result.load(tmp_path / "run"), lichtmc.simulate(cube(), photons=20_000, tile=0.5, seed=5)
+    )
+
+
+def test_a_stale_result_does_not_count(result, tmp_path):
+    """As if a run had been killed after it wrote its state."""
+    result.write(tmp_path / "one", report=False, images=False)
+    lichtmc.simulate(cube(), photons=20_000, tile=0.5, seed=5).write(tmp_path / "two", report=False, images=False)
+    shutil.copy(tmp_path / "two" / "state.h5", tmp_path / "one" / "state.h5")
+    with pytest.raises(lichtmc.InputError, match="Python"):
+        lichtmc.Result.load(tmp_path / "one")
+    loaded = lichtmc.Result.load(tmp_path / "one", room=cube())
+    assert same_tiles(loaded, lichtmc.Result.load(tmp_path / "two"))
+
+
+def test_a_room_that_was_moved_is_given(tmp_path):
+    shutil.copy(SCENES / "cube_paper.gltf", tmp_path / "room.gltf")
+    command_line("run", "room.gltf", *RUN, "--no-report", "-o", "run", folder=tmp_path)
+    (tmp_path / "room.gltf").rename(tmp_path / "moved.gltf")
+    with pytest.raises(lichtmc.InputError, match="Cannot find the room.*Give the room to Result.load"):
+        lichtmc.Result.load(tmp_path / "run")
+    loaded = lichtmc.Result.load(tmp_path / "run", room=lichtmc.Room.from_gltf(tmp_path / "moved.gltf"))
+    assert same_tiles(loaded, lichtmc.simulate(cube(), photons=20_000, tile=0.5))
+    with pytest.raises(lichtmc.InputError, match="another room"):
+        lichtmc.Result.load(tmp_path / "run", room=living_room())
+
+
+def test_the_command_line_tells_where_to_continue(result, tmp_path):
+    result.write(tmp_path / "run", report=False, images=False)
+    assert "lichtmc.resume(lichtmc.Result.load(" in command_line("resume", tmp_path / "run", status=2)
+
+
+def test_a_loaded_run_of_the_command_line_stays_one(tmp_path):
+    command_line("run", SCENES / "cube_paper.gltf", *RUN, "--no-report", "-o", "run", folder=tmp_path)
+    lichtmc.resume(lichtmc.Result.load(tmp_path / "run"), photons=30_000).write(tmp_path / "more", report=False)
+    command_line("resume", "more", "--photons", 40_000, folder=tmp_path)
+    assert same_tiles(
+        lichtmc.Result.load(tmp_path / "more"), lichtmc.simulate(cube(), photons=40_000, tile=0.5)
+    )
+
+
+def test_folders_that_cannot_be_used(result, tmp_path):
+    (tmp_path / "file").write_text("not a folder")
+    with pytest.raises(lichtmc.InputError):
+        result.write(tmp_path / "file")
+    with pytest.raises(lichtmc.InputError, match="no state.h5"):
+        lichtmc.Result.load(tmp_path)
+    with pytest.raises(lichtmc.InputError, match="no state.h5"):
+        lichtmc.Result.load(tmp_path / "missing")
+    for argument in ({"report_style": "nice"}, {"colours": "jet"}, {"scale": "log"}):
+        with pytest.raises(lichtmc.InputError, match="allowed: "):
+            result.write(tmp_path / "out", **argument)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("name", ["state.h5", "result.lichtmc"])
+def test_damaged_files_are_refused(result, tmp_path, name):
+    result.write(tmp_path, report=False, images=False)
+    content = (tmp_path / name).read_bytes()
+    for position in range(0, len(content), len(content) // 20):
+        damaged = bytearray(content)
+        damaged[position] ^= 1
+        for changed in (bytes(damaged), content[:position]):
+            (tmp_path / name).write_bytes(changed)
+            with pytest.raises(lichtmc.InputError):
+                lichtmc.Result.load(tmp_path)
+    (tmp_path / name).write_bytes(content)
+    assert same_tiles(lichtmc.Result.load(tmp_path), result)
