@@ -22,6 +22,7 @@ packages=(
   nlohmann-json3-dev                         # summary.json, writing of glTF
   catch2                                     # tests
   python3                                    # test scripts of the command line, pictures of the paper
+  python3-dev python3-venv                   # the Python package (pip install .)
 )
 
 missing=()
