@@ -156,10 +156,10 @@ def _span(used: NDArray[np.bool_]) -> slice:
 def _new_axes(paper: _Paper) -> Any:
     width, height = float(np.ptp(paper.across)), float(np.ptp(paper.upwards))
     longest = 6.4
-    least = 2.0
+    least = 1.2
     scale = longest / max(width, height)
     _, ax = _pyplot().subplots(
-        figsize=(max(least, scale * width) + 1.6, max(least, scale * height) + 0.9), layout="constrained"
+        figsize=(max(least, scale * width) + 1.6, max(least, scale * height) + 0.9), layout="compressed"
     )
     return ax
 
@@ -212,10 +212,11 @@ def _draw_cells(ax: Any, paper: _Paper, values: Array, norm: Any, colours: str) 
 
 
 def _smoothed(values: Array, errors: Array) -> Array:
-    """By a Gaussian that leaves 0.5 % of statistical error, so that isolines show the light and not its noise."""
-    mean = float(np.nanmean(values))
-    error = float(np.sqrt(np.nanmean(np.square(errors)))) / mean if mean > 0 else 0.0
-    width = min(error / (2 * math.sqrt(math.pi) * 0.005), min(values.shape) / 8)
+    """By a Gaussian that leaves 1 % of statistical error, so that isolines show the light and not its noise."""
+    mean = float(np.nanmedian(values))
+    error = float(np.nan_to_num(np.nanmedian(errors))) / mean if mean > 0 else 0.0
+    widest = 2.5  # cells: wider ones would move the lines
+    width = min(error / (2 * math.sqrt(math.pi) * 0.01), min(values.shape) / 8, widest)
     if not width > 0.3:
         return values
     reach = np.arange(-math.ceil(3 * width), math.ceil(3 * width) + 1)
@@ -316,12 +317,19 @@ def _add_colour_bar(ax: Any, paper: _Paper, image: Any, label: str, extend: str)
     from matplotlib.ticker import FuncFormatter, LogLocator
 
     width, height = float(np.ptp(paper.across)), float(np.ptp(paper.upwards))
-    thickness = 0.035 * max(1.0, height / width)
-    bar = ax.figure.colorbar(image, cax=ax.inset_axes((1 + thickness, 0, thickness, 1)), extend=extend)
+    if ax.figure.get_layout_engine() is None:  # room for it must be taken from the axes
+        box = ax.get_window_extent()
+        remaining = 0.8  # of the width of the axes
+        shrink = min(1.0, remaining * box.width / box.height * height / width)
+        bar = ax.figure.colorbar(image, ax=ax, extend=extend, shrink=shrink, aspect=20 * shrink)
+    else:
+        thickness = 0.035 * max(1.0, height / width)
+        bar = ax.figure.colorbar(image, cax=ax.inset_axes((1 + thickness, 0, thickness, 1)), extend=extend)
     bar.set_label(label)
     if isinstance(image.norm, LogNorm):
-        bar.set_ticks(LogLocator(subs=(1.0, 2.0, 5.0)), format=FuncFormatter(lambda value, _: f"{value:g}"))
+        bar.locator, bar.formatter = LogLocator(subs=(1.0, 2.0, 5.0)), FuncFormatter(lambda value, _: f"{value:g}")
         bar.minorticks_off()
+        bar.update_ticks()
 
 
 def _unit_text(result: _core.Result) -> tuple[str, str]:
@@ -377,8 +385,9 @@ def plot_area(
     paper = _flat_paper(
         _corners(one.rows, one.columns, one.corner, one.u, one.v), one.u, one.v, one.corner + one.normal
     )
+    title = one.text.replace(": ", "\n", 1).replace(", target", "\ntarget", 1)
     return _plot_grid(
-        result, ax, paper, one.grid, one.grid_error, np.ones_like(one.grid), one.text.replace(", target", "\ntarget"),
+        result, ax, paper, one.grid, one.grid_error, np.ones_like(one.grid), title,
         error=error, texts=values, isolines=isolines, colours=colours, scale=scale, scale_max=scale_max,
     )  # fmt: skip
 

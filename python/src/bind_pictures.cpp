@@ -166,9 +166,11 @@ void bind_pictures(nb::module_& module) {
               "scale: str = 'linear', scale_max: float | None = None) -> typing.Any"),
       "Plots the irradiance of a surface; returns the Axes of matplotlib (pip install \"lichtmc[plot]\").\n\n"
       "surface: name or number, see surfaces. ax: Axes to draw into; by default of a new figure. error: plots "
-      "the standard error instead. isolines: True, how many, or their values. scale: 'linear' or 'logarithmic'; "
-      "scale_max: W/m² or lx at the top of the colours. A flat surface is drawn to scale, its axes in m; others by "
-      "column and row of their tiles.");
+      "the standard error instead. isolines: True, how many, or their values; they are smoothed by up to 2.5 tiles, by "
+      "the size of the errors. scale: 'linear' or 'logarithmic'; scale_max: W/m² or lx at the top of the colours, by "
+      "default what 99 % of the area do not exceed. A flat surface is drawn to scale, its axes in m: level ones from "
+      "above, walls from the middle of the room; others by column and row of their tiles. Cells without a tile, and "
+      "tiles that light cannot reach, are white.");
   bind_plot(result, "plot_area",
             nb::sig("def plot_area(self, area: str | int, ax: typing.Any = None, *, error: bool = False, "
                     "values: bool = True, isolines: bool | int | collections.abc.Sequence[float] = False, "

@@ -5,6 +5,7 @@
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,17 @@ StopReason stop_reason(const Result& result) {
   return interrupted ? StopReason::interrupt : main_walk(result).stopped_by;
 }
 
+// Without tiles nothing is known of what becomes of the power.
+Balance balance_of(const Result& result) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (!result.tiles.empty()) return result.balance;
+  return {result.balance.emitted, unknown, unknown, unknown, unknown};
+}
+
+double if_tiles(const Result& result, double value) {
+  return result.tiles.empty() ? std::numeric_limits<double>::quiet_NaN() : value;
+}
+
 std::vector<std::string> texts_of(const std::vector<Ignored>& ignored) {
   std::vector<std::string> texts;
   for (const Ignored& one : ignored) texts.push_back(one.what);
@@ -52,8 +64,7 @@ void bind_parts_of(nb::class_<RunResult>& of) {
           "areas", [](const RunResultPtr& run) { return AreaResults{measurements_of(run)}; },
           "The calculation areas by name. Empty if only tiles were measured.")
       .def_prop_ro(
-          "balance", [](const RunResult& run) -> const Balance& { return run.result.balance; },
-          "Balance of the emitted power.")
+          "balance", [](const RunResult& run) { return balance_of(run.result); }, "Balance of the emitted power.")
       .def_prop_ro(
           "walk", [](const RunResult& run) { return run.result.tiles.empty() ? nullptr : &run.result.walk; },
           nb::rv_policy::reference_internal, nb::sig("def walk(self) -> WalkReport | None"),
@@ -100,10 +111,11 @@ void bind_facts_of(nb::class_<RunResult>& of) {
           "stopped_by", [](const RunResult& run) { return to_string(stop_reason(run.result)); },
           "What ended the run: 'photons', 'target-error', 'max-time' or 'interrupt' (Ctrl-C).")
       .def_prop_ro(
-          "incident", [](const RunResult& run) { return run.result.incident; },
-          "Incident power of all tiles, W or lm. NaN: not all surfaces were measured.")
+          "incident", [](const RunResult& run) { return if_tiles(run.result, run.result.incident); },
+          "Incident power of all tiles, W or lm. NaN: not all surfaces were measured, or none.")
       .def_prop_ro(
-          "incident_standard_error", [](const RunResult& run) { return run.result.incident_standard_error; },
+          "incident_standard_error",
+          [](const RunResult& run) { return if_tiles(run.result, run.result.incident_standard_error); },
           "Standard error of incident, W or lm. NaN: unknown.")
       .def_prop_ro(
           "warnings", [](const RunResult& run) { return run.result.warnings; },

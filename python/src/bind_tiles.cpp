@@ -81,9 +81,10 @@ void bind_tiles(nb::module_& module) {
       .def_prop_ro(
           "row", [](const Tiles& tiles) { return of_tiling(tiles, &Tile::row); }, has_owner,
           "Row of the tile in the grid of its surface, uint32 (n,). Row 0 lies at the smallest v.")
-      .def_prop_ro("unreached", &unreached, has_owner,
-                   "Whether no light can reach the tile, by the shape of the room, bool (n,). Such tiles have the "
-                   "irradiance 0 and do not count in means of surfaces. A copy, if there are any.");
+      .def_prop_ro(
+          "unreached", &unreached, has_owner,
+          "Whether no light can reach the tile's point, by the shape of the room, bool (n,). Errors and lowest "
+          "irradiances are of the other tiles. A copy, if there are any.");
 }
 
 }  // namespace lichtmc::python

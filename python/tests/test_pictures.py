@@ -1,0 +1,80 @@
+"""Pictures as arrays."""
+
+from __future__ import annotations
+
+import gc
+import struct
+import zlib
+
+import lichtmc
+import lit_rooms
+import numpy as np
+import pytest
+
+
+def test_pixels() -> None:
+    picture = lit_rooms.box_result().render(width=320, height=240)
+    assert picture.rgba.shape == (240, 320, 4) and picture.rgba.dtype == np.uint8
+    assert picture.irradiance.shape == (240, 320) and picture.irradiance.dtype == np.float32
+    assert not picture.rgba.flags.writeable and not picture.irradiance.flags.writeable
+    assert np.shares_memory(picture.rgba, picture.rgba) and np.shares_memory(picture.irradiance, picture.irradiance)
+    drawn = np.isfinite(picture.irradiance)
+    assert 0.2 < drawn.mean() < 1 and np.all(picture.rgba[drawn][:, 3] > 0)
+    assert (picture.view, picture.colours, picture.logarithmic, picture.low) == ("corner", "viridis", False, 0)
+    assert picture.high > 50 and not picture.from_inside and picture.cut_height is None
+    assert repr(picture) == "Picture(320 × 240 pixels, view 'corner')"
+
+
+def test_a_plan_shows_the_floor() -> None:
+    result = lit_rooms.box_result()
+    picture = result.render("above", width=600, height=400, colours="inferno", scale="logarithmic", scale_max=1000)
+    assert (picture.view, picture.colours, picture.logarithmic, picture.high) == ("above", "inferno", True, 1000)
+    inside = picture.irradiance[np.isfinite(picture.irradiance)]
+    assert np.mean(inside) == pytest.approx(result.surfaces["floor"].mean, rel=0.05)
+
+
+def test_a_picture_is_an_array() -> None:
+    picture = lit_rooms.box_result().render(width=64, height=48)
+    array = np.asarray(picture)
+    assert np.shares_memory(array, picture.rgba)
+    assert not np.shares_memory(np.array(picture), picture.rgba)
+    assert np.asarray(picture, dtype=float).dtype == np.float64
+    del picture
+    gc.collect()
+    assert array.shape == (48, 64, 4) and array.any()
+
+
+def test_a_notebook_gets_png_and_svg() -> None:
+    picture = lit_rooms.box_result().render(width=64, height=48)
+    png = picture._repr_png_()
+    assert png[:8] == b"\x89PNG\r\n\x1a\n" and struct.unpack(">II", png[16:24]) == (64, 48)
+    data, at = b"", 8
+    while at < len(png):
+        length, kind = struct.unpack(">I4s", png[at : at + 8])
+        data += png[at + 8 : at + 8 + length] if kind == b"IDAT" else b""
+        at += 12 + length
+    assert len(zlib.decompress(data)) == 48 * (1 + 4 * 64)
+    svg = picture._repr_svg_()
+    assert svg == picture.svg and svg.lstrip().startswith("<") and "Illuminance" in svg and "lx" in svg
+
+
+def test_without_tiles_a_picture_is_grey() -> None:
+    picture = lit_rooms.box_with_parts().render(width=64, height=48)
+    opaque = picture.rgba[picture.rgba[..., 3] == 255].astype(int)
+    assert len(opaque) > 0 and np.ptp(opaque[:, :3], axis=1).max() <= 3 or np.isnan(picture.irradiance).mean() < 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"view": "below"}, "argument view is 'below' .allowed: 'corner', 'above'"),
+        ({"width": 8}, "width of the picture is 8 .allowed: 16 to 16384"),
+        ({"height": -1}, "height of the picture is -1"),
+        ({"colours": "jet"}, "colours is 'jet' .allowed: 'viridis', 'inferno'"),
+        ({"scale": "log"}, "scale is 'log' .allowed: 'automatic', 'linear', 'logarithmic'"),
+        ({"scale_max": 0.0}, "0"),
+    ],
+)
+def test_wrong_arguments_are_refused(arguments: dict[str, object], message: str) -> None:
+    with pytest.raises(lichtmc.InputError, match=message):
+        lit_rooms.box_result().render(**arguments)

@@ -1,0 +1,161 @@
+"""The arrays of tiles: shapes, types, no copies, lifetime; the digits of the program."""
+
+from __future__ import annotations
+
+import gc
+from pathlib import Path
+
+import lichtmc
+import lit_rooms
+import numpy as np
+import pytest
+
+COLUMNS = {
+    "irradiance": (np.float64, 1),
+    "standard_error": (np.float64, 1),
+    "direct": (np.float64, 1),
+    "power": (np.float64, 1),
+    "hits": (np.uint64, 1),
+    "area": (np.float64, 1),
+    "position": (np.float64, 2),
+    "map": (np.uint32, 1),
+    "column": (np.uint32, 1),
+    "row": (np.uint32, 1),
+    "unreached": (np.bool_, 1),
+}
+
+
+@pytest.mark.parametrize("name", COLUMNS)
+def test_columns_have_their_type_and_shape(name: str) -> None:
+    tiles = lit_rooms.box_result().tiles
+    dtype, dimensions = COLUMNS[name]
+    values = getattr(tiles, name)
+    assert values.dtype == dtype
+    assert values.shape == (len(tiles),) if dimensions == 1 else (len(tiles), 3)
+    assert len(tiles) == 2 * (60 * 40 + 60 * 30 + 40 * 30)
+
+
+@pytest.mark.parametrize("name", [name for name in COLUMNS if name != "unreached"])
+def test_columns_show_the_memory_of_the_result(name: str) -> None:
+    result = lit_rooms.box_result()
+    assert np.shares_memory(getattr(result.tiles, name), getattr(result.tiles, name))
+    assert np.may_share_memory(result.tiles.irradiance, result.tiles.standard_error)  # fields of the same structures
+    assert not getattr(result.tiles, name).flags.owndata
+
+
+@pytest.mark.parametrize("name", COLUMNS)
+def test_columns_are_read_only(name: str) -> None:
+    values = getattr(lit_rooms.box_result().tiles, name)
+    with pytest.raises(ValueError, match="read-only"):
+        values[0] = 0
+    with pytest.raises(ValueError):
+        values.flags.writeable = True
+
+
+def test_views_outlive_their_result() -> None:
+    result = lichtmc.simulate(lit_rooms.box_room(), photons=2048)
+    kept = {name: getattr(result.tiles, name) for name in COLUMNS}
+    grid = result.surfaces["floor"].grid
+    area_grid = result.areas["desk"].grid
+    receivers = result.receivers.irradiance
+    copies = [values.copy() for values in (*kept.values(), grid, area_grid, receivers)]
+    del result
+    gc.collect()
+    rubbish = [np.full(100_000, 7.0) for _ in range(50)]  # would take the place of freed memory
+    for values, copy in zip((*kept.values(), grid, area_grid, receivers), copies):
+        np.testing.assert_array_equal(values, copy)
+    del rubbish
+
+
+def test_parts_of_a_result_outlive_it() -> None:
+    result = lichtmc.simulate(lit_rooms.box_room(), photons=2048)
+    floor, desk, phone = result.surfaces["floor"], result.areas["desk"], result.receivers["phone"]
+    walk, balance = result.walk, result.balance
+    mean = floor.mean
+    del result
+    gc.collect()
+    assert floor.mean == mean == pytest.approx(np.average(floor.grid, weights=floor.grid_area))
+    assert desk.grid.shape == (desk.rows, desk.columns)
+    assert phone.irradiance > 0
+    assert walk is not None and walk.histories == 2048
+    assert balance.emitted == 5000
+
+
+def test_power_is_irradiance_times_area() -> None:
+    tiles = lit_rooms.box_result().tiles
+    np.testing.assert_allclose(tiles.power, tiles.irradiance * tiles.area, rtol=1e-12)
+    assert np.isnan(tiles.direct).all()  # scored together with reflected light
+    assert not tiles.unreached.any()
+
+
+def test_direct_light_apart() -> None:
+    result = lichtmc.simulate(lit_rooms.box_room(), photons=2048, direct="analytic", only="tiles")
+    assert np.all(result.tiles.direct >= 0) and np.all(result.tiles.direct <= result.tiles.irradiance)
+    floor = result.surfaces["floor"]
+    assert floor.direct == pytest.approx(np.average(floor.grid_direct, weights=floor.grid_area), rel=1e-9)
+
+
+def test_unreached_tiles_are_named() -> None:
+    room = lichtmc.Room.from_gltf(lit_rooms.ROOT / "tests/data/office.glb")
+    result = lichtmc.simulate(room, photons=20_000, only="tiles")
+    unreached = result.tiles.unreached
+    assert unreached.any() and not unreached.all()
+    assert result.tiles.irradiance[unreached].mean() < 0.01 * result.tiles.irradiance.mean()  # parts of some are lit
+    assert sum(surface.unreached_area for surface in result.surfaces.values()) > 0
+    assert "cannot be reached by light" in result.unreached_text()
+
+
+def test_a_run_for_receivers_has_no_tiles() -> None:
+    result = lit_rooms.box_with_parts()
+    assert len(result.tiles) == 0
+    assert {getattr(result.tiles, name).shape[0] for name in COLUMNS} == {0}
+    assert result.tiles.position.shape == (0, 3)
+    assert len(result.surfaces) == 0
+    assert result.walk is None
+
+
+def test_digits_of_the_program(tmp_path: Path) -> None:
+    file = lit_rooms.ROOT / "scenes/l_room.gltf"
+    lit_rooms.run_program(
+        "run", file, "-o", tmp_path / "out", "--photons", 30_000, "--estimator", "collision", "--seed", 7, "--no-report",
+        "--no-images", "--plane", "0.75", "--direct", "analytic", "--tile", 0.25, "--quiet",
+    )  # fmt: skip
+    room = lichtmc.Room.from_gltf(file)
+    room.add_working_plane(0.75)
+    result = lichtmc.simulate(room, photons=30_000, seed=7, direct="analytic", tile=0.25)
+
+    written = lit_rooms.table(tmp_path / "out/tiles.csv")
+    tiles = result.tiles
+    numbers = {name: np.array(written[name], dtype=float) for name in ("x", "y", "z", "area", "power", "irradiance",
+                                                                     "standard_error", "direct")}  # fmt: skip
+    np.testing.assert_array_equal(tiles.position, np.column_stack([numbers["x"], numbers["y"], numbers["z"]]))
+    for name in ("area", "power", "irradiance", "standard_error", "direct"):
+        np.testing.assert_array_equal(getattr(tiles, name), numbers[name])
+    for name in ("hits", "column", "row"):
+        np.testing.assert_array_equal(getattr(tiles, name), np.array(written[name], dtype=np.uint64))
+    names = list(result.surfaces)
+    assert [names[k] for k in tiles.map] == written["surface"]
+
+    written = lit_rooms.table(tmp_path / "out/surfaces.csv")
+    for column, attribute in {
+        "name": "name", "material": "material", "reflectance": "reflectance", "area": "area", "tiles": "tiles",
+        "mean_irradiance": "mean", "min_irradiance": "minimum", "max_irradiance": "maximum",
+        "standard_error": "standard_error", "power": "power", "behind_share": "behind_share", "hits": "hits",
+        "direct": "direct", "absorbed": "absorbed", "unreached_area": "unreached_area",
+    }.items():  # fmt: skip
+        for text, surface in zip(written[column], result.surfaces.values(), strict=True):
+            value = getattr(surface, attribute)
+            assert value == type(value)(text) or (value != value and text == "nan"), column
+
+    written = lit_rooms.table(tmp_path / "out/receivers.csv")
+    assert result.receivers.names == written["name"]
+    for name in ("irradiance", "direct", "indirect", "standard_error", "gain"):
+        np.testing.assert_array_equal(getattr(result.receivers, name), np.array(written[name], dtype=float))
+
+    written = lit_rooms.table(tmp_path / "out/areas.csv")
+    area = result.areas[0]
+    for column, figure in {"em": area.mean, "emin": area.minimum, "emax": area.maximum, "u0": area.uniformity}.items():
+        assert figure.value == float(written[column][0])
+        assert figure.standard_error == float(written[column + "_se"][0])
+    assert area.points == int(written["points"][0])
+    assert sum(area.left_out.values()) == int(written["left_out"][0])
