@@ -24,7 +24,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 NOTEBOOKS = ROOT / "docs/notebooks"
 sys.path.insert(0, str(ROOT / "python/tests"))
 
-from printed import difference, instruction_set  # noqa: E402
+from printed import arithmetic, difference  # noqa: E402
 
 
 @contextlib.contextmanager
@@ -43,16 +43,26 @@ def execute(file: pathlib.Path) -> nbformat.NotebookNode:
     """The notebook with the outputs of this machine. An exception in a cell is raised (CellExecutionError)."""
     notebook = nbformat.read(file, as_version=4)
     with folder_of_notebooks() as folder:
-        NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(folder)}}).execute()
+        NotebookClient(
+            notebook,
+            timeout=300,
+            kernel_name="python3",
+            coalesce_streams=True,
+            extra_arguments=["--log-level=ERROR"],
+            resources={"metadata": {"path": str(folder)}},
+        ).execute()
     return notebook
 
 
-def printed(cell: nbformat.NotebookNode) -> str:
+def printed(cell: nbformat.NotebookNode, stream: str = "stdout") -> str:
     """What a cell has printed, with the text of its value; pictures do not count."""
     texts = []
     for output in cell.get("outputs", []):
         if output["output_type"] == "stream":
-            texts.append(output["text"])
+            if output["name"] == stream:
+                texts.append(output["text"])
+        elif stream != "stdout":
+            continue
         elif "image/png" not in output.get("data", {}):
             texts.append(output.get("data", {}).get("text/plain", ""))
     return "\n".join(texts)
@@ -61,9 +71,11 @@ def printed(cell: nbformat.NotebookNode) -> str:
 def check(file: pathlib.Path) -> list[str]:
     """Executes a notebook; gives a sentence for every cell whose text is not the stored one."""
     stored = nbformat.read(file, as_version=4)
-    exact = stored.metadata.get("lichtmc", {}).get("instruction_set") == instruction_set()
+    exact = stored.metadata.get("lichtmc", {}).get("arithmetic") == arithmetic()
     faults = []
     for number, (old, new) in enumerate(zip(stored.cells, execute(file).cells, strict=True), start=1):
+        if warning := printed(new, "stderr"):
+            faults.append(f"{file.name}, cell {number} warns: {warning}")
         if fault := difference(printed(old), printed(new), exact=exact):
             faults.append(f"{file.name}, cell {number}: {fault}")
     return faults
@@ -78,7 +90,7 @@ def write(file: pathlib.Path) -> None:
         {
             "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},
             "language_info": {"name": "python"},
-            "lichtmc": {"instruction_set": instruction_set()},
+            "lichtmc": {"arithmetic": arithmetic()},
         }
     )
     nbformat.validate(notebook)

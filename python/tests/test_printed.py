@@ -24,3 +24,10 @@ def test_counts_and_words_must_be_equal() -> None:
     assert difference("48 points", "49 points", exact=False)
     assert difference("48 points", "48 tiles", exact=False)
     assert difference("48", "48 49", exact=False)
+
+
+def test_figures_may_be_rounded_the_other_way() -> None:
+    assert difference("349 ± 2 lx", "350 ± 2 lx", exact=False) == ""
+    assert difference("349 ± 2 lx", "349 ± 3 lx", exact=False) == ""
+    assert difference("349 ± 2 lx", "351 ± 2 lx", exact=False)
+    assert difference("349 ± 2 lx", "350 ± 2 lx", exact=True)

@@ -110,6 +110,7 @@ TILE_RUNS = {
 }
 
 
+@pytest.mark.filterwarnings("ignore::lichtmc.ResultWarning")
 @pytest.mark.parametrize("name", TILE_RUNS)
 def test_tiles(name: str, tmp_path: Path) -> None:
     file, options, arguments = TILE_RUNS[name]
@@ -146,6 +147,7 @@ def test_receivers_from_arrays(tmp_path: Path) -> None:
     assert_same_receivers(tmp_path / "out", lichtmc.simulate(room, only="receivers", photons=20_000))
 
 
+@pytest.mark.filterwarnings("ignore::lichtmc.ResultWarning")
 def test_areas(tmp_path: Path) -> None:
     run_program(
         OFFICE,
@@ -154,12 +156,13 @@ def test_areas(tmp_path: Path) -> None:
         *("--only", "receivers", "--photons", "20000", "--estimator", "weight", "--threads", "1"),
     )
     room = lichtmc.Room.from_gltf(OFFICE)
-    room.add_working_plane(0.75, target_lx=300, target_uniformity=0.6)
+    # The order of the command line: the digits of a receiver depend on its number.
     room.add_area("desk", corner=(0.8, 0.76, -1.2), u=(1.6, 0, 0), v=(0, 0, -0.8))
+    room.add_working_plane(0.75, target_lx=300, target_uniformity=0.6)
     result = lichtmc.simulate(room, only="receivers", photons=20_000, estimator="weight", threads=2)
     with (tmp_path / "out/areas.csv").open(encoding="utf-8", newline="") as lines:
         rows = {row["area"]: row for row in csv.DictReader(lines)}
-    assert sorted(rows) == sorted(result.areas)
+    assert list(rows) == list(result.areas)
     for name, row in rows.items():
         area = result.areas[name]
         assert int(row["points"]) == area.points
@@ -170,6 +173,7 @@ def test_areas(tmp_path: Path) -> None:
     assert_same_receivers(tmp_path / "out", result)
 
 
+@pytest.mark.filterwarnings("ignore::lichtmc.ResultWarning")
 def test_channels(tmp_path: Path) -> None:
     table = ROOT / "scenes/living_room_receivers.csv"
     run_program(
