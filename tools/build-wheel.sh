@@ -2,6 +2,7 @@
 # Builds wheels of the Python package that need nothing but glibc and numpy: the libraries that it stands on (Embree, OpenEXR,
 # HDF5, Draco ...) are put into them by auditwheel, with their licences. MPI is left out.
 #   tools/build-wheel.sh [PYTHON...]
+# The library is that of build/release; what is missing there is compiled.
 # PYTHON: programs; a wheel of Python 3.11 is for 3.11, one of 3.12 or later is for all from 3.12 on (stable ABI). Default:
 # python3, and the oldest other one from 3.12 on that is found. The wheels, and libraries.txt (library, Debian package,
 # version, size, licences), are written to build/wheel. A wheel works with the glibc of the system that built it and later
@@ -37,7 +38,7 @@ for python in "${pythons[@]}"; do
   [ -e "$venv/bin/python" ] || "$python" -m venv "$venv"
   # shellcheck disable=SC2086
   "$venv/bin/pip" install --quiet --disable-pip-version-check $tools
-  "$venv/bin/pip" wheel --quiet --disable-pip-version-check --no-deps --wheel-dir "$out/built" -C build-dir="$out/build-$version" .
+  "$venv/bin/pip" wheel --quiet --disable-pip-version-check --no-deps --wheel-dir "$out/built" -C build-dir=build/release .
 done
 for wheel in "$out"/built/*.whl; do
   PATH=$PWD/$venv/bin:$PATH "$venv/bin/auditwheel" --verbose repair --wheel-dir "$out/repaired" "$wheel" >"$out/auditwheel.log" 2>&1 ||
