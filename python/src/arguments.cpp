@@ -101,12 +101,12 @@ bool flag_of(nb::handle value, const std::string& what) {
 
 std::filesystem::path path_of(nb::handle value, const std::string& what) {
   std::filesystem::path path;
-  if (nb::try_cast(value, path)) return path;
+  const bool is_content = nb::isinstance<nb::bytes>(value);
+  if (!is_content && nb::try_cast(value, path)) return path;
   PyErr_Clear();
-  refuse_value(what, value, "the name of a file, as str or pathlib.Path",
-               "Give such a name" + std::string(nb::isinstance<nb::bytes>(value)
-                                                    ? "; for the content of a file in memory use the function for it."
-                                                    : "."));
+  refuse_value(
+      what, value, "the name of a file, as str or pathlib.Path",
+      is_content ? "For the content of a file in memory there are from_bytes() and from_text()." : "Give such a name.");
 }
 
 Quantity unit_of(nb::handle value) {

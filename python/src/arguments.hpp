@@ -19,6 +19,11 @@ namespace lichtmc::python {
 
 namespace nb = nanobind;
 
+// An argument that accepts any object, also None: the functions below say what is wrong with it.
+inline auto any_arg(const char* name) {
+  return nb::arg(name).none();
+}
+
 // Text of a value for messages: its repr, shortened.
 std::string shown(nb::handle value);
 

@@ -141,7 +141,7 @@ void bind_inspection(nb::module_& module) {
 void bind_check(nb::module_& module, RoomClass& room) {
   bind_finding(module);
   bind_inspection(module);
-  room.def("check", &check, nb::arg("tile") = 0.1, nb::sig("def check(self, tile: float = 0.1) -> Inspection"),
+  room.def("check", &check, any_arg("tile") = 0.1, nb::sig("def check(self, tile: float = 0.1) -> Inspection"),
            R"(Checks the room: what will be modelled, what is probably wrong, what to do.
 
 It follows some 10⁵ photons, which takes seconds in rooms of 10⁶ triangles. simulate() does not check by itself: call

@@ -96,7 +96,7 @@ void bind_point_shapes(nb::module_& module) {
         check_shape("Isotropic", shape);
         new (self) IsotropicEmitter(shape);
       },
-      nb::arg("position"), nb::sig("def __init__(self, position: numpy.typing.ArrayLike) -> None"),
+      any_arg("position"), nb::sig("def __init__(self, position: numpy.typing.ArrayLike) -> None"),
       "At a position (x, y, z), m.");
   def_position(isotropic);
   def_value<IsotropicEmitter>(isotropic, [](const IsotropicEmitter& shape) {
@@ -115,7 +115,7 @@ void bind_point_shapes(nb::module_& module) {
             check_shape("Lambert", shape);
             new (self) LambertEmitter(shape);
           },
-          nb::arg("position"), nb::arg("axis") = nb::make_tuple(0, -1, 0), nb::arg("exponent") = 1.0,
+          any_arg("position"), any_arg("axis") = nb::make_tuple(0, -1, 0), any_arg("exponent") = 1.0,
           nb::sig("def __init__(self, position: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike = (0, -1, 0), "
                   "exponent: float = 1.0) -> None"),
           R"(A point emitter.
@@ -145,8 +145,8 @@ void bind_spot(nb::module_& module) {
             check_shape("Spot", shape);
             new (self) SpotEmitter(shape);
           },
-          nb::arg("position"), nb::arg("axis") = nb::make_tuple(0, -1, 0), nb::kw_only(), nb::arg("inner_deg") = 0.0,
-          nb::arg("outer_deg") = 45.0,
+          any_arg("position"), any_arg("axis") = nb::make_tuple(0, -1, 0), nb::kw_only(), any_arg("inner_deg") = 0.0,
+          any_arg("outer_deg") = 45.0,
           nb::sig("def __init__(self, position: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike = (0, -1, 0), *, "
                   "inner_deg: float = 0.0, outer_deg: float = 45.0) -> None"),
           R"(A spot.
@@ -182,7 +182,7 @@ void bind_area_light(nb::module_& module) {
             check_shape("AreaLight", LambertEmitter{{}, {0.0, -1.0, 0.0}, m});
             new (self) AreaLightShape{text_of(surface, "name of the emitting surface"), m};
           },
-          nb::arg("surface"), nb::arg("exponent") = 1.0,
+          any_arg("surface"), any_arg("exponent") = 1.0,
           nb::sig("def __init__(self, surface: str, exponent: float = 1.0) -> None"),
           R"(An area light.
 
@@ -234,10 +234,10 @@ void bind_luminaire(nb::module_& module) {
   nb::class_<LuminaireShape> luminaire(
       module, "Luminaire",
       "A luminaire with a photometric file (IES LM-63 or EULUMDAT): its intensity and, unless it is scaled, its flux.");
-  luminaire.def("__init__", &make_luminaire, nb::arg("photometry"), nb::arg("position"),
-                nb::arg("aim") = nb::make_tuple(0, -1, 0), nb::kw_only(), nb::arg("rotation_deg") = 0.0,
-                nb::arg("lumens") = nb::none(), nb::arg("scale") = nb::none(), nb::arg("watts") = nb::none(),
-                nb::arg("area") = false, nb::arg("lamp_set") = 1, nb::arg("flip_horizontal") = false,
+  luminaire.def("__init__", &make_luminaire, any_arg("photometry"), any_arg("position"),
+                any_arg("aim") = nb::make_tuple(0, -1, 0), nb::kw_only(), any_arg("rotation_deg") = 0.0,
+                any_arg("lumens") = nb::none(), any_arg("scale") = nb::none(), any_arg("watts") = nb::none(),
+                any_arg("area") = false, any_arg("lamp_set") = 1, any_arg("flip_horizontal") = false,
                 nb::sig("def __init__(self, photometry: Photometry | str | os.PathLike[str], position: "
                         "numpy.typing.ArrayLike, aim: numpy.typing.ArrayLike = (0, -1, 0), *, rotation_deg: float = "
                         "0.0, lumens: float | None = None, scale: float | None = None, watts: float | None = None, "
@@ -480,8 +480,8 @@ void bind_emitters_of_room(nb::module_& module, RoomClass& room) {
   bind_area_light(module);
   bind_luminaire(module);
   bind_emitter(module);
-  room.def("add_emitter", &add, nb::arg("shape"), nb::arg("power") = nb::none(), nb::kw_only(), nb::arg("unit") = "lm",
-           nb::arg("name") = nb::none(), nb::arg("delay") = 0.0, nb::arg("maintenance_factor") = nb::none(),
+  room.def("add_emitter", &add, any_arg("shape"), any_arg("power") = nb::none(), nb::kw_only(), any_arg("unit") = "lm",
+           any_arg("name") = nb::none(), any_arg("delay") = 0.0, any_arg("maintenance_factor") = nb::none(),
            nb::sig("def add_emitter(self, shape: Isotropic | Lambert | Spot | AreaLight | Luminaire, power: float | "
                    "None = None, *, unit: str = 'lm', name: str | None = None, delay: float = 0.0, "
                    "maintenance_factor: float | None = None) -> str"),

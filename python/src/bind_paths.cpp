@@ -67,8 +67,8 @@ void bind_paths(nb::module_& module, RoomClass& room) {
         return "<Path " + std::to_string(path.history) + ": " + std::to_string(path.points.size()) + " points, " +
                std::string(to_string(path.end)) + ">";
       });
-  room.def("paths", &paths, nb::arg("count") = 50, nb::kw_only(), nb::arg("seed") = 1,
-           nb::arg("estimator") = "collision",
+  room.def("paths", &paths, any_arg("count") = 50, nb::kw_only(), any_arg("seed") = 1,
+           any_arg("estimator") = "collision",
            nb::sig("def paths(self, count: int = 50, *, seed: int = 1, estimator: str = 'collision') -> list[Path]"),
            R"(The paths of the first photons of a run with this seed and estimator, a list of :class:`Path`.
 

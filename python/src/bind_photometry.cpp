@@ -82,8 +82,8 @@ void def_making(Class& of) {
               read_photometry(path_of(path, "photometric file"), options_of(lamp_set, flip, needs_flux)))};
           new (self) PhotometryFile(std::move(file));
         },
-        nb::arg("path"), nb::kw_only(), nb::arg("lamp_set") = 1, nb::arg("flip_horizontal") = false,
-        nb::arg("needs_flux") = true,
+        any_arg("path"), nb::kw_only(), any_arg("lamp_set") = 1, any_arg("flip_horizontal") = false,
+        any_arg("needs_flux") = true,
         nb::sig("def __init__(self, path: str | os.PathLike[str], *, lamp_set: int = 1, flip_horizontal: bool = False, "
                 "needs_flux: bool = True) -> None"),
         R"(Reads a file; the format is recognised by its content.
@@ -96,8 +96,8 @@ Args:
 
 Raises:
     InputError: The file cannot be read or is not valid; the message names the line.)")
-      .def_static("from_text", &from_text, nb::arg("text"), nb::arg("name") = "text", nb::kw_only(),
-                  nb::arg("lamp_set") = 1, nb::arg("flip_horizontal") = false, nb::arg("needs_flux") = true,
+      .def_static("from_text", &from_text, any_arg("text"), any_arg("name") = "text", nb::kw_only(),
+                  any_arg("lamp_set") = 1, any_arg("flip_horizontal") = false, any_arg("needs_flux") = true,
                   nb::sig("def from_text(text: str | bytes, name: str = 'text', *, lamp_set: int = 1, flip_horizontal: "
                           "bool = False, needs_flux: bool = True) -> Photometry"),
                   "The same from the content of a file; `name` stands for it in messages. A separate TILT file is "
@@ -108,7 +108,7 @@ void def_light(Class& of) {
   of.def_prop_ro(
         "flux", [](const PhotometryFile& file) { return file.photometry->flux(); },
         "Luminous flux of the luminaire, lm: the integral of its intensity over all directions.")
-      .def("candela", &candela, nb::arg("directions"), has_owner,
+      .def("candela", &candela, any_arg("directions"), has_owner,
            nb::sig("def candela(self, directions: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
            R"(Intensity, cd, in directions of the luminaire's own frame, float64 (n,).
 

@@ -141,11 +141,11 @@ void def_making(RoomClass& room) {
             empty.source = text_of(source, "source of the room");
             new (self) SharedRoom(std::move(empty));
           },
-          nb::arg("source") = "room", nb::sig("def __init__(self, source: str = 'room') -> None"),
+          any_arg("source") = "room", nb::sig("def __init__(self, source: str = 'room') -> None"),
           "A room without surfaces, for :meth:`add_surface`. `source` is its name in messages and reports.")
-      .def_static("from_gltf", &from_gltf, nb::arg("path"), nb::kw_only(), nb::arg("scale") = 1.0, nb::arg("up") = "y",
-                  nb::arg("scene") = "", nb::arg("without") = nb::make_tuple(), nb::arg("unit") = nb::none(),
-                  nb::arg("uv_set") = nb::none(), nb::arg("reflectance") = nb::none(), nb::arg("follow_links") = false,
+      .def_static("from_gltf", &from_gltf, any_arg("path"), nb::kw_only(), any_arg("scale") = 1.0, any_arg("up") = "y",
+                  any_arg("scene") = "", any_arg("without") = nb::make_tuple(), any_arg("unit") = nb::none(),
+                  any_arg("uv_set") = nb::none(), any_arg("reflectance") = nb::none(), any_arg("follow_links") = false,
                   nb::sig("def from_gltf(path: str | os.PathLike[str], *, scale: float = 1.0, up: str = 'y', scene: "
                           "str = '', without: str | collections.abc.Sequence[str] = (), unit: str | None = None, "
                           "uv_set: int | None = None, reflectance: dict[str, float] | None = None, follow_links: bool "
@@ -166,10 +166,10 @@ Args:
 
 Raises:
     InputError: The file cannot be read or is not valid.)")
-      .def_static("from_bytes", &from_bytes, nb::arg("data"), nb::kw_only(), nb::arg("name") = "bytes",
-                  nb::arg("scale") = 1.0, nb::arg("up") = "y", nb::arg("scene") = "",
-                  nb::arg("without") = nb::make_tuple(), nb::arg("unit") = nb::none(), nb::arg("uv_set") = nb::none(),
-                  nb::arg("reflectance") = nb::none(),
+      .def_static("from_bytes", &from_bytes, any_arg("data"), nb::kw_only(), any_arg("name") = "bytes",
+                  any_arg("scale") = 1.0, any_arg("up") = "y", any_arg("scene") = "",
+                  any_arg("without") = nb::make_tuple(), any_arg("unit") = nb::none(), any_arg("uv_set") = nb::none(),
+                  any_arg("reflectance") = nb::none(),
                   nb::sig("def from_bytes(data: bytes | bytearray | memoryview, *, name: str = 'bytes', scale: float "
                           "= 1.0, up: str = 'y', scene: str = '', without: str | collections.abc.Sequence[str] = (), "
                           "unit: str | None = None, uv_set: int | None = None, reflectance: dict[str, float] | None = "
@@ -179,10 +179,10 @@ Raises:
 Files that the content names are refused: in memory there is no folder for them. `name` stands for the room in
 messages and reports; the other arguments are those of :meth:`from_gltf`.)")
       .def_static(
-          "cuboid", &cuboid, nb::arg("size"), nb::arg("reflectance") = 0.5, nb::kw_only(),
-          nb::arg("floor") = nb::none(), nb::arg("ceiling") = nb::none(), nb::arg("walls") = nb::none(),
-          nb::arg("x0") = nb::none(), nb::arg("x1") = nb::none(), nb::arg("z0") = nb::none(),
-          nb::arg("z1") = nb::none(),
+          "cuboid", &cuboid, any_arg("size"), any_arg("reflectance") = 0.5, nb::kw_only(),
+          any_arg("floor") = nb::none(), any_arg("ceiling") = nb::none(), any_arg("walls") = nb::none(),
+          any_arg("x0") = nb::none(), any_arg("x1") = nb::none(), any_arg("z0") = nb::none(),
+          any_arg("z1") = nb::none(),
           nb::sig("def cuboid(size: numpy.typing.ArrayLike, reflectance: float = 0.5, *, floor: float | None = None, "
                   "ceiling: float | None = None, walls: float | None = None, x0: float | None = None, x1: float | "
                   "None = None, z0: float | None = None, z1: float | None = None) -> Room"),
@@ -238,7 +238,7 @@ void def_content(RoomClass& room) {
               return true;
             });
           },
-          nb::arg("path"), nb::sig("def write_gltf(self, path: str | os.PathLike[str]) -> None"),
+          any_arg("path"), nb::sig("def write_gltf(self, path: str | os.PathLike[str]) -> None"),
           R"(Writes the room as a .glb (binary) or .gltf (JSON, data embedded) file.
 
 :meth:`from_gltf` returns the same room, except that coordinates are rounded to float32 and reflectance maps to images
@@ -257,7 +257,7 @@ void def_overrides(RoomClass& room) {
             const double reflectance = number_of(value, "reflectance");
             shared.change([&](Room& changed) { set_reflectance(changed, which, reflectance); });
           },
-          nb::arg("name"), nb::arg("value"), nb::sig("def set_reflectance(self, name: str, value: float) -> None"),
+          any_arg("name"), any_arg("value"), nb::sig("def set_reflectance(self, name: str, value: float) -> None"),
           R"(Sets the reflectance (0 to 1) of surfaces; it replaces textures.
 
 Args:
@@ -270,7 +270,7 @@ Args:
             const double limit = number_of(highest, "highest reflectance");
             shared.change([&](Room& changed) { limit_reflectance(changed, limit); });
           },
-          nb::arg("highest"), nb::sig("def limit_reflectance(self, highest: float) -> None"),
+          any_arg("highest"), nb::sig("def limit_reflectance(self, highest: float) -> None"),
           "Lowers every reflectance above `highest` (0 to 1) to it, in textures too.")
       .def(
           "measure_only",
@@ -284,7 +284,7 @@ Args:
             measure_only(changed, which);
             shared.replace(std::move(changed));
           },
-          nb::arg("names"), nb::sig("def measure_only(self, names: str | collections.abc.Sequence[str]) -> None"),
+          any_arg("names"), nb::sig("def measure_only(self, names: str | collections.abc.Sequence[str]) -> None"),
           "Measures only the surfaces of these names or patterns (of materials or surfaces); the others only reflect "
           "and have no tiles in the results.")
       .def(
@@ -294,7 +294,7 @@ Args:
             const double delay = number_of(seconds, "delay");
             shared.change([&](Room& changed) { set_delay(changed, which, delay); });
           },
-          nb::arg("name"), nb::arg("seconds"), nb::sig("def set_delay(self, name: str, seconds: float) -> None"),
+          any_arg("name"), any_arg("seconds"), nb::sig("def set_delay(self, name: str, seconds: float) -> None"),
           "Sets the delay, s (0 or more), of the light of the emitters of this name or pattern behind the signal, for "
           "impulse responses.")
       .def(
@@ -303,7 +303,7 @@ Args:
             const double share = number_of(factor, "maintenance factor");
             shared.change([&](Room& changed) { set_maintenance_factor(changed, share); });
           },
-          nb::arg("factor"), nb::sig("def set_maintenance_factor(self, factor: float) -> None"),
+          any_arg("factor"), nb::sig("def set_maintenance_factor(self, factor: float) -> None"),
           R"(Sets the share of their new power (above 0, up to 1) that the emitters of the room keep.
 
 Their powers are multiplied by it: results are maintained values. Emitters with a factor of their own keep it; emitters

@@ -217,16 +217,16 @@ Args:
     surface: Name or pattern of a material or surface.
     name: Its name; several areas are numbered. Default: the name of the surface.)") +
       properties_text;
-  room.def("add_area", &add_area, nb::arg("name"), nb::arg("corner"), nb::arg("u"), nb::arg("v"), nb::arg("properties"),
+  room.def("add_area", &add_area, any_arg("name"), any_arg("corner"), any_arg("u"), any_arg("v"), nb::arg("properties"),
            nb::sig("def add_area(self, name: str, corner: numpy.typing.ArrayLike, u: numpy.typing.ArrayLike, v: "
                    "numpy.typing.ArrayLike, **properties: typing.Any) -> str"),
            of_area.c_str())
-      .def("add_working_plane", &add_working_plane, nb::arg("height"), nb::arg("margin") = nb::none(), nb::kw_only(),
-           nb::arg("name") = "plane", nb::arg("properties"),
+      .def("add_working_plane", &add_working_plane, any_arg("height"), any_arg("margin") = nb::none(), nb::kw_only(),
+           any_arg("name") = "plane", nb::arg("properties"),
            nb::sig("def add_working_plane(self, height: float, margin: float | None = None, *, name: str = 'plane', "
                    "**properties: typing.Any) -> list[str]"),
            of_plane.c_str())
-      .def("add_area_on", &add_area_on, nb::arg("surface"), nb::kw_only(), nb::arg("name") = nb::none(),
+      .def("add_area_on", &add_area_on, any_arg("surface"), nb::kw_only(), any_arg("name") = nb::none(),
            nb::arg("properties"),
            nb::sig("def add_area_on(self, surface: str, *, name: str | None = None, **properties: typing.Any) -> "
                    "list[str]"),

@@ -176,10 +176,10 @@ void bind_receivers(nb::module_& module) {
 
 void bind_receivers_of_room(nb::module_& module, RoomClass& room) {
   bind_receivers(module);
-  room.def("add_receivers", &add_receivers, nb::arg("positions"), nb::arg("normals") = nb::make_tuple(0, 1, 0),
-           nb::kw_only(), nb::arg("names") = nb::none(), nb::arg("half_angle") = 90.0, nb::arg("area") = 1.0,
-           nb::arg("concentrator_index") = nb::none(), nb::arg("filter_gain") = 1.0, nb::arg("law") = "planar",
-           nb::arg("facing") = nb::make_tuple(1, 0, 0), nb::arg("cell_u") = nb::none(), nb::arg("cell_v") = nb::none(),
+  room.def("add_receivers", &add_receivers, any_arg("positions"), any_arg("normals") = nb::make_tuple(0, 1, 0),
+           nb::kw_only(), any_arg("names") = nb::none(), any_arg("half_angle") = 90.0, any_arg("area") = 1.0,
+           any_arg("concentrator_index") = nb::none(), any_arg("filter_gain") = 1.0, any_arg("law") = "planar",
+           any_arg("facing") = nb::make_tuple(1, 0, 0), any_arg("cell_u") = nb::none(), any_arg("cell_v") = nb::none(),
            nb::sig("def add_receivers(self, positions: numpy.typing.ArrayLike, normals: numpy.typing.ArrayLike = (0, "
                    "1, 0), *, names: str | collections.abc.Sequence[str] | None = None, half_angle: "
                    "numpy.typing.ArrayLike = 90.0, area: numpy.typing.ArrayLike = 1.0, concentrator_index: "
@@ -204,7 +204,7 @@ Args:
 
 Raises:
     InputError: A shape does not fit, or a value is out of its range.)")
-      .def("add_receiver_grid", &add_grid, nb::arg("height"), nb::arg("spacing") = 0.5,
+      .def("add_receiver_grid", &add_grid, any_arg("height"), any_arg("spacing") = 0.5,
            nb::sig("def add_receiver_grid(self, height: float, spacing: float = 0.5) -> list[str]"),
            R"(Adds a grid of receivers above all floors that light reaches, looking up; returns their names.
 
@@ -219,7 +219,7 @@ Args:
             const std::filesystem::path file = path_of(path, "table of receivers");
             return insert(shared, read_receiver_table(file).receivers);
           },
-          nb::arg("path"), nb::sig("def read_receivers(self, path: str | os.PathLike[str]) -> list[str]"),
+          any_arg("path"), nb::sig("def read_receivers(self, path: str | os.PathLike[str]) -> list[str]"),
           R"(Adds the receivers of a table (CSV); returns their names.
 
 Columns by a heading: x, y, z (m), nx, ny, nz (normal) and, if wanted, name, area (m²), fov (half angle, degrees),

@@ -268,9 +268,9 @@ void bind_surface(nb::module_& module) {
 void bind_surfaces_of_room(nb::module_& module, RoomClass& room) {
   bind_surface(module);
   room.def_static(
-          "from_triangles", &from_triangles, nb::arg("vertices"), nb::arg("faces"), nb::arg("reflectance") = 0.5,
-          nb::kw_only(), nb::arg("surfaces") = nb::none(), nb::arg("names") = nb::none(), nb::arg("two_sided") = false,
-          nb::arg("uvs") = nb::none(), nb::arg("source") = "triangles",
+          "from_triangles", &from_triangles, any_arg("vertices"), any_arg("faces"), any_arg("reflectance") = 0.5,
+          nb::kw_only(), any_arg("surfaces") = nb::none(), any_arg("names") = nb::none(), any_arg("two_sided") = false,
+          any_arg("uvs") = nb::none(), any_arg("source") = "triangles",
           nb::sig("def from_triangles(vertices: numpy.typing.ArrayLike, faces: numpy.typing.ArrayLike, reflectance: "
                   "numpy.typing.ArrayLike = 0.5, *, surfaces: numpy.typing.ArrayLike | None = None, names: "
                   "collections.abc.Sequence[str] | None = None, two_sided: bool = False, uvs: numpy.typing.ArrayLike | "
@@ -292,9 +292,9 @@ Args:
 
 Raises:
     InputError: A shape, an index, a number or a name is not valid.)")
-      .def("add_surface", &add_surface, nb::arg("name"), nb::arg("vertices"), nb::arg("faces"),
-           nb::arg("reflectance") = 0.5, nb::kw_only(), nb::arg("material") = "", nb::arg("two_sided") = false,
-           nb::arg("uvs") = nb::none(), nb::arg("measured") = true,
+      .def("add_surface", &add_surface, any_arg("name"), any_arg("vertices"), any_arg("faces"),
+           any_arg("reflectance") = 0.5, nb::kw_only(), any_arg("material") = "", any_arg("two_sided") = false,
+           any_arg("uvs") = nb::none(), any_arg("measured") = true,
            nb::sig("def add_surface(self, name: str, vertices: numpy.typing.ArrayLike, faces: numpy.typing.ArrayLike, "
                    "reflectance: float = 0.5, *, material: str = '', two_sided: bool = False, uvs: "
                    "numpy.typing.ArrayLike | None = None, measured: bool = True) -> None"),
