@@ -1,0 +1,86 @@
+"""Rooms and several threads of Python."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import lichtmc
+from room_files import cuboid
+
+
+def test_a_room_changes_while_another_thread_works_with_it():
+    room = cuboid()
+    stop = threading.Event()
+    changes = 0
+
+    def change() -> None:
+        nonlocal changes
+        while not stop.is_set():
+            room.set_reflectance("floor", 0.1 + 0.001 * (changes % 100))
+            room.add_emitter(lichtmc.Isotropic((1, 1, 1)), 0)
+            changes += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=change)
+    thread.start()
+    try:
+        for _ in range(3):
+            assert room.check(tile=0.5).closed
+            assert len(room.paths(100)) == 100
+            assert lichtmc.simulate(room, photons=2000).tiles.irradiance.min() >= 0
+    finally:
+        stop.set()
+        thread.join()
+    assert changes > 0
+    assert len(room.emitters) == changes + 1
+
+
+def sheet(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """A level mesh of 2 n² triangles, so that it takes a while to lay out an area over it."""
+    x, z = np.meshgrid(np.linspace(0.5, 3.5, n + 1), np.linspace(0.5, 4.5, n + 1))
+    vertices = np.stack([x, np.full_like(x, 0.01), z], axis=-1).reshape(-1, 3)
+    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).reshape(-1)
+    right, below = corner + 1, corner + n + 1
+    return vertices, np.concatenate([np.stack([corner, below, right], 1), np.stack([right, below, below + 1], 1)])
+
+
+def test_a_change_by_another_thread_during_a_slow_one_is_told():
+    room = cuboid()
+    room.add_surface("carpet", *sheet(100))
+    told: list[str] = []
+
+    def lay() -> None:
+        try:
+            room.add_area("desk", (1, 0.75, 1), (1, 0, 0), (0, 0, 1))
+        except lichtmc.InputError as error:
+            told.append(str(error))
+
+    thread = threading.Thread(target=lay)
+    thread.start()
+    names = []
+    while thread.is_alive():
+        names.append(room.add_emitter(lichtmc.Isotropic((1, 1, 1)), 1))
+        thread.join(0.02)
+    assert [e.name for e in room.emitters][1:] == names
+    assert told == [] or "changed by another thread" in told[0]
+    assert len(room.areas) == (0 if told else 1)
+
+
+def test_rooms_are_made_in_several_threads():
+    rooms: list[lichtmc.Room] = []
+    threads = [threading.Thread(target=lambda: rooms.append(cuboid())) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len({repr(room) for room in rooms}) == 1
+    assert len(rooms) == 8
+
+
+def test_an_error_in_a_thread_is_an_input_error():
+    with pytest.raises(lichtmc.InputError):
+        lichtmc.Room.from_bytes(b"damaged")
