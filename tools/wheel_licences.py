@@ -30,8 +30,8 @@ def system_libraries():
 
 
 def original(name, libraries):
-    """The file that auditwheel copied: it renames libx.so.1 to libx-0123abcd.so.1, by the name of the file."""
-    plain = re.sub(r"-[0-9a-f]{8}(?=\.so)", "", name)
+    """The file that auditwheel copied: it renames libx.so.1 to libx-0123abcd.so.1."""
+    plain = re.sub(r"-[0-9a-f]{8}(?=\.)", "", name)
     candidates = [path for soname, path in libraries.items() if plain in (soname, path.name, path.resolve().name)]
     if not candidates:
         sys.exit(f"wheel_licences.py: no library of the system is called {plain} ({name})")
@@ -75,7 +75,7 @@ def main():
             shutil.copyfile(copyright_file, licences / f"{package}.txt")
             version = run("dpkg-query", "-W", "-f=${Version}", package)
             text = copyright_file.read_text(errors="replace")
-            rows.append((re.sub(r"-[0-9a-f]{8}(?=\.so)", "", library.name), package, version,
+            rows.append((re.sub(r"-[0-9a-f]{8}(?=\.)", "", library.name), package, version,
                          f"{library.stat().st_size / 1e6:.1f} MB", licences_in(text)))
         heads = ("library", "package", "version", "size", "licences in its copyright file")
         widths = [max(len(row[k]) for row in [heads, *rows]) for k in range(4)]
