@@ -305,3 +305,19 @@ def test_an_empty_room_is_filled_surface_by_surface():
     assert lichtmc.simulate(room, photons=1000).tiles.irradiance.sum() > 0
     with pytest.raises(lichtmc.InputError, match="no triangle with an area in empty"):
         lichtmc.simulate(lichtmc.Room("empty"), photons=1000)
+
+
+def test_malformed_files_are_refused_or_read_as_from_disk():
+    files = sorted(existing(ROOMS / "malformed").rglob("*.gl*"))
+    assert files
+    refused = 0
+    for file in files:
+        outcomes = []
+        for read in (lambda: lichtmc.Room.from_gltf(file), lambda: lichtmc.Room.from_bytes(file.read_bytes(), name=str(file))):
+            try:
+                outcomes.append(repr(read()))
+            except lichtmc.InputError as error:
+                outcomes.append(str(error))
+        refused += str(file) + ":" in outcomes[0]
+        assert outcomes[0] == outcomes[1] or "have no folder" in outcomes[1], file
+    assert refused > 0

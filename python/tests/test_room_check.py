@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import _thread
 import json
+import threading
 
 import numpy as np
 import pytest
@@ -120,3 +122,13 @@ def test_wrong_paths_are_refused(options, message):
 def test_paths_of_a_room_without_emitters_are_refused():
     with pytest.raises(lichtmc.InputError, match="no emitter"):
         lichtmc.Room.cuboid((4, 2.5, 5)).paths(1)
+
+
+def test_ctrl_c_ends_a_check_when_it_has_ended():
+    room = lichtmc.Room.from_gltf(existing(SCENES / "living_room.glb"))
+    timer = threading.Timer(0.1, _thread.interrupt_main)
+    with pytest.raises(KeyboardInterrupt):
+        timer.start()
+        for _ in range(1000):
+            room.check()
+    assert room.check().tiles > 0

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import lichtmc
-from room_files import SCENES, command, cuboid, existing, table
+from room_files import DATA, SCENES, command, cuboid, existing, table
 
 PHOTONS = 20_000
 
@@ -91,3 +91,37 @@ def test_options_of_reading_have_the_digits_of_the_command_line(tmp_path):
     room.set_maintenance_factor(0.8)
     tiles = lichtmc.simulate(room, photons=PHOTONS).tiles
     assert tiles.irradiance.tolist() == table(tmp_path / "out" / "tiles.csv", "irradiance")
+
+
+def test_luminaires_and_receivers_have_the_digits_of_the_command_line(tmp_path):
+    lamp = existing(DATA / "luminaires" / "c_skew.ies")
+    receivers = tmp_path / "receivers.csv"
+    receivers.write_text("name,x,y,z,nx,ny,nz,area,fov\na,1,1,1,0,1,0,1e-4,80\nb,2,1,1,0,1,0,1e-4,60\n", encoding="utf-8")
+    room = lichtmc.Room.cuboid((4, 2.5, 5), 0.5)
+    room.write_gltf(tmp_path / "room.glb")
+    command(
+        "run", tmp_path / "room.glb", "--photons", PHOTONS, "--estimator", "collision", "--receiver-walk", "two-way",
+        "--light", f"ies:{lamp}:2,2.25,2.5:0.5,-1,0:30:lm=1500", "--light", f"ies:{lamp}:1,2,1",
+        "--receivers", receivers, "--grid", 0.75, "--grid-spacing", 1, "--no-report", "--no-images", "--quiet",
+        "-o", tmp_path / "out",
+    )  # fmt: skip
+    room.add_emitter(lichtmc.Luminaire(lamp, (2, 2.25, 2.5), (0.5, -1, 0), rotation_deg=30, lumens=1500))
+    room.add_emitter(lichtmc.Luminaire(lichtmc.Photometry(lamp), (1, 2, 1)))
+    room.read_receivers(receivers)
+    room.add_receiver_grid(0.75, 1)
+    again = room.copy()
+    result = lichtmc.simulate(room, photons=PHOTONS, receiver_walk="two-way")
+    assert result.tiles.irradiance.tolist() == table(tmp_path / "out" / "tiles.csv", "irradiance")
+    assert result.receivers.irradiance.tolist() == table(tmp_path / "out" / "receivers.csv", "irradiance")
+    assert [e.name for e in again.emitters] == ["c_skew", "c_skew_2"]
+
+
+def test_receivers_from_arrays_have_the_digits_of_a_table(tmp_path):
+    receivers = tmp_path / "receivers.csv"
+    receivers.write_text("name,x,y,z,nx,ny,nz,area,fov\na,1,1,1,0,1,0,1e-4,80\nb,2,1,1,0,1,0,1e-4,60\n", encoding="utf-8")
+    one, other = cuboid(), cuboid()
+    one.read_receivers(receivers)
+    other.add_receivers([(1, 1, 1), (2, 1, 1)], names=["a", "b"], area=1e-4, half_angle=[80, 60])
+    a, b = (lichtmc.simulate(room, photons=PHOTONS, only="receivers").receivers for room in (one, other))
+    assert np.array_equal(a.irradiance, b.irradiance)
+    assert np.array_equal(a.gain, b.gain)

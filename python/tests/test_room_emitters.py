@@ -233,3 +233,16 @@ def test_the_opening_of_a_luminaire():
             lichtmc.Luminaire(photometry, (2, 2, 2), area=True)
     else:
         assert lichtmc.Luminaire(photometry, (2, 2, 2), area=True).area
+
+
+def test_area_lights_and_luminaires_are_written_and_read(tmp_path):
+    room = empty()
+    room.add_emitter(lichtmc.AreaLight("ceiling"), 300, name="panel")
+    room.add_emitter(lichtmc.Luminaire(lamp(), (2, 2.25, 2.5), rotation_deg=90, lumens=500), name="lamp")
+    room.write_gltf(tmp_path / "room.glb")
+    again = lichtmc.Room.from_gltf(tmp_path / "room.glb").emitters
+    panel, luminaire = sorted(again, key=lambda emitter: type(emitter.shape).__name__)
+    assert panel.shape == lichtmc.AreaLight("ceiling")
+    assert panel.power == pytest.approx(300, rel=1e-6)
+    assert luminaire.power == pytest.approx(500, rel=1e-6)
+    assert np.allclose(luminaire.shape.c0, (0, 0, -1), atol=1e-6)
