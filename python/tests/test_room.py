@@ -308,7 +308,7 @@ def test_an_empty_room_is_filled_surface_by_surface():
 
 
 def test_malformed_files_are_refused_or_read_as_from_disk():
-    files = sorted(existing(ROOMS / "malformed").rglob("*.gl*"))
+    files = [file for file in sorted(existing(ROOMS / "malformed").rglob("*.gl*")) if file.stat().st_size > 0]
     assert files
     refused = 0
     for file in files:
