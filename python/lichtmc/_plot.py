@@ -284,7 +284,7 @@ def _write_values(ax: Any, paper: _Paper, values: Array, image: Any) -> None:
     figure.canvas.draw()  # the layout determines the size of a cell
     corners = ax.transData.transform(np.column_stack([paper.across[:2, :2].ravel(), paper.upwards[:2, :2].ravel()]))
     cell = np.ptp(corners, axis=0) * 72 / figure.dpi
-    longest = max(len(_number(value)) for value in values.ravel())
+    longest = max(len(_number(value)) for value in values.ravel().tolist())
     size = min(10.0, 0.85 * cell[0] / (0.6 * longest), 0.6 * cell[1])
     if size < 4:
         return
@@ -362,7 +362,7 @@ def plot_surface(
     _pyplot()
     one = result.surfaces[surface]
     reached = _reached(result, one)
-    rows, columns = _span(reached.any(axis=1)), _span(reached.any(axis=0))
+    rows, columns = _span(np.any(reached, axis=1)), _span(np.any(reached, axis=0))
     paper = _surface_paper(result, one, reached).part(rows, columns)
 
     def shown(grid: Array) -> Array:

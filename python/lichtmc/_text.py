@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from lichtmc import _core
 
 _MOST_SURFACES = 12
 _MOST_RECEIVERS = 8
-_COUNT_PLACES = 6
 
 
-def _count(number: int, word: str) -> str:
-    return f"{number:,} {word if number == 1 else word + 's'}".replace(",", " ")
+def _count(number: int, word: str, words: str = "") -> str:
+    return f"{number:,} ".replace(",", " ") + (word if number == 1 else words or word + "s")
 
 
 def _percent(share: float) -> str:
@@ -22,12 +22,12 @@ def _percent(share: float) -> str:
 def _walk_text(walk: Any, of: str) -> str:
     return (
         f"{of}: rms relative standard error {_percent(walk.rms_relative_error)} after "
-        f"{_count(walk.histories, 'histories').replace('historiess', 'histories')} ({walk.estimator}, "
+        f"{_count(walk.histories, 'history', 'histories')} ({walk.estimator}, "
         f"{walk.seconds:.2g} s, ended by {walk.stopped_by})"
     )
 
 
-def _table(rows: list[tuple[str, ...]]) -> list[str]:
+def _table(rows: Sequence[tuple[str, ...]]) -> list[str]:
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     return ["  " + "  ".join(text.ljust(width) for text, width in zip(row, widths)).rstrip() for row in rows]
 
@@ -55,7 +55,7 @@ def _receiver_lines(result: _core.Result, unit: str) -> list[str]:
 def result_text(result: _core.Result) -> str:
     """The most important figures of a result, some lines."""
     unit = "W/m²" if result.unit == "W" else "lx"
-    lines = [f"Result of {result.room.source!r}" if hasattr(result.room, "source") else "Result"]
+    lines = [f"Result of {result.room.source!r}"]
     if result.walk is not None:
         lines.append(_walk_text(result.walk, _count(len(result.tiles), "tile")))
         lines += _surface_lines(result, unit)

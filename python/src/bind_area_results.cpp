@@ -163,7 +163,9 @@ void bind_area_results(nb::module_& module) {
       .def_prop_ro("grid_direct", grid(&ReceiverResult::direct), has_owner,
                    "Direct part of grid, same unit and shape.");
   nb::class_<AreaResults> all(module, "AreaResults", "The calculation areas by name, as a dict; also by number.");
-  bind_mapping(all, elements, [](const AreaResults& areas, std::size_t k) { return OneArea{areas.of, k}; });
+  bind_mapping(all, "AreaResult", elements, [](const AreaResults& areas, std::size_t k) {
+    return OneArea{areas.of, k};
+  });
   all.def("__repr__", [](const AreaResults& areas) {
     std::string text;
     for (const AreaResult& area : *areas.of.areas) text += "\n  " + area_line(area, areas.of.quantity);

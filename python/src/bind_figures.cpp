@@ -89,10 +89,12 @@ void bind_figures(nb::module_& module) {
           nb::arg("other").none())
       .def("__hash__",
            [](const Figure& figure) { return nb::hash(nb::make_tuple(figure.value, figure.standard_error)); })
-      .def("__reduce__",
-           [](const Figure& figure) {
-             return nb::make_tuple(nb::type<Figure>(), nb::make_tuple(figure.value, figure.standard_error));
-           })
+      .def(
+          "__reduce__",
+          [](const Figure& figure) {
+            return nb::make_tuple(nb::type<Figure>(), nb::make_tuple(figure.value, figure.standard_error));
+          },
+          nb::sig("def __reduce__(self) -> tuple[type[Figure], tuple[float, float]]"))
       .def("__repr__", [](const Figure& figure) {
         return "Figure(" + std::string(nb::repr(nb::float_(figure.value)).c_str()) + ", " +
                std::string(nb::repr(nb::float_(figure.standard_error)).c_str()) + ")";
@@ -108,17 +110,20 @@ void bind_figures(nb::module_& module) {
           "Standard errors of the values, same unit, float64. NaN: unknown; 0: exact.")
       .def_prop_ro(
           "shape",
-          [](const Figures& figures) {
-            return nb::tuple(nb::cast(numbers(figures, &Figure::value), has_owner).attr("shape"));
-          },
-          "Shape of the arrays.")
-      .def("__getitem__", &figure_at, nb::arg("index"), "One figure: a number for each dimension.")
+          [](const Figures& figures) { return nb::cast(numbers(figures, &Figure::value), has_owner).attr("shape"); },
+          nb::sig("def shape(self) -> tuple[int, ...]"), "Shape of the arrays.")
+      .def("__getitem__", &figure_at, nb::arg("index").none(),
+           nb::sig("def __getitem__(self, index: int | tuple[int, ...]) -> Figure"),
+           "One figure: a number for each dimension.")
       .def(
           "__array__",
           [](const Figures& figures, nb::object dtype, nb::object copy) {
             return as_array(nb::cast(numbers(figures, &Figure::value), has_owner), dtype, copy);
           },
-          nb::arg("dtype").none() = nb::none(), nb::arg("copy").none() = nb::none(), "The values.")
+          nb::arg("dtype").none() = nb::none(), nb::arg("copy").none() = nb::none(),
+          nb::sig("def __array__(self, dtype: typing.Any = None, copy: bool | None = None) -> "
+                  "numpy.typing.NDArray[typing.Any]"),
+          "The values.")
       .def("__repr__", [](const Figures& figures) {
         const nb::object shape = nb::cast(numbers(figures, &Figure::value), has_owner).attr("shape");
         if (figures.first != nullptr && nb::cast<std::size_t>(nb::module_::import_("math").attr("prod")(shape)) == 1)

@@ -1,5 +1,4 @@
 // The parts of emitters in a result, and scenes with some of them dimmed.
-#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
@@ -15,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "arguments.hpp"
 #include "bindings.hpp"
 #include "lichtmc/dimmed_scene.hpp"
 #include "lichtmc/emitter_parts_file.hpp"
@@ -185,11 +185,12 @@ void bind_scene(nb::module_& module) {
           "The calculation areas with their figures, as Result.areas.")
       .def(
           "write",
-          [](const ScenePtr& scene, const std::filesystem::path& folder) {
+          [](const ScenePtr& scene, nb::handle folder) {
+            const std::filesystem::path path = path_of(folder, "folder");
             const nb::gil_scoped_release without_lock;
-            write_scene(kept_parts(scene->run->room->room, scene->run->result), scene->scene, folder);
+            write_scene(kept_parts(scene->run->room->room, scene->run->result), scene->scene, path);
           },
-          nb::arg("folder"),
+          nb::arg("folder").none(), nb::sig("def write(self, folder: str | os.PathLike[str]) -> None"),
           "Writes scene.json, receivers.csv and, with areas, areas.csv and the plans of the areas into a folder, as "
           "`lichtmc scene` does.")
       .def("__repr__", [](const ScenePtr& scene) {

@@ -7,14 +7,15 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "arguments.hpp"
 #include "bindings.hpp"
-#include "lichtmc/error.hpp"
 #include "lichtmc/output.hpp"
 #include "lichtmc/picture.hpp"
 #include "named_values.hpp"
@@ -34,33 +35,26 @@ struct DrawnPicture {
 };
 using DrawnPicturePtr = std::shared_ptr<DrawnPicture>;
 
-// At least 16, as the library wants it, and a whole number.
-std::size_t pixels(std::string_view what, std::int64_t value) {
-  constexpr std::int64_t least = 16;
-  constexpr std::int64_t most = 16'384;
-  if (value < least || value > most)
-    throw InputError("The " + std::string(what) + " of the picture is " + std::to_string(value) +
-                     " (allowed: 16 to 16384 pixels). Give another number.");
-  return static_cast<std::size_t>(value);
-}
-
-DrawnPicturePtr render(const RunResultPtr& run, std::string_view view_name, std::int64_t width, std::int64_t height,
-                       std::string_view colours, std::string_view scale_type, std::optional<double> scale_max,
-                       unsigned threads) {
-  const lichtmc::View view =
-      named<lichtmc::View>("view", view_name, {{"corner", lichtmc::View::corner}, {"above", lichtmc::View::above}});
+DrawnPicturePtr render(const RunResultPtr& run, nb::handle view_name, nb::handle width, nb::handle height,
+                       nb::handle colours, nb::handle scale_type, nb::handle scale_max, nb::handle number_of_threads) {
+  constexpr std::int64_t least_size = 16;  // pixels, as RoomPainter::draw() allows
+  constexpr std::int64_t greatest_size = 16'384;
+  const auto view = named<lichtmc::View>("view", text_of(view_name, "argument view"),
+                                         {{"corner", lichtmc::View::corner}, {"above", lichtmc::View::above}});
   ScaleOptions options;
-  options.colours = named("colours", colours, {ColourMap::viridis, ColourMap::inferno});
+  options.colours = named("colours", text_of(colours, "argument colours"), {ColourMap::viridis, ColourMap::inferno});
   options.type = named<ScaleType>(
-      "scale", scale_type,
+      "scale", text_of(scale_type, "argument scale"),
       {{"automatic", ScaleType::automatic}, {"linear", ScaleType::linear}, {"logarithmic", ScaleType::logarithmic}});
-  options.high = scale_max;
-  const std::size_t columns = pixels("width", width);
-  const std::size_t rows = pixels("height", height);
+  options.high = optional_number(scale_max, "argument scale_max");
+  const std::int64_t columns = whole_number_of(width, "width of the picture in pixels", least_size, greatest_size);
+  const std::int64_t rows = whole_number_of(height, "height of the picture in pixels", least_size, greatest_size);
+  const auto threads = static_cast<unsigned>(
+      whole_number_of(number_of_threads, "number of threads", 0, std::numeric_limits<int>::max()));
   const nb::gil_scoped_release without_lock;
   const ColourScale scale = choose_scale(run->result, options);
   const RoomPainter painter(run->room->room, run->result, threads, run->room->prepared(threads));
-  Picture picture = painter.draw(view, scale, columns, rows);
+  Picture picture = painter.draw(view, scale, static_cast<std::size_t>(columns), static_cast<std::size_t>(rows));
   std::vector<std::uint8_t> rgba = rgba_of(picture);
   return std::make_shared<DrawnPicture>(DrawnPicture{run, view, scale, std::move(picture), std::move(rgba)});
 }
@@ -127,7 +121,10 @@ void bind_picture(nb::module_& module) {
           [](const DrawnPicturePtr& drawn, nb::object dtype, nb::object copy) {
             return as_array(nb::cast(pixels_of(drawn), has_owner), dtype, copy);
           },
-          nb::arg("dtype").none() = nb::none(), nb::arg("copy").none() = nb::none(), "The pixels, see rgba.")
+          nb::arg("dtype").none() = nb::none(), nb::arg("copy").none() = nb::none(),
+          nb::sig("def __array__(self, dtype: typing.Any = None, copy: bool | None = None) -> "
+                  "numpy.typing.NDArray[typing.Any]"),
+          "The pixels, see rgba.")
       .def("_repr_png_", &png_bytes, "The pixels as a PNG file.")
       .def("_repr_svg_", &svg_text, "See svg.")
       .def("__repr__", [](const DrawnPicture& drawn) {
@@ -152,9 +149,13 @@ void bind_plot(nb::class_<RunResult>& of, const char* name, const Extra&... extr
 void bind_pictures(nb::module_& module) {
   bind_picture(module);
   auto result = nb::borrow<nb::class_<RunResult>>(nb::type<RunResult>());
-  result.def("render", &render, nb::arg("view") = "corner", nb::kw_only(), nb::arg("width") = 960,
-             nb::arg("height") = 720, nb::arg("colours") = "viridis", nb::arg("scale") = "automatic",
-             nb::arg("scale_max").none() = nb::none(), nb::arg("threads") = 0,
+  result.def("render", &render, nb::arg("view").none() = "corner", nb::kw_only(), nb::arg("width").none() = 960,
+             nb::arg("height").none() = 720, nb::arg("colours").none() = "viridis",
+             nb::arg("scale").none() = "automatic", nb::arg("scale_max").none() = nb::none(),
+             nb::arg("threads").none() = 0,
+             nb::sig("def render(self, view: str = 'corner', *, width: int = 960, height: int = 720, colours: str = "
+                     "'viridis', scale: str = 'automatic', scale_max: float | None = None, threads: int = 0) -> "
+                     "Picture"),
              "Draws the room in false colour; grey if its tiles were not measured.\n\n"
              "view: 'corner', oblique from above, or 'above', a plan. width, height: pixels, 16 … 16384. colours: "
              "'viridis' or 'inferno'. scale: 'automatic', 'linear' or 'logarithmic'; scale_max: W/m² or lx at its top, "

@@ -94,7 +94,8 @@ void bind_receiver_results(nb::module_& module) {
           [](const ReceiverResults& receivers, nb::object key) {
             return OneReceiver{receivers.of, elements(receivers).find(key)};
           },
-          nb::arg("key").none(), "By name, or by number.")
+          nb::arg("key").none(), nb::sig("def __getitem__(self, key: str | int) -> ReceiverResult"),
+          "By name, or by number.")
       .def(
           "__contains__",
           [](const ReceiverResults& receivers, nb::object key) { return elements(receivers).contains(key); },

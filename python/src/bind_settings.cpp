@@ -57,7 +57,7 @@ void bind_keys(nb::class_<Settings>& settings, const std::vector<std::string>& n
             }
             return nb::object(s.attr(name.c_str()));
           },
-          nb::arg("name"), "By name.")
+          nb::arg("name"), nb::sig("def __getitem__(self, name: str) -> typing.Any"), "By name.")
       .def("__iter__",
            [](nb::object s) -> nb::typed<nb::iterator, std::string> {
              return nb::steal<nb::iterator>(PyObject_GetIter(nb::object(s.attr("keys")()).ptr()));

@@ -145,7 +145,9 @@ void bind_surfaces(nb::module_& module) {
   nb::class_<Surfaces> all(module, "Surfaces",
                            "The surfaces of a result by name, as a dict; also by number. The back of a two-sided "
                            "surface follows its front.");
-  bind_mapping(all, elements, [](const Surfaces& surfaces, std::size_t k) { return OneSurface{surfaces.run, k}; });
+  bind_mapping(all, "SurfaceResult", elements, [](const Surfaces& surfaces, std::size_t k) {
+    return OneSurface{surfaces.run, k};
+  });
   all.def("__repr__", [](const Surfaces& surfaces) {
     return "Surfaces(" + std::string(nb::repr(elements(surfaces).names()).c_str()) + ")";
   });

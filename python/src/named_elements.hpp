@@ -31,16 +31,19 @@ struct NamedElements {
 };
 
 // Gives a class the methods of a mapping from names to elements, in their order: as a dict that can be indexed by
-// number too. elements(const Mapping&) -> NamedElements; element(const Mapping&, std::size_t) -> the element.
+// number too. elements(const Mapping&) -> NamedElements; element(const Mapping&, std::size_t) -> the element; type: the
+// name of its class.
 template <class Mapping, class Elements, class Element>
-void bind_mapping(nb::class_<Mapping>& of, const Elements& elements, const Element& element) {
+void bind_mapping(nb::class_<Mapping>& of, const std::string& type, const Elements& elements, const Element& element) {
+  using Value = decltype(element(std::declval<const Mapping&>(), std::size_t{}));
   of.def("__len__", [elements](const Mapping& mapping) { return elements(mapping).count; })
       .def(
           "__getitem__",
           [elements, element](const Mapping& mapping, nb::object key) {
             return element(mapping, elements(mapping).find(key));
           },
-          nb::arg("key").none(), "By name, or by number.")
+          nb::arg("key").none(), nb::sig(("def __getitem__(self, key: str | int) -> " + type).c_str()),
+          "By name, or by number.")
       .def(
           "__contains__",
           [elements](const Mapping& mapping, nb::object key) { return elements(mapping).contains(key); },
@@ -56,7 +59,7 @@ void bind_mapping(nb::class_<Mapping>& of, const Elements& elements, const Eleme
       .def(
           "values",
           [elements, element](const Mapping& mapping) {
-            std::vector<decltype(element(mapping, 0))> values;
+            std::vector<Value> values;
             const std::size_t count = elements(mapping).count;
             for (std::size_t k = 0; k < count; ++k) values.push_back(element(mapping, k));
             return values;
@@ -66,7 +69,7 @@ void bind_mapping(nb::class_<Mapping>& of, const Elements& elements, const Eleme
           "items",
           [elements, element](const Mapping& mapping) {
             const NamedElements named = elements(mapping);
-            std::vector<std::pair<std::string, decltype(element(mapping, 0))>> items;
+            std::vector<std::pair<std::string, Value>> items;
             for (std::size_t k = 0; k < named.count; ++k) items.emplace_back(named.name(k), element(mapping, k));
             return items;
           },
@@ -77,7 +80,9 @@ void bind_mapping(nb::class_<Mapping>& of, const Elements& elements, const Eleme
             const NamedElements named = elements(mapping);
             return named.contains(key) ? nb::cast(element(mapping, named.find(key))) : otherwise;
           },
-          nb::arg("key").none(), nb::arg("default").none() = nb::none(), "The element, or `default` if there is none.");
+          nb::arg("key").none(), nb::arg("default").none() = nb::none(),
+          nb::sig(("def get(self, key: str, default: typing.Any = None) -> " + type + " | typing.Any").c_str()),
+          "The element, or `default` if there is none.");
   nb::module_::import_("collections.abc").attr("Mapping").attr("register")(of);
 }
 

@@ -68,8 +68,11 @@ def test_without_tiles_a_picture_is_grey() -> None:
     ("arguments", "message"),
     [
         ({"view": "below"}, "argument view is 'below' .allowed: 'corner', 'above'"),
-        ({"width": 8}, "width of the picture is 8 .allowed: 16 to 16384"),
-        ({"height": -1}, "height of the picture is -1"),
+        ({"view": 3}, "argument view is 3"),
+        ({"width": 8}, "width of the picture in pixels is 8 .allowed: .*16"),
+        ({"height": 100.5}, "height of the picture in pixels is 100.5"),
+        ({"height": "tall"}, "height of the picture in pixels is 'tall'"),
+        ({"threads": -1}, "number of threads is -1"),
         ({"colours": "jet"}, "colours is 'jet' .allowed: 'viridis', 'inferno'"),
         ({"scale": "log"}, "scale is 'log' .allowed: 'automatic', 'linear', 'logarithmic'"),
         ({"scale_max": 0.0}, "0"),

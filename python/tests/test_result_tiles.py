@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import resource
 from pathlib import Path
 
 import lichtmc
@@ -50,6 +51,26 @@ def test_columns_are_read_only(name: str) -> None:
         values[0] = 0
     with pytest.raises(ValueError):
         values.flags.writeable = True
+
+
+def resident_bytes() -> int:
+    return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="only Linux says how much memory is resident")
+def test_arrays_take_no_memory() -> None:
+    room = lichtmc.Room.cuboid((6, 3, 6))
+    room.add_emitter(lichtmc.Isotropic((3, 1.5, 3)), 1000)
+    result = lichtmc.simulate(room, photons=20_000, tile=0.015)
+    assert len(result.tiles) == 2 * 400 * 400 + 4 * 400 * 200
+    gc.collect()
+    before = resident_bytes()
+    arrays = [getattr(result.tiles, name) for name in COLUMNS]
+    for surface in result.surfaces.values():
+        arrays += [surface.grid, surface.grid_error, surface.grid_direct, surface.grid_area, surface.grid_position]
+    size = sum(array.nbytes for array in arrays)
+    assert size > 50e6
+    assert resident_bytes() - before < 0.02 * size
 
 
 def test_views_outlive_their_result() -> None:

@@ -154,6 +154,17 @@ TEST_CASE("parts of emitters: dimmed scenes agree with runs of dimmed emitters")
       CHECK(judgement.agrees);
       CHECK(judgement.smallest_bias < 0.05);
       CHECK(std::abs(scene.power - total_power(dimmed)) < 1e-9 * scene.power);
+      // The errors follow from the covariances of the parts.
+      const std::vector<double> covariance = covariances(parts);
+      const std::size_t count = factors.size();
+      REQUIRE(covariance.size() == parts.receivers * count * count);
+      for (std::size_t k = 0; k < parts.receivers; ++k) {
+        double variance = 0.0;
+        for (std::size_t pair = 0; pair < count * count; ++pair)
+          variance += factors[pair / count] * factors[pair % count] * covariance[k * count * count + pair];
+        CHECK(std::abs(std::sqrt(variance) - scene.receivers[k].standard_error) <
+              1e-9 * scene.receivers[k].standard_error);
+      }
       // Factors of the wrong lamps.
       std::swap(factors[0], factors[1]);
       const DimmedScene wrong = dim(parts, room.receivers, room.areas, factors);
