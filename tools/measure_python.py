@@ -10,7 +10,8 @@ run, outside of the measured time. The results must be equal to the last digit.
 
 Prints a table. Wall time: the median of C++, and the median of the differences of Python to C++ in the same turn. CPU time
 (of the whole process: user and system): the lowest of all turns of either. On a machine with other load wall times say
-little, and CPU times are lengthened by it (shared caches and cores), never shortened: the lowest is the least disturbed.
+little, and CPU times are lengthened by it (shared caches and cores), never shortened: the lowest is the least disturbed. Last, the
+median of the CPU time of the thread that calls simulate() in Python: it only waits, so that this is what Python adds.
 """
 
 from __future__ import annotations
@@ -55,11 +56,11 @@ class CppSide:
         self.process.wait()
 
 
-def run_python(name: str, photons: int, threads: int) -> tuple[float, float, float]:
+def run_python(name: str, photons: int, threads: int) -> tuple[float, float, float, float]:
     room = room_of(name)
-    cpu, wall = time.process_time(), time.perf_counter()
+    caller, cpu, wall = time.thread_time(), time.process_time(), time.perf_counter()
     result = lichtmc.simulate(room, photons=photons, threads=threads)
-    return time.perf_counter() - wall, time.process_time() - cpu, result.incident
+    return time.perf_counter() - wall, time.process_time() - cpu, result.incident, time.thread_time() - caller
 
 
 def photons_for(cpp: CppSide, room: str, seconds: float, threads: int) -> int:
@@ -92,7 +93,8 @@ def measure(cpp: CppSide, room: str, seconds: float, threads: int, turns: int) -
         f"{base:.3f} s | {1000 * more:+.1f} ms, {100 * more / base:+.2f} %"
         for base, more in ((wall, more_wall), (cpu, more_cpu))
     ]
-    return f"{photons:.3g} | {threads} | {turns} | {' | '.join(cells)} |"
+    caller = 1000 * statistics.median(python[3] for _, python in pairs)
+    return f"{photons:.3g} | {threads} | {turns} | {' | '.join(cells)} | {caller:.1f} ms |"
 
 
 def main() -> int:
@@ -105,8 +107,8 @@ def main() -> int:
     if not PROGRAM.exists():
         raise SystemExit(f"{PROGRAM} is missing. Build the target lichtmc_python_overhead with LICHTMC_PYTHON=ON.")
     cpp = CppSide()
-    print("| room | photons | threads | turns | C++, wall | Python more | C++, CPU | Python more |")
-    print("|---|---|---|---|---|---|---|---|")
+    print("| room | photons | threads | turns | C++, wall | Python more | C++, CPU | Python more | calling thread |")
+    print("|---|---|---|---|---|---|---|---|---|")
     for name in arguments.rooms.split(","):
         for threads in map(int, arguments.threads.split(",")):
             for seconds in map(float, arguments.seconds.split(",")):
