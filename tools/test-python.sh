@@ -49,7 +49,7 @@ check() {
 status=0
 junit=build/python/tests.xml
 rm -f "$junit"
-"$venv/bin/python" -m pytest -q --junitxml="$junit" python/tests "$@" || status=$?
+"$venv/bin/python" -m pytest -q --disable-warnings --junitxml="$junit" python/tests "$@" || status=$?
 if [ -e "$junit" ]; then
   read -r passed failed < <("$venv/bin/python" - "$junit" <<'PYTHON'
 import sys
@@ -64,6 +64,9 @@ fi
 check "the Python sources are clean under pyflakes" "$venv/bin/python" -m pyflakes python/lichtmc python/tests
 check "lichtmc is the command line" "$venv/bin/lichtmc" --version
 check "python -m lichtmc is the command line" "$venv/bin/python" -m lichtmc --version
+# As a user's type checker sees the stubs that were installed.
+awk '/^```python$/ && !done {on=1; next} /^```$/ && on {on=0; done=1} on' README.md >build/python/example.py
+check "the example of README.md is correct by the stubs" "$venv/bin/mypy" --strict --cache-dir build/python/mypy build/python/example.py
 rm -rf build/python/api
 check "the pages of the interface in build/python/api" "$venv/bin/python" -m pdoc --docformat restructuredtext -o build/python/api lichtmc
 echo "$passed passed, $failed failed"
