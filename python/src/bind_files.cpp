@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "aside.hpp"
 #include "bindings.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/inspect.hpp"
@@ -122,18 +123,18 @@ RunResultPtr kept_result(const fs::path& folder, const SealedState& sealed) {
   ResultBesideState kept = unpack_beside_state(content_of(file), "the file " + file.string());
   if (kept.seal != sealed.seal) return nullptr;
   kept.result.state = sealed.state;
-  return make_run_result(std::make_shared<const KeptRoom>(std::move(kept.room)), std::move(kept.result));
+  return make_run_result(std::make_shared<KeptRoom>(std::move(kept.room)), std::move(kept.result));
 }
 
-RunResultPtr load(const fs::path& folder, const std::optional<SharedRoom>& room) {
+RunResultPtr load(const fs::path& folder, std::optional<SharedRoom> room) {
   SealedState sealed;
-  std::shared_ptr<const KeptRoom> of_state = room ? room->kept() : nullptr;
+  std::shared_ptr<const KeptRoom> of_state = room ? with_areas(*room).kept() : nullptr;
   {
     const nb::gil_scoped_release without_lock;
     sealed = state_in(folder);
     if (!of_state) {
       if (RunResultPtr kept = kept_result(folder, sealed)) return kept;
-      of_state = std::make_shared<const KeptRoom>(app::noted_room(sealed.state, folder / "state.h5"));
+      of_state = std::make_shared<KeptRoom>(app::noted_room(sealed.state, folder / "state.h5"));
     }
   }
   constexpr unsigned all_processors = 0;

@@ -97,7 +97,7 @@ RunResult unpack_result(std::string_view bytes, const std::string& source) {
   std::string state;
   read_packed(of_result, bytes, source, [&](BytesIn& in) { in(room, result, state); });
   result.state = parse_state(state, source);
-  return {std::make_shared<const KeptRoom>(std::move(room)), std::move(result)};
+  return {std::make_shared<KeptRoom>(std::move(room)), std::move(result)};
 }
 
 ResultBesideState unpack_beside_state(std::string_view bytes, const std::string& source) {

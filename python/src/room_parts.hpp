@@ -17,6 +17,7 @@ namespace lichtmc::python {
 using RoomClass = nb::class_<SharedRoom>;
 
 void bind_surfaces_of_room(nb::module_& module, RoomClass& room);
+void bind_emitter_shapes(nb::module_& module);
 void bind_emitters_of_room(nb::module_& module, RoomClass& room);
 void bind_receivers_of_room(nb::module_& module, RoomClass& room);
 void bind_areas_of_room(nb::module_& module, RoomClass& room);

@@ -56,7 +56,7 @@ class KeptRoom {
 class SharedRoom {
  public:
   explicit SharedRoom(Room room) : kept_(std::make_shared<KeptRoom>(std::move(room))) {}
-  // Made by this class: results return what they hold.
+  // What results hold. Rooms are never made const (make_shared<KeptRoom>), only held so: this class may change them.
   explicit SharedRoom(const std::shared_ptr<const KeptRoom>& kept) : kept_(std::const_pointer_cast<KeptRoom>(kept)) {}
 
   const Room& room() const { return kept_->room; }
