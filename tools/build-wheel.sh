@@ -24,7 +24,7 @@ pythons=("$@")
 if [ ${#pythons[@]} -eq 0 ]; then
   pythons=(python3)
   if ! python3 -c 'import sys; sys.exit(sys.version_info < (3, 12))'; then
-    later=$(later_python)
+    later=$(later_python) || true
     [ -n "$later" ] && pythons+=("$later") || echo "build-wheel.sh: no Python from 3.12 on was found: no wheel for 3.12 and later" >&2
   fi
 fi
