@@ -53,7 +53,7 @@ def resume(
         optional(number, "max_time", max_time, "above 0, in s"),
     )
     workers = count("threads", threads, most=2**31 - 1)
-    with listener(progress) as on_progress:
+    with listener(progress, max_time=max_time) as on_progress:
         resumed = _core.resume(result, *rules, workers, on_progress)
     return warn_of(resumed, stacklevel=2)
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import importlib.util
 import math
+import shutil
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -50,8 +51,8 @@ def _is_limited(progress: _core.Progress) -> bool:
     return progress.target < _NO_LIMIT
 
 
-def _text(progress: _core.Progress | _core.StudyProgress) -> str:
-    """What a line says."""
+def _text(progress: _core.Progress | _core.StudyProgress, max_time: float | None) -> str:
+    """What a line says. max_time: of the run, s."""
     if isinstance(progress, _core.StudyProgress):
         of = f"{progress.done + 1} of {progress.of}: " if progress.of else ""
         return f"{of}{progress.what}, {progress.seconds:.0f} s of about {progress.of_seconds:.0f} s"
@@ -67,17 +68,19 @@ def _text(progress: _core.Progress | _core.StudyProgress) -> str:
     parts = [f"{done} histories for the {progress.stage}"]
     if error := _error_text(progress):
         parts.append(error)
-    left = progress.seconds_to_target
+    left = [progress.seconds_to_target]
     if _is_limited(progress) and progress.histories:
-        to_limit = progress.seconds * (progress.target - progress.histories) / progress.histories
-        left = to_limit if math.isnan(left) else min(left, to_limit)
-    if not math.isnan(left):
-        parts.append(f"about {_duration(max(left, 0.0))} left")
+        left.append(progress.seconds * (progress.target - progress.histories) / progress.histories)
+    if max_time is not None:
+        left.append(max_time - progress.seconds)
+    known = [seconds for seconds in left if not math.isnan(seconds)]
+    if known:
+        parts.append(f"about {_duration(max(min(known), 0.0))} left")
     return ", ".join(parts)
 
 
 class _Bar:
-    """One bar of tqdm for each stage; in a notebook tqdm draws it as a widget."""
+    """One bar of tqdm for each stage, removed at its end; in a notebook tqdm draws it as a widget."""
 
     def __init__(self, tqdm: Any) -> None:
         self._tqdm = tqdm
@@ -86,16 +89,16 @@ class _Bar:
 
     def __call__(self, progress: Any) -> None:
         if isinstance(progress, _core.StudyProgress):
-            self._show("study", progress.of or None, progress.done, progress.what, "")
+            self._show("study", progress.of or None, progress.done, progress.what)
         elif progress.stage not in ("preparation", "pilot"):
             total = progress.target if _is_limited(progress) else None
-            self._show(progress.stage, total, progress.histories, _error_text(progress), "")
+            self._show(progress.stage, total, progress.histories, _error_text(progress))
 
-    def _show(self, stage: str, total: int | None, done: int, text: str, unit: str) -> None:
+    def _show(self, stage: str, total: int | None, done: int, text: str) -> None:
         if stage != self._stage:
             self.close()
             self._stage = stage
-            self._bar = self._tqdm(total=total, desc=stage, unit=unit, unit_scale=True)
+            self._bar = self._tqdm(total=total, desc=stage, unit="", unit_scale=True, leave=False)
         self._bar.total = total
         self._bar.set_postfix_str(text, refresh=False)
         self._bar.update(done - self._bar.n)
@@ -109,11 +112,14 @@ class _Bar:
 class _TerminalLine:
     """A line on stderr that is written anew, and removed at the end."""
 
-    def __init__(self) -> None:
+    def __init__(self, max_time: float | None) -> None:
+        self._max_time = max_time
         self._drawn = False
 
     def __call__(self, progress: Any) -> None:
-        print(f"\r{_text(progress)}\x1b[K", end="", file=sys.stderr, flush=True)
+        columns = shutil.get_terminal_size().columns
+        text = _text(progress, self._max_time)[: columns - 1]  # a line that wraps would not be written anew
+        print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
         self._drawn = True
 
     def close(self) -> None:
@@ -124,14 +130,15 @@ class _TerminalLine:
 class _Lines:
     """A line on stderr every few seconds."""
 
-    def __init__(self) -> None:
+    def __init__(self, max_time: float | None) -> None:
+        self._max_time = max_time
         self._last = time.monotonic()
 
     def __call__(self, progress: Any) -> None:
         now = time.monotonic()
         if now - self._last >= _LINE_INTERVAL:
             self._last = now
-            print(_text(progress), file=sys.stderr, flush=True)
+            print(_text(progress, self._max_time), file=sys.stderr, flush=True)
 
     def close(self) -> None:
         pass
@@ -140,8 +147,9 @@ class _Lines:
 class _NotebookLine:
     """An output of a notebook's cell that changes, and is empty at the end."""
 
-    def __init__(self, display: Callable[..., Any]) -> None:
+    def __init__(self, display: Callable[..., Any], max_time: float | None) -> None:
         self._display = display
+        self._max_time = max_time
         self._handle: Any = None
 
     def _show(self, text: str) -> None:
@@ -152,7 +160,7 @@ class _NotebookLine:
             self._handle.update(data, raw=True)
 
     def __call__(self, progress: Any) -> None:
-        self._show(_text(progress))
+        self._show(_text(progress, self._max_time))
 
     def close(self) -> None:
         if self._handle is not None:
@@ -174,30 +182,32 @@ def _installed(module: str) -> bool:
     return importlib.util.find_spec(module) is not None
 
 
-def _shown() -> _Shown:
+def _shown(max_time: float | None) -> _Shown:
     display = _notebook_display()
     if display is not None:
         if _installed("tqdm") and _installed("ipywidgets"):
             from tqdm.notebook import tqdm as notebook_tqdm  # type: ignore[import-untyped]
 
             return _Bar(notebook_tqdm)
-        return _NotebookLine(display)
+        return _NotebookLine(display, max_time)
     if not sys.stderr.isatty():
-        return _Lines()
+        return _Lines(max_time)
     if _installed("tqdm"):
         from tqdm import tqdm  # type: ignore[import-untyped]
 
         return _Bar(tqdm)
-    return _TerminalLine()
+    return _TerminalLine(max_time)
 
 
 @contextmanager
-def listener(progress: bool | Callable[[Any], object] | None) -> Iterator[Callable[[Any], object] | None]:
-    """The callback that `progress` (of simulate() and its like) asks for, or None."""
+def listener(
+    progress: bool | Callable[[Any], object] | None, *, max_time: float | None = None
+) -> Iterator[Callable[[Any], object] | None]:
+    """The callback that `progress` (of simulate() and its like) asks for, or None. max_time: of the run, s."""
     if progress is None or progress is False:
         yield None
     elif progress is True:
-        shown = _shown()
+        shown = _shown(max_time)
         try:
             yield shown
         finally:

@@ -127,6 +127,6 @@ def simulate(
         squared_weights=flag("squared_weights", squared_weights),
         per_emitter=flag("per_emitter", per_emitter),
     )
-    with listener(progress) as on_progress:
+    with listener(progress, max_time=max_time) as on_progress:
         result = _core.simulate(room, settings, on_progress)
     return warn_of(result, stacklevel=2)

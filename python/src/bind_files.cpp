@@ -203,6 +203,18 @@ Args:
 Raises:
     InputError: The folder cannot be used, another run is writing into it, or an argument is not valid.
     RuntimeError: A file cannot be written; those of an earlier result are then unchanged.)");
+  result.def(
+      "summary",
+      [](const RunResult& run) {
+        std::string text;
+        {
+          const nb::gil_scoped_release without_lock;
+          text = summary_json(run.room->room, run.result);
+        }
+        return nb::cast<nb::dict>(nb::module_::import_("json").attr("loads")(text));
+      },
+      "The content of summary.json as a dict: settings, balance of powers, errors, warnings, figures of surfaces, "
+      "receivers, areas and channels; docs/results.md describes the keys. None where a number is unknown.");
   result.def_static("load", &load, nb::arg("folder"), nb::arg("room").none() = nb::none(),
                     R"(The result in a folder that Result.write() or `lichtmc run` has written.
 

@@ -33,20 +33,25 @@ std::string_view stage_word(Progress::Stage stage) {
   return "";
 }
 
+// Ends a run between two steps of its preparation, which knows no stop: in a room of millions of triangles it takes
+// many seconds. Nothing is simulated yet that would be lost. Ctrl-C, or the exception of a callback, is raised then.
+struct StoppedInPreparation {};
+
 }  // namespace
 
 RunResultPtr run_aside(const std::shared_ptr<const KeptRoom>& room, unsigned threads, nb::object on_progress,
                        const std::function<Result(const Control&)>& run, Interrupted interrupted) {
-  const auto work = [&](std::stop_token stop, const std::function<void(const ProgressReport&)>& tell) {
+  const auto work = [&](const std::stop_token& stop, const std::function<void(const ProgressReport&)>& tell) {
     const StepListener on_step = [&](std::string_view step) {
       ProgressReport report;
       report.progress.stage = Progress::Stage::preparation;
       report.step = step;
       tell(report);
+      if (stop.stop_requested()) throw StoppedInPreparation{};
     };
     step_listener = &on_step;
     Control control;
-    control.stop = std::move(stop);
+    control.stop = stop;
     control.prepared = room->prepared(threads);
     control.progress = [&](const Progress& progress) { tell({progress, std::string(progress.step)}); };
     return run(control);

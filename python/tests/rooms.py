@@ -11,6 +11,7 @@ import lichtmc
 import numpy as np
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
+DATA = SCENES.parent / "tests" / "data"
 
 
 def cube() -> lichtmc.Room:

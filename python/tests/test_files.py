@@ -5,11 +5,15 @@ from __future__ import annotations
 import json
 import pickle
 import shutil
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 
 import lichtmc
 import numpy as np
 import pytest
-from rooms import SCENES, command_line, cube, living_room, same_tiles
+from rooms import ENVIRONMENT, SCENES, command_line, cube, living_room, same_tiles
 
 RUN = ("--photons", "20000", "--tile", "0.5", "--estimator", "collision")
 
@@ -38,6 +42,7 @@ def test_the_files_are_those_of_the_command_line(result, tmp_path):
     assert files(tmp_path / "python") == files(tmp_path / "program") | {"result.lichtmc"}
     for name in ("tiles.csv", "surfaces.csv", "emitters.csv", "pictures/room.svg"):
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "program" / name).read_bytes(), name
+    assert result.summary()["surfaces"] == json.loads((tmp_path / "python" / "summary.json").read_text())["surfaces"]
     summaries = [json.loads((tmp_path / folder / "summary.json").read_text()) for folder in ("python", "program")]
     for key in ("warnings", "ignored", "surfaces", "balance", "histories", "rms_relative_error", "settings"):
         assert summaries[0].get(key) == summaries[1].get(key), key
@@ -59,6 +64,59 @@ def test_a_run_of_the_command_line_has_its_figures(tmp_path):
     more = lichtmc.resume(loaded, photons=30_000)
     command_line("resume", "run", "--photons", 30_000, folder=tmp_path)
     assert same_tiles(more, lichtmc.Result.load(tmp_path / "run"))
+
+
+@pytest.mark.filterwarnings("ignore::lichtmc.ResultWarning")
+def test_receivers_areas_and_channels_of_the_command_line(tmp_path):
+    table = SCENES / "living_room_receivers.csv"
+    command_line("run", SCENES / "living_room.glb", "--receivers", table, "--plane", "0.75", "--only", "receivers",
+                 "--impulse-response", "1ns", *RUN[:2], "--no-report", "-o", "run", folder=tmp_path)
+    loaded = lichtmc.Result.load(tmp_path / "run")
+    loaded.write(tmp_path / "again", report=False)
+    for name in ("receivers.csv", "areas.csv", "channels.csv", "impulse_response.csv"):
+        assert (tmp_path / "again" / name).read_bytes() == (tmp_path / "run" / name).read_bytes(), name
+
+
+def test_a_folder_in_use_is_refused(result, tmp_path):
+    program = f"""
+import lichtmc, sys
+room = lichtmc.Room.from_gltf({str(SCENES / "cube_paper.gltf")!r})
+lichtmc.simulate(room, photons=1000, tile=0.5).write("run", report=False)
+sys.exit(0)
+"""
+    with subprocess.Popen(
+        [sys.executable, "-m", "lichtmc", "run", SCENES / "cube_paper.gltf", "--max-time", "600s", "-o", "run"],
+        cwd=tmp_path, env=ENVIRONMENT, stderr=subprocess.PIPE,
+    ) as process:
+        try:
+            for _ in range(600):
+                if (tmp_path / "run" / ".lichtmc.lock").exists():
+                    break
+                time.sleep(0.05)
+            with pytest.raises(lichtmc.InputError, match="run"):
+                result.write(tmp_path / "run")
+            done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, env=ENVIRONMENT, capture_output=True,
+                                  text=True, timeout=60)
+            assert done.returncode == 1 and "InputError" in done.stderr
+        finally:
+            process.kill()
+            process.communicate()
+
+
+def test_two_threads_write_one_folder(result, tmp_path):
+    """One of them may be refused; the folder has the whole of a result."""
+
+    def write(number: int) -> bool:
+        try:
+            result.write(tmp_path / "run", report=False, images=False)
+        except lichtmc.InputError:
+            return False
+        return True
+
+    with ThreadPoolExecutor(4) as pool:
+        assert any(pool.map(write, range(8)))
+    assert same_tiles(lichtmc.Result.load(tmp_path / "run"), result)
+    assert not [file for file in (tmp_path / "run").iterdir() if file.name.startswith(".")]
 
 
 def test_a_later_run_of_the_command_line_counts(result, tmp_path):

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import copy
+import json
 import multiprocessing
 import pickle
 
 import lichtmc
 import pytest
-from rooms import cube, living_room, same_tiles
+from rooms import DATA, SCENES, cube, living_room, same, same_tiles
+from test_lifetime import arrays_in
 
 
 @pytest.fixture(scope="module")
@@ -16,7 +18,35 @@ def result() -> lichtmc.Result:
     return lichtmc.simulate(cube(), photons=20_000, tile=0.5)
 
 
-@pytest.mark.parametrize("make", [cube, living_room])
+def full_room() -> lichtmc.Room:
+    """A room with a member of each kind."""
+    room = lichtmc.Room.from_gltf(SCENES / "living_room.glb")
+    lamp = DATA / "luminaires" / "c_0_180.ies"
+    room.add_emitter(lichtmc.Luminaire(lamp, (1.0, 2.0, 1.0)), name="first")
+    room.add_emitter(lichtmc.Luminaire(lamp, (2.0, 2.0, 1.0), rotation_deg=30.0, scale=2.0), name="second")
+    room.add_emitter(lichtmc.Isotropic((1.0, 1.5, 2.0)), 10.0, name="bulb", delay=1e-9, maintenance_factor=0.8)
+    room.add_emitter(lichtmc.Spot((1.0, 2.0, 2.0), inner_deg=5.0, outer_deg=20.0), 10.0, name="spot")
+    room.add_receivers([(1.0, 1.0, 1.0)], names=["Zürich"], half_angle=60.0, concentrator_index=1.5, filter_gain=0.9)
+    room.add_working_plane(0.75, target_lx=300.0, target_uniformity=0.6)
+    room.limit_reflectance(0.9)
+    return room
+
+
+@pytest.mark.filterwarnings("ignore::lichtmc.ResultWarning")
+@pytest.mark.parametrize("settings", [{"per_emitter": True}, {"impulse_response": 1e-9, "frequencies": (0, 1e8, 1e7)}])
+def test_all_of_a_result_is_the_same_after_pickling(settings):
+    result = lichtmc.simulate(full_room(), photons=2000, tile=0.5, **settings)
+    again = pickle.loads(pickle.dumps(result))
+    assert pickle.dumps(again) == pickle.dumps(result)
+    expected, found = dict(arrays_in(result, "")), dict(arrays_in(again, ""))
+    assert expected.keys() == found.keys() and len(found) > 20
+    for path, array in expected.items():
+        assert same(array, found[path]), path
+    assert json.dumps(again.summary()) == json.dumps(result.summary())
+
+
+@pytest.mark.filterwarnings("ignore::lichtmc.ResultWarning")
+@pytest.mark.parametrize("make", [cube, living_room, full_room])
 def test_a_room_is_the_same_after_pickling(make):
     room = make()
     again = pickle.loads(pickle.dumps(room))

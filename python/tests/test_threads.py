@@ -69,15 +69,25 @@ def test_the_caller_leaves_python_free():
 def test_a_room_may_change_while_a_run_goes_on():
     room = cube()
     expected = lichtmc.simulate(room, photons=200_000, tile=0.5)
-    changed = threading.Event()
+    lamps = len(room.emitters)
 
     def progress(at: lichtmc.Progress) -> None:
-        if not changed.is_set():
-            room.__setstate__(living_room().__getstate__()) if False else None
-            changed.set()
+        room.add_emitter(lichtmc.Isotropic((0.3, 0.3, 0.3)), 1.0, unit=room.unit)
 
     found = lichtmc.simulate(room, photons=200_000, tile=0.5, progress=progress)
+    assert len(room.emitters) > lamps == len(found.room.emitters)
     assert same_tiles(found, expected)
+
+
+def test_many_threads_change_and_simulate_one_room():
+    room = cube()
+
+    def work(number: int) -> int:
+        room.set_reflectance("*", 0.5)
+        return len(lichtmc.simulate(room, photons=2000, tile=0.5, threads=1, seed=number).tiles)
+
+    with ThreadPoolExecutor(8) as pool:
+        assert set(pool.map(work, range(32))) == {24}
 
 
 def test_results_may_be_dropped_in_another_thread():

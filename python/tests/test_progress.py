@@ -1,0 +1,103 @@
+"""progress=True: on a terminal, in a notebook, in a file."""
+
+from __future__ import annotations
+
+import os
+import pty
+import subprocess
+import sys
+import termios
+from types import SimpleNamespace
+
+import lichtmc
+import pytest
+from lichtmc import _progress
+from rooms import ENVIRONMENT, SCENES, cube
+
+RUN = f"""
+import lichtmc
+room = lichtmc.Room.from_gltf({str(SCENES / "living_room.glb")!r})
+print(lichtmc.simulate(room, photons=400_000, tile=0.5, progress=True).stopped_by)
+"""
+WITHOUT_TQDM = "import sys; sys.modules['tqdm'] = None\n"
+
+
+def at(**values: object) -> SimpleNamespace:
+    """A Progress with these values."""
+    usual = {"stage": "tiles", "step": "", "histories": 0, "target": 10**6, "seconds": 1.0}
+    unknown = {"rms_relative_error": float("nan"), "seconds_to_target": float("nan")}
+    return SimpleNamespace(**{**usual, **unknown, **values})
+
+
+def on_a_terminal(program: str) -> str:
+    ours, theirs = pty.openpty()
+    termios.tcsetwinsize(ours, (24, 60))
+    with subprocess.Popen([sys.executable, "-c", program], stdout=theirs, stderr=theirs, env=ENVIRONMENT) as process:
+        os.close(theirs)
+        shown = b""
+        while True:
+            try:
+                piece = os.read(ours, 65536)
+            except OSError:  # the terminal was closed at the other end
+                break
+            if not piece:
+                break
+            shown += piece
+    os.close(ours)
+    assert process.returncode == 0, shown
+    return shown.decode()
+
+
+def test_a_line_on_a_terminal():
+    lines = on_a_terminal(WITHOUT_TQDM + RUN).split("\r")
+    assert any("of 400k histories for the tiles" in line for line in lines)
+    assert all(len(line.replace("\x1b[K", "").rstrip("\n")) < 60 for line in lines)
+    assert "\x1b[Kphotons" in lines[-2] + lines[-1]  # the line is removed; what is printed follows
+
+
+def test_a_bar_on_a_terminal():
+    pytest.importorskip("tqdm")
+    shown = on_a_terminal(RUN)
+    assert "tiles: " in shown and "/400k" in shown and "receivers: " in shown
+
+
+def test_lines_in_a_file():
+    code = "from lichtmc import _progress; _progress._LINE_INTERVAL = 0.05\n" + RUN
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=ENVIRONMENT, timeout=60)
+    assert done.stdout == "photons\n"
+    assert "\r" not in done.stderr and "\x1b" not in done.stderr
+    assert "histories for the tiles" in done.stderr
+
+
+def test_an_output_of_a_notebook():
+    shown = []
+
+    class Handle:
+        def update(self, data, raw):
+            shown.append(data["text/plain"])
+
+    def display(data, raw, display_id):
+        shown.append(data["text/plain"])
+        return Handle()
+
+    line = _progress._NotebookLine(display, None)
+    line(at(stage="preparation", step="Laying out tiles"))
+    line(at(histories=250_000, rms_relative_error=0.012))
+    line.close()
+    assert shown == ["Laying out tiles", "250k of 1M histories for the tiles, error 1.2 %, about 3 s left", ""]
+
+
+def test_the_time_that_is_left():
+    text = _progress._text
+    assert text(at(histories=1000, target=2**62), None) == "1k histories for the tiles"
+    assert text(at(histories=1000, target=2**62, seconds_to_target=7300.0), None).endswith("about 2 h 1 min left")
+    assert text(at(histories=1000, target=2**62, seconds_to_target=90.0), 31.0).endswith("about 30 s left")
+    assert text(at(stage="direct light", histories=5, target=10), None) == "direct light of 5 of 10"
+    assert text(at(stage="pilot"), None) == "choosing the estimator"
+
+
+def test_no_progress_prints_nothing(capfd):
+    for progress in (None, False):
+        lichtmc.simulate(cube(), photons=5000, tile=0.5, progress=progress)
+    captured = capfd.readouterr()
+    assert captured.out == captured.err == ""
