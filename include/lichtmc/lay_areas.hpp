@@ -46,6 +46,12 @@ void lay_working_planes(Room& room, double height_m, const AreaProperties& prope
 // emits, or has no flat part with more than half of what light reaches of it.
 void lay_area_on(Room& room, const std::string& surface, const AreaProperties& properties);
 
+// Whether an area measures less than its outline because of the margin that it has by default.
+bool is_cut_by_usual_margin(const Area& area);
+// Points of its grid that are left out for another reason than its outline and margin: inside furniture or walls,
+// outside the rooms, where no light gets.
+std::uint64_t misplaced_points(const Area& area);
+
 // A sentence: "Area 'desk': 48 points …; left out: …".
 std::string description_of(const Area& area);
 

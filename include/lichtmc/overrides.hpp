@@ -2,6 +2,7 @@
 // recorded in Room::overrides.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,16 +29,24 @@ void measure_only(Room& room, const std::vector<std::string>& names);
 // there is none of this name (the message lists similar ones), or if the delay is out of range.
 void set_delay(Room& room, const std::string& name, double delay_s);
 
-// Sets the maintenance factor (above 0, up to 1) of all emitters that have none of their own, and multiplies their powers
-// accordingly: they become the maintained ones. Throws InputError if it is out of range.
+// Sets the power of the emitters of this name or pattern: the one when new, W or lm as Room::quantity (≥ 0, finite);
+// the room has it times the maintenance factor. Throws InputError as above.
+void set_power(Room& room, const std::string& name, double power);
+
+// Removes the emitters of this name or pattern; their surfaces stay. Returns how many. Throws InputError if there is
+// none.
+std::size_t remove_emitters(Room& room, const std::string& name);
+
+// Sets the maintenance factor (above 0, up to 1) of all emitters that have none of their own, and multiplies their
+// powers accordingly: they become the maintained ones. Throws InputError if it is out of range.
 void set_maintenance_factor(Room& room, double factor);
 
 // The maintenance factor of all emitters with a power; none if they have different ones. Where it is F, the irradiances
 // with new emitters are those of the room divided by F.
 std::optional<double> common_maintenance_factor(const Room& room);
 
-// "Maintained values: maintenance factor 0.8; initial values are 1.25 times as high", or "Maintained values: maintenance
-// factors 0.7 to 0.9"; empty if all are 1: then nothing is known of ageing.
+// "Maintained values: maintenance factor 0.8; initial values are 1.25 times as high", or "Maintained values:
+// maintenance factors 0.7 to 0.9"; empty if all are 1: then nothing is known of ageing.
 std::string maintained_text(const Room& room);
 
 // Adds an emitter whose power is the given quantity. A room without emitters takes this quantity; otherwise both must

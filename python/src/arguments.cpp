@@ -37,11 +37,11 @@ void refuse_value(const std::string& what, nb::handle value, const std::string& 
   throw InputError("The " + what + " is " + shown(value) + " (allowed: " + allowed + "). " + remedy);
 }
 
-double number_of(nb::handle value, const std::string& what) {
+double number_of(nb::handle value, const std::string& what, const char* example) {
   const double number = is_flag(value) ? 0.0 : PyFloat_AsDouble(value.ptr());
   if (!is_flag(value) && PyErr_Occurred() == nullptr) return number;
   PyErr_Clear();
-  refuse_value(what, value, "a number", "Give a number, for example 0.5.");
+  refuse_value(what, value, "a number", std::string("Give a number, for example ") + example + ".");
 }
 
 std::optional<double> optional_number(nb::handle value, const std::string& what) {

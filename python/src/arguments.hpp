@@ -32,7 +32,8 @@ std::string shown(nb::handle value);
                                const std::string& remedy);
 
 // A number; numpy's scalars are numbers, texts are not.
-double number_of(nb::handle value, const std::string& what);
+// example: for the message.
+double number_of(nb::handle value, const std::string& what, const char* example = "0.5");
 // None: none.
 std::optional<double> optional_number(nb::handle value, const std::string& what);
 // A whole number, least ≤ n ≤ most.

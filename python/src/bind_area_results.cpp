@@ -54,6 +54,16 @@ auto verdict(Verdict AreaResult::*member) {
   return [member](const OneArea& one) { return to_string(one.figures().*member); };
 }
 
+// "; left out: 3 points outside the rooms", and the notes; empty without either.
+std::string omissions_text(const Area& area) {
+  std::string text;
+  for (const AreaLeftOut& some : area.left_out)
+    text += (text.empty() ? "; left out: " : ", ") + std::to_string(some.points) +
+            (some.points == 1 ? " point " : " points ") + some.why;
+  for (const std::string& note : area.notes) text += "; " + note.substr(0, note.size() - (note.ends_with('.') ? 1 : 0));
+  return text;
+}
+
 void bind_figures_of(nb::class_<OneArea>& of) {
   of.def_prop_ro("mean", figure(&AreaResult::mean),
                  "Mean irradiance (W/m²) or illuminance Em (lx), maintained: with the emitters' maintenance factors.")
@@ -86,8 +96,9 @@ void bind_figures_of(nb::class_<OneArea>& of) {
       .def_prop_ro(
           "text", [](const OneArea& one) { return area_line(one.figures(), one.of.quantity); },
           "The figures in a line: 'desk (task): Em 349 ± 2 lx, U0 0.55 ± 0.01, target 500 lx, 0.60: fail'.")
-      .def("__repr__",
-           [](const OneArea& one) { return "AreaResult(" + area_line(one.figures(), one.of.quantity) + ")"; });
+      .def("__repr__", [](const OneArea& one) {
+        return "AreaResult(" + area_line(one.figures(), one.of.quantity) + omissions_text(one.area()) + ")";
+      });
 }
 
 void bind_layout_of(nb::class_<OneArea>& of) {
@@ -118,9 +129,11 @@ void bind_layout_of(nb::class_<OneArea>& of) {
             for (const AreaLeftOut& some : one.area().left_out) reasons[some.why] += some.points;
             return reasons;
           },
-          "Cells without a point: their number, by the reason.")
+          "Cells without a point: their number, by the reason. What the margin leaves out of the grid as a whole is in "
+          "notes.")
       .def_prop_ro(
-          "notes", [](const OneArea& one) { return one.area().notes; }, "What else one should know, sentences.")
+          "notes", [](const OneArea& one) { return one.area().notes; },
+          "What else one should know, sentences: what the usual margin leaves out, points that lie on table tops.")
       .def_prop_ro(
           "margin", [](const OneArea& one) { return one.area().margin_m; },
           "Distance from the walls or edges within which cells have no point, m.")

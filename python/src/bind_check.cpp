@@ -119,7 +119,11 @@ void bind_inspection(nb::module_& module) {
       .def_prop_ro(
           "warnings", [](const InspectionOfRoom& of) { return of_severity(of, Severity::warning); },
           "Findings for which figures may not have the meaning that is expected.")
-      .def_prop_ro("closed", fact(&Inspection::closed), "Whether no light can leave the room.")
+      .def_prop_ro("closed", fact(&Inspection::closed),
+                   R"(Whether closed surfaces enclose every emitter, so that no light can leave the room.
+
+It follows from the geometry alone. It is False also where an emitter lies in the plane of a wall, which is neither
+inside nor outside, although no light may leave: the finding of the topic "openings" tells how much does.)")
       .def_prop_ro("convex", fact(&Inspection::convex), "Whether the room is convex.")
       .def_prop_ro("cuboid", fact(&Inspection::cuboid), "Whether the room is an empty cuboid.")
       .def_prop_ro("low", point(&Inspection::low), has_owner, "Bounding box of all surfaces, least x, y, z, m.")

@@ -1,6 +1,8 @@
 // The shapes of emitters: immutable values, which are checked when they are made.
 #include <nanobind/stl/string.h>
 
+#include <array>
+#include <charconv>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -63,12 +65,37 @@ void check_shape(const std::string& kind, const decltype(Emitter::shape)& shape)
   check_room(check);
 }
 
-// An angle in degrees, which the library has in rad.
-double half_angle(nb::handle value, const char* which, double least, double most, const std::string& allowed) {
+// An angle in degrees.
+double half_angle(nb::handle value, const char* which, double least, double most, const std::string& allowed,
+                  const std::string& remedy) {
   const std::string what = std::string(which) + " half angle of the spot";
-  const double angle = number_of(value, what);
-  if (angle >= least && angle <= most) return degree * angle;
-  refuse_value(what, value, allowed + " degrees", "Give the half angle of the cone.");
+  const double angle = number_of(value, what, "30");
+  if (angle >= least && angle <= most) return angle;
+  refuse_value(what, value, allowed, remedy);
+}
+
+SpotEmitter spot_of(nb::handle position, nb::handle axis, nb::handle inner, nb::handle outer) {
+  const double edge =
+      half_angle(outer, "outer", 1e-4, 90.0, "0.0001 to 90 degrees", "Give the half angle of the cone of all light.");
+  const std::string edge_text = nb::repr(nb::float_(edge)).c_str();
+  const double core = half_angle(inner, "inner", 0.0, edge, "0 to " + edge_text + " degrees, the outer half angle",
+                                 "Give a smaller inner_deg, or a larger outer_deg.");
+  return {vec3_of(position, "position of the emitter"), vec3_of(axis, "axis of the emitter"), degree * core,
+          degree * edge};
+}
+
+// The library has angles in rad: the shortest number of degrees that is this angle.
+double degrees_of(double angle) {
+  constexpr int digits_of_decimals = 15;  // that a double keeps
+  std::array<char, 32> text{};
+  for (int digits = digits_of_decimals; digits <= digits_of_decimals + 2; ++digits) {
+    const char* end =
+        std::to_chars(text.data(), text.data() + text.size(), angle / degree, std::chars_format::general, digits).ptr;
+    double degrees = 0.0;
+    std::from_chars(text.data(), end, degrees);
+    if (degree * degrees == angle) return degrees;
+  }
+  return angle / degree;
 }
 
 void bind_point_shapes(nb::module_& module) {
@@ -124,9 +151,7 @@ void bind_spot(nb::module_& module) {
   spot.def(
           "__init__",
           [](SpotEmitter* self, nb::handle position, nb::handle axis, nb::handle inner, nb::handle outer) {
-            const double edge = half_angle(outer, "outer", 1e-4, 90.0, "0.0001 to 90");
-            const SpotEmitter shape{vec3_of(position, "position of the emitter"), vec3_of(axis, "axis of the emitter"),
-                                    half_angle(inner, "inner", 0.0, edge / degree, "0 to the outer one, in"), edge};
+            const SpotEmitter shape = spot_of(position, axis, inner, outer);
             check_shape("Spot", shape);
             new (self) SpotEmitter(shape);
           },
@@ -139,20 +164,20 @@ void bind_spot(nb::module_& module) {
 Args:
     position: (x, y, z), m.
     axis: Direction of the beam, of any length but 0.
-    inner_deg: Half angle of the cone of full intensity, degrees, 0 to outer_deg.
+    inner_deg: Half angle of the cone of full intensity, degrees, 0 to outer_deg; equal: a hard edge.
     outer_deg: Half angle of the cone that contains all light, degrees, up to 90.)")
       .def_prop_ro(
-          "inner_deg", [](const SpotEmitter& shape) { return shape.inner / degree; },
+          "inner_deg", [](const SpotEmitter& shape) { return degrees_of(shape.inner); },
           "Half angle of the cone of full intensity, degrees.")
       .def_prop_ro(
-          "outer_deg", [](const SpotEmitter& shape) { return shape.outer / degree; },
+          "outer_deg", [](const SpotEmitter& shape) { return degrees_of(shape.outer); },
           "Half angle of the cone that contains all light, degrees.");
   def_position(spot);
   def_axis(spot);
   def_value<SpotEmitter>(spot, [](const SpotEmitter& shape) {
     return nb::make_tuple(
         nb::make_tuple("position", tuple_of(shape.position)), nb::make_tuple("axis", tuple_of(shape.axis)),
-        nb::make_tuple("inner_deg", shape.inner / degree), nb::make_tuple("outer_deg", shape.outer / degree));
+        nb::make_tuple("inner_deg", degrees_of(shape.inner)), nb::make_tuple("outer_deg", degrees_of(shape.outer)));
   });
 }
 

@@ -105,6 +105,11 @@ NewEmitter new_luminaire(const LuminaireShape& luminaire, nb::handle power, Quan
   return made;
 }
 
+// A power, for messages.
+const char* example_of(Quantity unit) {
+  return unit == Quantity::photometric ? "1000 (lm)" : "5 (W)";
+}
+
 NewEmitter new_emitter(const Room& room, nb::handle shape, nb::handle power, Quantity unit) {
   if (nb::isinstance<LuminaireShape>(shape)) return new_luminaire(nb::cast<const LuminaireShape&>(shape), power, unit);
   NewEmitter made;
@@ -125,7 +130,7 @@ NewEmitter new_emitter(const Room& room, nb::handle shape, nb::handle power, Qua
     throw InputError(
         "The emitter has no power (allowed: a number, 0 or more). Give its luminous flux in lm, or its "
         "radiant flux with unit='W'.");
-  made.emitter.power = number_of(power, "power of the emitter");
+  made.emitter.power = number_of(power, "power of the emitter", example_of(unit));
   return made;
 }
 
@@ -194,6 +199,17 @@ std::vector<EmitterOfRoom> emitters_of(const SharedRoom& shared) {
   return emitters;
 }
 
+void set_power_of(SharedRoom& shared, nb::handle name, nb::handle power) {
+  const std::string which = text_of(name, "name of an emitter");
+  const double flux = number_of(power, "power of the emitter", example_of(shared.room().quantity));
+  shared.change([&](Room& changed) { set_power(changed, which, flux); });
+}
+
+std::size_t remove(SharedRoom& shared, nb::handle name) {
+  const std::string which = text_of(name, "name of an emitter");
+  return shared.change([&](Room& changed) { return remove_emitters(changed, which); });
+}
+
 void bind_emitter(nb::module_& module) {
   nb::class_<EmitterOfRoom>(module, "Emitter", "An emitter of a room, as it was when it was asked for.")
       .def_ro("name", &EmitterOfRoom::name, "Its name; emitters of one name share a part of the results.")
@@ -236,6 +252,15 @@ Args:
 
 Raises:
     InputError: A value is out of its range, the surface of an AreaLight is not known, or the unit is not the room's.)")
+      .def("set_power", &set_power_of, any_arg("name"), any_arg("power"),
+           nb::sig("def set_power(self, name: str, power: float) -> None"),
+           R"(Sets the power of emitters; of a Luminaire too, whose intensity is then scaled.
+
+Args:
+    name: Of an emitter, or a pattern with "*", "?" and "[…]".
+    power: Of each of them when new, in the unit of the room, 0 or more.)")
+      .def("remove_emitters", &remove, any_arg("name"), nb::sig("def remove_emitters(self, name: str) -> int"),
+           R"(Removes the emitters of a name or pattern; returns how many. The surfaces of area lights stay.)")
       .def_prop_ro("emitters", &emitters_of, "Its emitters, a list of :class:`Emitter`.");
 }
 

@@ -63,16 +63,47 @@ AreaProperties properties_of(const nb::kwargs& given) {
   return properties;
 }
 
-// The names of the areas that `lay` adds. Those of the room's file come before them, as on the command line.
-std::vector<std::string> add_areas(SharedRoom& room, const std::function<void(Room&)>& lay) {
+struct AddedAreas {
   std::vector<std::string> names;
+  std::vector<std::string> omissions;  // see omission_of()
+};
+
+// What an area that was drawn, or lies on a surface, leaves out though nobody asked for that, with what to do; empty:
+// nothing.
+std::string omission_of(const Area& area) {
+  const bool by_margin = is_cut_by_usual_margin(area);
+  const bool misplaced = misplaced_points(area) > 0;
+  if (!by_margin && !misplaced) return {};
+  std::string text = description_of(area);
+  if (by_margin)
+    text += " Give role='task' or margin=0 for points up to the walls; or margin=" +
+            std::string(nb::repr(nb::float_(area.margin_m)).c_str()) + " if that is meant.";
+  if (misplaced) text += " Its figures are those of the points that are left: check its place and size.";
+  return text;
+}
+
+// The areas that `lay` adds. Those of the room's file come before them, as on the command line.
+AddedAreas add_areas(SharedRoom& room, const std::function<void(Room&)>& lay) {
+  std::size_t before = 0;
   change_aside(room, [&](Room& changed) {
     lay_areas(changed);
-    const std::size_t before = changed.areas.size();
+    before = changed.areas.size();
     lay(changed);
-    for (std::size_t k = before; k < changed.areas.size(); ++k) names.push_back(changed.areas[k].properties.name);
   });
-  return names;
+  AddedAreas added;
+  const std::vector<Area>& areas = room.room().areas;
+  for (std::size_t k = before; k < areas.size(); ++k) {
+    added.names.push_back(areas[k].properties.name);
+    if (std::string omission = omission_of(areas[k]); !omission.empty()) added.omissions.push_back(std::move(omission));
+  }
+  return added;
+}
+
+// With a warning of what they leave out.
+std::vector<std::string> add_wanted_areas(SharedRoom& room, const std::function<void(Room&)>& lay) {
+  AddedAreas added = add_areas(room, lay);
+  for (const std::string& omission : added.omissions) warn_of_room(omission);
+  return std::move(added.names);
 }
 
 std::string add_area(SharedRoom& room, nb::handle name, nb::handle corner, nb::handle u, nb::handle v,
@@ -84,11 +115,11 @@ std::string add_area(SharedRoom& room, nb::handle name, nb::handle corner, nb::h
   const glm::dvec3 along = vec3_of(u, "edge u of the area");
   const glm::dvec3 across = vec3_of(v, "edge v of the area");
   request.triangles = {{a, a + along, a + along + across}, {a, a + along + across, a + across}};
-  return add_areas(room,
-                   [&](Room& changed) {
-                     changed.area_requests.push_back(request);
-                     lay_areas(changed);
-                   })
+  return add_wanted_areas(room,
+                          [&](Room& changed) {
+                            changed.area_requests.push_back(request);
+                            lay_areas(changed);
+                          })
       .front();
 }
 
@@ -98,14 +129,14 @@ std::vector<std::string> add_working_plane(SharedRoom& room, nb::handle height, 
   properties.name = text_of(name, "name of the working plane");
   properties.margin_m = optional_number(margin, "margin of the working plane");
   const double height_m = number_of(height, "height of the working plane");
-  return add_areas(room, [&](Room& changed) { lay_working_planes(changed, height_m, properties); });
+  return add_areas(room, [&](Room& changed) { lay_working_planes(changed, height_m, properties); }).names;
 }
 
 std::vector<std::string> add_area_on(SharedRoom& room, nb::handle surface, nb::handle name, const nb::kwargs& given) {
   AreaProperties properties = properties_of(given);
   if (!name.is_none()) properties.name = text_of(name, "name of the area");
   const std::string which = text_of(surface, "surface of the area");
-  return add_areas(room, [&](Room& changed) { lay_area_on(changed, which, properties); });
+  return add_wanted_areas(room, [&](Room& changed) { lay_area_on(changed, which, properties); });
 }
 
 // The points, in the order of the receivers.
@@ -162,9 +193,11 @@ void bind_area(nb::module_& module) {
             for (const AreaLeftOut& one : of.area().left_out) left_out[nb::str(one.why.c_str())] = one.points;
             return left_out;
           },
-          nb::sig("def left_out(self) -> dict[str, int]"), "Why cells have no point, and how many.")
+          nb::sig("def left_out(self) -> dict[str, int]"),
+          "Why cells have no point, and how many. What the margin leaves out of the grid as a whole is in notes.")
       .def_prop_ro(
-          "notes", [](const AreaOfRoom& of) { return of.area().notes; }, "What else to know: a sentence each.")
+          "notes", [](const AreaOfRoom& of) { return of.area().notes; },
+          "What else to know, a sentence each: what the usual margin leaves out, points that lie on table tops.")
       .def_prop_ro(
           "text", [](const AreaOfRoom& of) { return description_of(of.area()); }, "The area in a sentence.")
       .def("__repr__", [](const AreaOfRoom& of) { return "<" + description_of(of.area()) + ">"; });
@@ -186,6 +219,11 @@ constexpr const char* properties_text = R"(
 Raises:
     InputError: A property is not valid, the name is taken, or no point is left.)";
 
+constexpr const char* warns_text = R"(
+
+Warns:
+    RoomWarning: Points are left out, inside furniture or walls, outside the rooms, or by the margin if none was given.)";
+
 }  // namespace
 
 void bind_areas_of_room(nb::module_& module, RoomClass& room) {
@@ -199,11 +237,11 @@ Args:
     name: Its name, which no other area has.
     corner: (x, y, z), m.
     u, v: Its edges from the corner, (x, y, z), m.)") +
-                                     properties_text;
+                                     properties_text + warns_text;
   static const std::string of_plane =
       std::string(R"(Adds working planes above the floors, one for each room; returns their names.
 
-Each follows the outline of its floor. Add emitters first: they tell which rooms are lit.
+Each follows the outline of its floor, and leaves out furniture. Add emitters first: they tell which rooms are lit.
 
 Args:
     height: Above the floor, m.
@@ -216,7 +254,7 @@ Args:
 Args:
     surface: Name or pattern of a material or surface.
     name: Its name; several areas are numbered. Default: the name of the surface.)") +
-      properties_text;
+      properties_text + warns_text;
   room.def("add_area", &add_area, any_arg("name"), any_arg("corner"), any_arg("u"), any_arg("v"), nb::arg("properties"),
            nb::sig("def add_area(self, name: str, corner: numpy.typing.ArrayLike, u: numpy.typing.ArrayLike, v: "
                    "numpy.typing.ArrayLike, **properties: typing.Any) -> str"),

@@ -2,9 +2,11 @@
 #include <Python.h>
 
 #include <exception>
+#include <string>
 
 #include "bindings.hpp"
 #include "lichtmc/error.hpp"
+#include "room_parts.hpp"
 
 namespace lichtmc::python {
 
@@ -14,6 +16,7 @@ namespace {
 PyObject* base_class = nullptr;
 PyObject* input_class = nullptr;
 PyObject* runtime_class = nullptr;
+PyObject* room_warning = nullptr;
 
 PyObject* make_class(nb::module_& module, const char* name, const char* doc, PyObject* base, PyObject* second_base) {
   const nb::object bases = second_base != nullptr ? nb::make_tuple(nb::handle(base), nb::handle(second_base))
@@ -39,6 +42,10 @@ void translate(const std::exception_ptr& error, void* /*unused*/) {
 
 }  // namespace
 
+void warn_of_room(const std::string& text) {
+  if (PyErr_WarnEx(room_warning, text.c_str(), 1) != 0) throw nb::python_error();
+}
+
 void bind_errors(nb::module_& module) {
   base_class = make_class(module, "Error", "Base of the errors of lichtmc.", PyExc_Exception, nullptr);
   input_class = make_class(module, "InputError",
@@ -47,6 +54,9 @@ void bind_errors(nb::module_& module) {
                            base_class, PyExc_ValueError);
   runtime_class =
       make_class(module, "RuntimeError", "The machine failed: disk, memory, device.", base_class, PyExc_RuntimeError);
+  room_warning = make_class(module, "RoomWarning",
+                            "A change of a room does less than was probably meant: an area that leaves out points.",
+                            PyExc_UserWarning, nullptr);
   nb::register_exception_translator(translate);
 }
 

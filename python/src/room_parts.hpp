@@ -4,6 +4,7 @@
 #include <nanobind/nanobind.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -23,6 +24,10 @@ void bind_receivers_of_room(nb::module_& module, RoomClass& room);
 void bind_areas_of_room(nb::module_& module, RoomClass& room);
 void bind_check(nb::module_& module, RoomClass& room);
 void bind_paths(nb::module_& module, RoomClass& room);
+
+// Issues a lichtmc.RoomWarning, as of the line that called the function. Throws nb::python_error if warnings are
+// errors.
+void warn_of_room(const std::string& text);
 
 using KeptRoomPtr = std::shared_ptr<const KeptRoom>;
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -25,6 +27,38 @@ def test_areas_are_laid_out_at_once():
     assert repr(area) == f"<{area.text}>"
     assert isinstance(area.notes, list)
     assert "1 area" in repr(room)
+
+
+def test_what_an_area_leaves_out_is_told(recwarn):
+    room = cuboid()
+    room.add_area("inner", (1, 0.75, 1), (1.6, 0, 0), (0, 0, 0.8))
+    room.add_area("asked for", (0, 0.75, 0), (1.6, 0, 0), (0, 0, 0.8), margin=0.5)
+    room.add_area("task", (0, 0.75, 0), (1.6, 0, 0), (0, 0, 0.8), role="task")
+    room.add_working_plane(0.75)
+    room.add_area_on("floor")
+    assert not recwarn.list
+    told = "The usual margin of 0.5 m from walls leaves 1.1 m × 0.3 m of its 1.6 m × 0.8 m."
+    with pytest.warns(lichtmc.RoomWarning, match="Area 'desk': .* Give role='task' or margin=0") as caught:
+        room.add_area("desk", (0, 0.75, 0), (1.6, 0, 0), (0, 0, 0.8))
+    assert told in str(caught[0].message)
+    assert caught[0].filename == __file__
+    with pytest.warns(lichtmc.RoomWarning, match="5 points outside the rooms.* check its place") as caught:
+        room.add_area("half", (-0.5, 0.8, 1), (1, 0, 0), (0, 0, 0.5), spacing=0.1, role="task")
+    assert "margin=0" not in str(caught[0].message)
+    areas = {area.name: area for area in room.areas}
+    assert areas["desk"].notes == [told] and areas["desk"].left_out == {}
+    assert told in repr(areas["desk"])
+    result = lichtmc.simulate(room, photons=1000, only="receivers")
+    assert told[:-1] in repr(result.areas["desk"])
+    assert "; left out: 25 points outside the rooms" in repr(result.areas["half"])
+
+
+def test_warnings_may_be_errors():
+    room = cuboid()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", lichtmc.RoomWarning)
+        with pytest.raises(lichtmc.RoomWarning):
+            room.add_area("desk", (0, 0.75, 0), (1.6, 0, 0), (0, 0, 0.8))
 
 
 def test_properties():

@@ -27,6 +27,20 @@ def test_a_sound_room():
     assert repr(inspection).startswith("<Inspection: 0 faults, 0 warnings, ")
 
 
+def test_receivers_outside_the_room():
+    room = lichtmc.Room.cuboid((4, 2.5, 5))
+    room.add_emitter(lichtmc.Lambert((2, 2.5, 2.5)), 1000)  # in the plane of the ceiling
+    room.add_receivers([(10, 0, 0), (1, -1, 1), (1, 1, 1)])
+    text = "2 receivers of 3 lie outside the room, which extends from x, y, z = 0 to 4, 0 to 2.5, 0 to 5 m."
+    inspection = room.check()
+    assert not inspection.closed  # the lamp is neither inside nor outside
+    assert [f.topic for f in inspection.warnings if text in f.text] == ["receivers"]
+    with pytest.warns(lichtmc.ResultWarning, match="outside the room") as caught:
+        result = lichtmc.simulate(room, photons=1000, only="receivers")
+    assert [text in str(warning.message) for warning in caught] == [True]
+    assert result.receivers.irradiance[:2].tolist() == [0, 0]
+
+
 def test_tiles_of_a_check():
     assert cuboid().check(tile=0.5).tiles == 340
     with pytest.raises(lichtmc.InputError, match="edge of a tile is 'small'"):

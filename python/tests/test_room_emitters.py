@@ -72,6 +72,52 @@ def test_emitters_are_added_with_names():
     assert [e.power for e in room.emitters] == [50, 25, 12.5, 150]
 
 
+def test_spots_have_the_degrees_that_were_given():
+    for inner, outer in ((30, 30), (10, 30), (0.1, 45), (7, 33), (90, 90), (12.3, 60)):
+        spot = lichtmc.Spot((1, 2, 3), inner_deg=inner, outer_deg=outer)
+        assert (spot.inner_deg, spot.outer_deg) == (inner, outer)
+        assert repr(spot).endswith(f"inner_deg={float(inner)}, outer_deg={float(outer)})")
+        assert lichtmc.Spot((1, 2, 3), inner_deg=spot.inner_deg, outer_deg=spot.outer_deg) == spot
+    room = empty()
+    room.add_emitter(lichtmc.Spot((2, 2, 2), inner_deg=30, outer_deg=30), 100)
+    assert room.emitters[0].shape.outer_deg == 30
+    room.add_receivers([(2, 0, 2), (2, 0, 3.14), (2, 0, 3.17)])  # 2 m · tan 30° = 1.155 m
+    direct = lichtmc.simulate(room, photons=1000, only="receivers").receivers.direct
+    intensity = 100 / (2 * np.pi * (1 - np.cos(np.pi / 6)))
+    assert direct == pytest.approx([intensity / 4, intensity / 4 * np.cos(np.arctan(0.57)) ** 3, 0], rel=1e-3)
+
+
+def test_powers_are_set_and_emitters_removed():
+    room = empty()
+    for name in ("left", "right", "spot"):
+        room.add_emitter(lichtmc.Isotropic((1, 1, 1)), 100, name=name)
+    room.add_emitter(lichtmc.Luminaire(lamp(), (2, 2, 2)), name="office", maintenance_factor=0.5)
+    shape = room.emitters[3].shape
+    room.set_power("*t", 250)
+    assert [e.power for e in room.emitters[:3]] == [100, 250, 250]
+    room.set_power("office", np.float32(600))
+    assert (room.emitters[3].power, room.emitters[3].shape.power) == (300, 600)
+    assert room.emitters[3].shape != shape
+    assert room.remove_emitters("[ls]*") == 2
+    assert [e.name for e in room.emitters] == ["right", "office"]
+    assert "2 emitters '[ls]*' removed." in room.overrides
+    assert room.remove_emitters("*") == 2
+    with pytest.raises(lichtmc.InputError, match="no emitter '.' in cuboid .allowed: none"):
+        room.remove_emitters("*")
+    room.add_emitter(lichtmc.Isotropic((1, 1, 1)), 2, unit="W")
+    assert room.unit == "W"
+    for change, message in (
+        (lambda: room.set_power("lamp", 1), "no emitter 'lamp'.*'emitter_1'"),
+        (lambda: room.set_power("emitter_1", -1), "is -1 W .allowed: a finite number, 0 or more"),
+        (lambda: room.set_power("emitter_1", "3"), r"power of the emitter is '3' .*for example 5 \(W\)"),
+        (lambda: room.set_power(1, 1), "name of an emitter is 1"),
+        (lambda: room.remove_emitters(None), "name of an emitter is None"),
+    ):
+        with pytest.raises(lichtmc.InputError, match=message):
+            change()
+    assert [e.power for e in room.emitters] == [2]
+
+
 def test_default_names_avoid_those_that_exist():
     room = empty()
     room.add_emitter(lichtmc.Isotropic((1, 1, 1)), 1, name="emitter_2")
@@ -104,7 +150,7 @@ def test_an_emitter_without_power_is_allowed_beside_others():
         (lambda: lichtmc.Lambert((1, 2, 3), exponent=-1), "is -1"),
         (lambda: lichtmc.Lambert((1, 2, 3), exponent="2"), "exponent of the emitter is '2'"),
         (lambda: lichtmc.Spot((1, 2, 3), outer_deg=100), "outer half angle of the spot is 100 .allowed: 0.0001 to 90 deg"),
-        (lambda: lichtmc.Spot((1, 2, 3), inner_deg=60), "inner half angle of the spot is 60"),
+        (lambda: lichtmc.Spot((1, 2, 3), inner_deg=60), "of the spot is 60 .allowed: 0 to 45.0 degrees, the outer half angle"),
         (lambda: lichtmc.Spot((1, 2, 3), inner_deg=np.nan), "inner half angle of the spot is nan"),
         (lambda: lichtmc.AreaLight(3), "name of the emitting surface is 3"),
         (lambda: lichtmc.AreaLight("x", -2), "is -2"),
@@ -121,7 +167,7 @@ def test_wrong_shapes_are_refused(make, message):
         (((1, 1, 1), 5), {}, r"shape of the emitter is \(1, 1, 1\) .allowed: Isotropic, Lambert"),
         ((lichtmc.Isotropic, 5), {}, "shape of the emitter is <class"),
         ((lichtmc.Isotropic((1, 1, 1)),), {}, "has no power"),
-        ((lichtmc.Isotropic((1, 1, 1)), "5 lm"), {}, "power of the emitter is '5 lm'"),
+        ((lichtmc.Isotropic((1, 1, 1)), "5 lm"), {}, r"power of the emitter is '5 lm' .*for example 1000 \(lm\)"),
         ((lichtmc.Isotropic((1, 1, 1)), -5), {}, "is -5 .allowed: a finite number, 0 or more"),
         ((lichtmc.Isotropic((1, 1, 1)), np.nan), {}, "is nan"),
         ((lichtmc.Isotropic((1, 1, 1)), 5), {"unit": "lumen"}, "unit is 'lumen'"),

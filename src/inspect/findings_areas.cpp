@@ -39,11 +39,7 @@ void find_in_area(const Area& area, Inspection& facts) {
          name + " has a spacing of " + to_text(*area.properties.spacing_m) + " m; EN 12464-1 allows at most 10 m.",
          "Give it a smaller spacing, or none for the grid of the standard."});
   }
-  std::uint64_t dark = 0;
-  for (const AreaLeftOut& left_out : area.left_out) {
-    const bool meant = left_out.why.starts_with("outside its outline") || left_out.why.starts_with("within ");
-    if (!meant) dark += left_out.points;
-  }
+  const std::uint64_t dark = misplaced_points(area);
   if (dark > area.cells.size()) {
     facts.findings.push_back({Severity::warning, areas_topic,
                               "Most points of the calculation area " + in_quotes(area.properties.name) +

@@ -127,26 +127,58 @@ void measure_only(Room& room, const std::vector<std::string>& names) {
                            (measured == 1 ? " is" : " are") + " measured; the others only reflect.");
 }
 
+namespace {
+
+// Calls change(Emitter&) for the emitters of a name or pattern; returns how many they are, 1 or more.
+template <class Change>
+std::size_t change_emitters(Room& room, const std::string& name, const Change& change) {
+  std::size_t changed = 0;
+  for (Emitter& emitter : room.emitters) {
+    if (!matches_pattern(name, emitter.name)) continue;
+    change(emitter);
+    ++changed;
+  }
+  if (changed > 0) return changed;
+  std::vector<std::string> names;
+  for (const Emitter& emitter : room.emitters) names.push_back(emitter.name);
+  throw InputError("There is no emitter " + in_quotes(name) + " in " + room.source +
+                   (names.empty() ? " (allowed: none, it has no emitters). Add one first."
+                                  : " (allowed, among others: " + nearest_names(name, std::move(names)) +
+                                        "). Give the name of an emitter of the room, or a pattern."));
+}
+
+std::string changed_emitters(std::size_t changed, const std::string& name) {
+  return (changed == 1 ? "Emitter " : to_text(changed, "emitter") + " ") + in_quotes(name);
+}
+
+}  // namespace
+
 void set_delay(Room& room, const std::string& name, double delay_s) {
   if (!(delay_s >= 0.0) || !std::isfinite(delay_s))
     throw InputError("The delay of " + in_quotes(name) + " is " + to_text(delay_s) +
                      " s (allowed: a finite number, 0 or more). Count the delays of all emitters from the earliest "
                      "one.");
-  std::size_t changed = 0;
-  for (Emitter& emitter : room.emitters) {
-    if (!matches_pattern(name, emitter.name)) continue;
-    emitter.delay_s = delay_s;
-    ++changed;
-  }
-  if (changed == 0) {
-    std::vector<std::string> names;
-    for (const Emitter& emitter : room.emitters) names.push_back(emitter.name);
-    throw InputError("There is no emitter " + in_quotes(name) + " in " + room.source +
-                     " (allowed, among others: " + nearest_names(name, std::move(names)) +
-                     "). Give the name of an emitter of the room, or a pattern.");
-  }
-  room.overrides.push_back((changed == 1 ? "Emitter " : to_text(changed, "emitter") + " ") + in_quotes(name) +
-                           ": delay set to " + to_text(shift_decimals(delay_s, 9)) + " ns.");
+  const std::size_t changed = change_emitters(room, name, [&](Emitter& emitter) { emitter.delay_s = delay_s; });
+  room.overrides.push_back(changed_emitters(changed, name) + ": delay set to " + to_text(shift_decimals(delay_s, 9)) +
+                           " ns.");
+}
+
+void set_power(Room& room, const std::string& name, double power) {
+  const std::string unit(power_unit(room.quantity));
+  if (!(power >= 0.0) || !std::isfinite(power))
+    throw InputError("The power of " + in_quotes(name) + " is " + to_text(power) + " " + unit +
+                     " (allowed: a finite number, 0 or more). Give the power of one emitter when new.");
+  const std::size_t changed =
+      change_emitters(room, name, [&](Emitter& emitter) { emitter.power = power * emitter.maintenance_factor; });
+  room.overrides.push_back(changed_emitters(changed, name) + ": power set to " + to_text(power) + " " + unit +
+                           (changed == 1 ? "." : " each."));
+}
+
+std::size_t remove_emitters(Room& room, const std::string& name) {
+  const std::size_t removed = change_emitters(room, name, [](Emitter&) {});
+  std::erase_if(room.emitters, [&](const Emitter& emitter) { return matches_pattern(name, emitter.name); });
+  room.overrides.push_back(changed_emitters(removed, name) + " removed.");
+  return removed;
 }
 
 void set_maintenance_factor(Room& room, double factor) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -201,6 +202,63 @@ std::string view_of(const Area& area) {
 }
 
 }  // namespace
+
+namespace {
+
+// Of the outline, along the sides of the grid, m.
+glm::dvec2 drawn_size(const Area& area) {
+  const auto extent = [&area](const glm::dvec3& edge) {
+    const glm::dvec3 along = glm::normalize(edge);
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const auto& line : area.outline) {
+      for (const glm::dvec3& end : line) {
+        low = std::min(low, glm::dot(end, along));
+        high = std::max(high, glm::dot(end, along));
+      }
+    }
+    return high - low;
+  };
+  return {extent(area.u), extent(area.v)};
+}
+
+glm::dvec2 grid_size(const Area& area) {
+  return {area.columns * glm::length(area.u), area.rows * glm::length(area.v)};
+}
+
+// A thousandth may be the rounding of floats and of the raster on which the grid is fitted.
+bool is_smaller_than_drawn(const Area& area) {
+  constexpr double whole = 0.999;
+  const glm::dvec2 drawn = drawn_size(area);
+  const glm::dvec2 grid = grid_size(area);
+  return grid.x < whole * drawn.x || grid.y < whole * drawn.y;
+}
+
+bool is_of_margin(const AreaLeftOut& left_out) {
+  return left_out.why.starts_with("within ");
+}
+
+}  // namespace
+
+void note_usual_margin(Area& area) {
+  if (area.properties.margin_m || area.margin_m == 0.0 || !is_smaller_than_drawn(area)) return;
+  const auto text = [](const glm::dvec2& size) { return rounded(size.x, 3) + " m × " + rounded(size.y, 3) + " m"; };
+  area.notes.push_back("The usual margin of " + to_text(area.margin_m) + " m from walls leaves " +
+                       text(grid_size(area)) + " of its " + text(drawn_size(area)) + ".");
+}
+
+bool is_cut_by_usual_margin(const Area& area) {
+  if (area.properties.margin_m || area.margin_m == 0.0) return false;
+  return is_smaller_than_drawn(area) || std::any_of(area.left_out.begin(), area.left_out.end(), is_of_margin);
+}
+
+std::uint64_t misplaced_points(const Area& area) {
+  std::uint64_t points = 0;
+  for (const AreaLeftOut& left_out : area.left_out) {
+    if (left_out.why != outside_its_outline && !is_of_margin(left_out)) points += left_out.points;
+  }
+  return points;
+}
 
 std::string within(double margin_m, const char* of_what) {
   return "within " + to_text(margin_m) + " m of " + of_what;

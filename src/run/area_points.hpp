@@ -33,6 +33,10 @@ Area area_in(const AreaPlane& plane, const PlaneRectangle& rectangle, const Area
 void add_area(Room& room, Area area, const std::vector<AreaCell>& cells);
 
 // "within 0.5 m of a wall"
+// Adds a note if the margin that an area has by default makes its grid smaller than its outline: no cell is left out
+// then that would tell it.
+void note_usual_margin(Area& area);
+
 std::string within(double margin_m, const char* of_what);
 
 }  // namespace lichtmc

@@ -88,6 +88,7 @@ class AreaLayer {
     Area area = area_in(plane, rectangle_of(shape, margin), properties, quantity, margin);
     for (const PlanLine& line : shape.outline)
       area.outline.push_back({plane.in_space(line[0]), plane.in_space(line[1])});
+    note_usual_margin(area);
     if (plane.is_level() && floor_m_) area.above_floor_m = plane.origin.y - *floor_m_;
     const std::vector<AreaCell> cells = cells_of(area, shape);
     add_area(room, std::move(area), cells);

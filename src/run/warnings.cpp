@@ -67,17 +67,28 @@ std::optional<Advised> uncertain_errors(const Result& result) {
                  "Such errors become reliable only in longer runs; with --receiver-walk two-way they are smallest."};
 }
 
+// Files contain floats: an emitter at the ceiling may be above it by rounding. Coordinates count with at most the
+// extent of the room, as for the tracers (tracer/touch.hpp): a translation far from the origin counts as exact.
+double rounding_of(const Bounds& bounds) {
+  const glm::dvec3 farthest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
+  const glm::dvec3 size = bounds.high - bounds.low;
+  return 4.0 * 0x1p-24 * std::min(std::max({farthest.x, farthest.y, farthest.z}), std::max({size.x, size.y, size.z}));
+}
+
+// "outside the room, which extends from x, y, z = 0 to 5, 0 to 3, 0 to 4 m"
+std::string outside_text(const Bounds& bounds) {
+  std::string range;
+  for (int c = 0; c < 3; ++c)
+    range += (c > 0 ? ", " : "") + position_text(bounds.low[c]) + " to " + position_text(bounds.high[c]);
+  return "outside the room, which extends from x, y, z = " + range + " m";
+}
+
 }  // namespace
 
 std::vector<Advised> emitters_outside(const Room& room, const Enclosure* enclosure) {
   std::vector<Advised> outside;
   const Bounds bounds = bounds_of(room);
-  // Files contain floats: an emitter at the ceiling may be above it by rounding. Coordinates count with at most the
-  // extent of the room, as for the tracers (tracer/touch.hpp): a translation far from the origin counts as exact.
-  const glm::dvec3 farthest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
-  const glm::dvec3 size = bounds.high - bounds.low;
-  const double slack =
-      4.0 * 0x1p-24 * std::min(std::max({farthest.x, farthest.y, farthest.z}), std::max({size.x, size.y, size.z}));
+  const double slack = rounding_of(bounds);
   const std::vector<bool> beyond_walls = emitters_beyond_walls(room, enclosure);
   for (std::size_t k = 0; k < room.emitters.size(); ++k) {
     const Emitter& emitter = room.emitters[k];
@@ -85,11 +96,7 @@ std::vector<Advised> emitters_outside(const Room& room, const Enclosure* enclosu
     const std::string which = "Emitter " + in_quotes(emitter.name) + " at " + place_text(p) + " ";
     const bool is_area = emitting_surface(emitter).has_value();
     if (!is_area && !bounds.holds(p, slack)) {
-      std::string range;
-      for (int c = 0; c < 3; ++c)
-        range += (c > 0 ? ", " : "") + position_text(bounds.low[c]) + " to " + position_text(bounds.high[c]);
-      outside.push_back({which + "lies outside the room, which extends from x, y, z = " + range + " m.",
-                         "Check its position; Y is up."});
+      outside.push_back({which + "lies " + outside_text(bounds) + ".", "Check its position; Y is up."});
     } else if (beyond_walls[k]) {
       outside.push_back(
           {which + (is_area ? "emits" : "lies") + " outside the walls of the closed room: its light does not get in.",
@@ -107,22 +114,39 @@ std::vector<Advised> emitters_outside(const Room& room, const Enclosure* enclosu
            "Check their positions; Y is up."}};
 }
 
-std::vector<Advised> receivers_outside(const Room& room, const Enclosure* enclosure) {
+std::vector<Advised> receivers_outside(const Room& room, const Enclosure* enclosure,
+                                       const std::vector<ReceiverResult>* results) {
   std::vector<Advised> misplaced;
+  if (room.receivers.empty()) return misplaced;
   const std::vector<Separation> separation = separation_of_receivers(room, enclosure);
-  const auto name = [&](Separation kind, const std::string& where) {
-    const auto first = std::find(separation.begin(), separation.end(), kind);
-    if (first == separation.end()) return;
-    const auto n = static_cast<std::size_t>(std::count(separation.begin(), separation.end(), kind));
-    const Receiver& receiver = room.receivers[static_cast<std::size_t>(first - separation.begin())];
+  const Bounds bounds = bounds_of(room);
+  const double slack = rounding_of(bounds);
+  const auto report = [&](const auto& is_misplaced, const std::string& where, const char* one, const char* many) {
+    std::size_t first = 0;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < room.receivers.size(); ++k) {
+      if (is_misplaced(k) && count++ == 0) first = k;
+    }
+    if (count == 0) return;
+    const Receiver& receiver = room.receivers[first];
     const std::string which = in_quotes(receiver.name) + " at " + place_text(receiver.position);
-    misplaced.push_back({n == 1 ? "Receiver " + which + " lies " + where + ": no light reaches it."
-                                : to_text(n, "receiver") + " of " + std::to_string(separation.size()) + " lie " +
-                                      where + ": no light reaches them. The first: " + which + ".",
+    misplaced.push_back({count == 1 ? "Receiver " + which + " lies " + where + one + "."
+                                    : to_text(count, "receiver") + " of " + std::to_string(room.receivers.size()) +
+                                          " lie " + where + many + ". The first: " + which + ".",
                          "Check the positions: they are in metres on the axes of glTF, Y is up."});
   };
-  name(Separation::outside, "outside the closed walls around the emitters");
-  name(Separation::inside, "inside closed walls or bodies without an emitter");
+  const auto separated = [&](Separation kind, const std::string& where) {
+    report([&](std::size_t k) { return separation[k] == kind; }, where, ": no light reaches it",
+           ": no light reaches them");
+  };
+  separated(Separation::outside, "outside the closed walls around the emitters");
+  separated(Separation::inside, "inside closed walls or bodies without an emitter");
+  report(
+      [&](std::size_t k) {
+        return separation[k] == Separation::none && !bounds.holds(room.receivers[k].position, slack) &&
+               (results == nullptr || (*results)[k].irradiance == 0.0);
+      },
+      outside_text(bounds), "", "");
   return misplaced;
 }
 
@@ -174,7 +198,7 @@ std::vector<std::string> warnings_of(const Room& room, const Result& result, con
   for (const Advised& outside : emitters_outside(room, enclosure))
     warnings.push_back(outside.what + " " + outside.advice);
   if (!result.receiver_results.empty()) {
-    for (const Advised& outside : receivers_outside(room, enclosure))
+    for (const Advised& outside : receivers_outside(room, enclosure, &result.receiver_results))
       warnings.push_back(outside.what + " " + outside.advice);
   }
   if (result.settings.measured == Measured::tiles && !room.areas.empty()) {

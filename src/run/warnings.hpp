@@ -20,8 +20,10 @@ struct Advised {
 // by one, more together. enclosure, here and below: of the room, if it is known.
 std::vector<Advised> emitters_outside(const Room& room, const Enclosure* enclosure = nullptr);
 // Receivers that closed walls separate from all emitters: those outside together, those inside walls or bodies
-// together.
-std::vector<Advised> receivers_outside(const Room& room, const Enclosure* enclosure = nullptr);
+// together; and of the others those outside the room's bounds. results: of the receivers, if they are known; then only
+// those count as outside the bounds that get no light, because beside a single wall a receiver has its place.
+std::vector<Advised> receivers_outside(const Room& room, const Enclosure* enclosure = nullptr,
+                                       const std::vector<ReceiverResult>* results = nullptr);
 
 // Materials that reflect more than 95 %, if there are any.
 std::optional<Advised> high_reflectances(const Room& room);

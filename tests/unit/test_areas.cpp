@@ -223,6 +223,39 @@ TEST_CASE("areas: storeys, podiums and galleries have working planes of their ow
   CHECK_THAT(description_of(ramp.areas[0]), ContainsSubstring("Its floor lies between y = "));
 }
 
+TEST_CASE("areas: what the usual margin cuts off an area that is drawn is told") {
+  Room room = office();
+  AreaProperties properties = named("desk");
+  room.area_requests = {request(properties, {0, 0.75, 0}, {1.6, 0, 0}, {0, 0, 0.8})};
+  properties.name = "inner";
+  room.area_requests.push_back(request(properties, {1, 0.75, 1}, {1.6, 0, 0}, {0, 0, 0.8}));
+  properties.name = "asked for";
+  properties.margin_m = 0.5;
+  room.area_requests.push_back(request(properties, {0, 0.75, 0}, {1.6, 0, 0}, {0, 0, 0.8}));
+  lay_areas(room);
+  lay_working_planes(room, 0.75, named("plane"));
+  const Area& desk = room.areas.at(0);
+  CHECK(desk.left_out.empty());  // the grid is smaller
+  CHECK(is_cut_by_usual_margin(desk));
+  CHECK(misplaced_points(desk) == 0);
+  CHECK(desk.notes ==
+        std::vector<std::string>{"The usual margin of 0.5 m from walls leaves 1.1 m × 0.3 m of its 1.6 m × 0.8 m."});
+  for (const std::size_t k : {1U, 2U, 3U}) CHECK(room.areas.at(k).notes.empty());
+  CHECK_FALSE(is_cut_by_usual_margin(room.areas.at(1)));
+  CHECK_FALSE(is_cut_by_usual_margin(room.areas.at(2)));
+  // Drawn askew, 1 m of it outside the room.
+  properties = with_spacing("askew", 0.25);
+  room.area_requests = {request(properties, {-0.7, 0.75, 2.0}, {1, 0, 1}, {1, 0, -1})};
+  lay_areas(room);
+  CHECK(is_cut_by_usual_margin(room.areas.back()));
+  properties.name = "task";
+  properties.role = "task";
+  room.area_requests = {request(properties, {-0.7, 0.75, 2.0}, {1, 0, 1}, {1, 0, -1})};
+  lay_areas(room);
+  CHECK_FALSE(is_cut_by_usual_margin(room.areas.back()));
+  CHECK(misplaced_points(room.areas.back()) > 0);
+}
+
 TEST_CASE("areas: furniture is no wall, and points in it are left out and told") {
   Room room = office();
   room.surfaces.push_back(box_at("table", {1.0, 0.71, 1.0}, {1.0, 0.04000001, 0.5}));

@@ -224,6 +224,30 @@ TEST_CASE("delays are set by name and pattern, and recorded") {
     CHECK_THROWS_WITH(set_delay(room, "lamp_1", delay), ContainsSubstring("0 or more"));
 }
 
+TEST_CASE("powers are set and emitters removed by name and pattern, and recorded") {
+  Room room = unit_cube(0.5, isotropic({0.1, 0.1, 0.1}));
+  room.emitters[0].name = "lamp_1";
+  room.emitters.push_back(room.emitters[0]);
+  room.emitters[1].name = "lamp_2";
+  room.emitters[1].maintenance_factor = 0.5;
+  set_power(room, "lamp_?", 30.0);
+  CHECK(room.emitters[0].power == 30.0);
+  CHECK(room.emitters[1].power == 15.0);
+  CHECK_THROWS_WITH(remove_emitters(room, "lamp_3"),
+                    ContainsSubstring("no emitter 'lamp_3'") && ContainsSubstring("'lamp_1', 'lamp_2'"));
+  CHECK_THROWS_WITH(set_power(room, "lamp_3", 1.0), ContainsSubstring("no emitter 'lamp_3'"));
+  for (const double power : {-1.0, not_a_number, infinite})
+    CHECK_THROWS_WITH(set_power(room, "lamp_1", power), ContainsSubstring("0 or more"));
+  CHECK(remove_emitters(room, "lamp_1") == 1);
+  REQUIRE(room.emitters.size() == 1);
+  CHECK(room.emitters[0].name == "lamp_2");
+  CHECK(remove_emitters(room, "*") == 1);
+  CHECK(room.emitters.empty());
+  CHECK_THROWS_WITH(remove_emitters(room, "*"), ContainsSubstring("no emitters"));
+  CHECK(room.overrides == std::vector<std::string>{"2 emitters 'lamp_?': power set to 30 W each.",
+                                                   "Emitter 'lamp_1' removed.", "Emitter '*' removed."});
+}
+
 TEST_CASE("settings of channels: ranges, with the option to change") {
   CHECK(refusal_of({}).empty());
   CHECK(refusal_of(channel(1e-9)).empty());

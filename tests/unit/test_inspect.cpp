@@ -303,6 +303,42 @@ TEST_CASE("a lamp is proposed in the room, not in its walls or in the ground") {
              ContainsSubstring("does not tell where the inside is"));
 }
 
+TEST_CASE("receivers outside the bounds of the room are a warning, also where a lamp may emit outwards") {
+  Room room = office();
+  const auto receiver = [](const char* name, const glm::dvec3& position) {
+    Receiver one;
+    one.name = name;
+    one.position = position;
+    return one;
+  };
+  // In the plane of the ceiling: the closed walls do not tell on which side the light is. It emits downwards.
+  room.emitters = {{"lamp", 2000.0, LambertEmitter{{2.5, 2.6, 2.0}}}};
+  room.receivers = {receiver("inside", {1.0, 0.8, 1.0}), receiver("at the wall", {5.0 + 1e-7, 1.0, 1.0})};
+  CHECK(find(inspect(room), "receivers", Severity::warning) == nullptr);
+  room.receivers.push_back(receiver("far", {10.0, 1.0, 1.0}));
+  room.receivers.push_back(receiver("below", {1.0, -0.5, 1.0}));
+  const std::string text =
+      "2 receivers of 4 lie outside the room, which extends from x, y, z = 0 to 5, 0 to 2.6, 0 to 4 m. The first: "
+      "'far' at (10, 1, 1) m.";
+  const Inspection facts = inspect(room);
+  REQUIRE(find(facts, "receivers", Severity::warning) != nullptr);
+  CHECK(find(facts, "receivers", Severity::warning)->text == text);
+  Settings settings;
+  settings.photons = 1000;
+  settings.measured = Measured::receivers;
+  CHECK_THAT(simulate(room, settings).warnings.at(0), ContainsSubstring(text));
+  // Above a single floor, outside of its bounds, a receiver gets light: the result has no warning of it.
+  Room open;
+  open.source = "floor";
+  open.surfaces = {make_floor(4.0, 3.0)};
+  open.emitters = {{"lamp", 2000.0, LambertEmitter{{2.0, 2.6, 1.5}}}};
+  open.receivers = {receiver("above", {2.0, 1.0, 1.5})};
+  CHECK_THAT(find(inspect(open), "receivers", Severity::warning)->text,
+             ContainsSubstring("Receiver 'above' at (2, 1, 1.5) m lies outside the room"));
+  for (const std::string& warning : simulate(open, settings).warnings)
+    CHECK_THAT(warning, !ContainsSubstring("Receiver 'above'"));
+}
+
 TEST_CASE("advice that goes together works together") {
   // 5 × 2.6 × 4 m in inches, Z up.
   Room room = make_cuboid(glm::dvec3(5.0, 4.0, 2.6) / 0.0254, uniform_reflectance(0.5));
