@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "arguments.hpp"
+#include "checked_call.hpp"
 #include "emitter_shapes.hpp"
 #include "lichtmc/error.hpp"
 #include "room_parts.hpp"
@@ -98,18 +99,33 @@ double degrees_of(double angle) {
   return angle / degree;
 }
 
+// Signatures, for Python and for messages.
+constexpr const char* isotropic_signature = "def __init__(self, position: numpy.typing.ArrayLike) -> None";
+constexpr const char* lambert_signature =
+    "def __init__(self, position: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike = (0, -1, 0), exponent: float = "
+    "1.0) -> None";
+constexpr const char* spot_signature =
+    "def __init__(self, position: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike = (0, -1, 0), *, inner_deg: "
+    "float = 0.0, outer_deg: float = 45.0) -> None";
+constexpr const char* area_light_signature = "def __init__(self, surface: str, exponent: float = 1.0) -> None";
+constexpr const char* luminaire_signature =
+    "def __init__(self, photometry: Photometry | str | os.PathLike[str], position: numpy.typing.ArrayLike, aim: "
+    "numpy.typing.ArrayLike = (0, -1, 0), *, rotation_deg: float = 0.0, lumens: float | None = None, scale: float | "
+    "None = None, watts: float | None = None, area: bool = False, lamp_set: int = 1, flip_horizontal: bool = False) -> "
+    "None";
+
 void bind_point_shapes(nb::module_& module) {
   nb::class_<IsotropicEmitter> isotropic(module, "Isotropic",
                                          "A point emitter with the same intensity in every direction: I = Φ/4π.");
-  isotropic.def(
-      "__init__",
-      [](IsotropicEmitter* self, nb::handle position) {
-        const IsotropicEmitter shape{vec3_of(position, "position of the emitter")};
-        check_shape("Isotropic", shape);
-        new (self) IsotropicEmitter(shape);
-      },
-      any_arg("position"), nb::sig("def __init__(self, position: numpy.typing.ArrayLike) -> None"),
-      "At a position (x, y, z), m.");
+  isotropic.def("__init__",
+                checked(
+                    "Isotropic", isotropic_signature,
+                    +[](IsotropicEmitter* self, nb::handle position) {
+                      const IsotropicEmitter shape{vec3_of(position, "position of the emitter")};
+                      check_shape("Isotropic", shape);
+                      new (self) IsotropicEmitter(shape);
+                    }),
+                required("position"), other_keywords(), nb::sig(isotropic_signature), "At a position (x, y, z), m.");
   def_position(isotropic);
   def_value<IsotropicEmitter>(isotropic, [](const IsotropicEmitter& shape) {
     return nb::make_tuple(nb::make_tuple("position", tuple_of(shape.position)));
@@ -118,19 +134,19 @@ void bind_point_shapes(nb::module_& module) {
   nb::class_<LambertEmitter> lambert(
       module, "Lambert", "A point emitter by the generalized Lambert law about an axis: I(θ) = Φ (m+1)/(2π) cos^m θ.");
   lambert
-      .def(
-          "__init__",
-          [](LambertEmitter* self, nb::handle position, nb::handle axis, nb::handle exponent) {
-            const LambertEmitter shape{vec3_of(position, "position of the emitter"),
-                                       vec3_of(axis, "axis of the emitter"),
-                                       number_of(exponent, "exponent of the emitter")};
-            check_shape("Lambert", shape);
-            new (self) LambertEmitter(shape);
-          },
-          any_arg("position"), any_arg("axis") = nb::make_tuple(0, -1, 0), any_arg("exponent") = 1.0,
-          nb::sig("def __init__(self, position: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike = (0, -1, 0), "
-                  "exponent: float = 1.0) -> None"),
-          R"(A point emitter.
+      .def("__init__",
+           checked(
+               "Lambert", lambert_signature,
+               +[](LambertEmitter* self, nb::handle position, nb::handle axis, nb::handle exponent) {
+                 const LambertEmitter shape{vec3_of(position, "position of the emitter"),
+                                            vec3_of(axis, "axis of the emitter"),
+                                            number_of(exponent, "exponent of the emitter")};
+                 check_shape("Lambert", shape);
+                 new (self) LambertEmitter(shape);
+               }),
+           required("position"), any_arg("axis") = nb::make_tuple(0, -1, 0), any_arg("exponent") = 1.0,
+           other_keywords(), nb::sig(lambert_signature),
+           R"(A point emitter.
 
 Args:
     position: (x, y, z), m.
@@ -148,18 +164,17 @@ Args:
 void bind_spot(nb::module_& module) {
   nb::class_<SpotEmitter> spot(
       module, "Spot", "A point emitter with a cone of full intensity and a soft edge around it, as the spots of glTF.");
-  spot.def(
-          "__init__",
-          [](SpotEmitter* self, nb::handle position, nb::handle axis, nb::handle inner, nb::handle outer) {
-            const SpotEmitter shape = spot_of(position, axis, inner, outer);
-            check_shape("Spot", shape);
-            new (self) SpotEmitter(shape);
-          },
-          any_arg("position"), any_arg("axis") = nb::make_tuple(0, -1, 0), nb::kw_only(), any_arg("inner_deg") = 0.0,
-          any_arg("outer_deg") = 45.0,
-          nb::sig("def __init__(self, position: numpy.typing.ArrayLike, axis: numpy.typing.ArrayLike = (0, -1, 0), *, "
-                  "inner_deg: float = 0.0, outer_deg: float = 45.0) -> None"),
-          R"(A spot.
+  spot.def("__init__",
+           checked(
+               "Spot", spot_signature,
+               +[](SpotEmitter* self, nb::handle position, nb::handle axis, nb::handle inner, nb::handle outer) {
+                 const SpotEmitter shape = spot_of(position, axis, inner, outer);
+                 check_shape("Spot", shape);
+                 new (self) SpotEmitter(shape);
+               }),
+           required("position"), any_arg("axis") = nb::make_tuple(0, -1, 0), nb::kw_only(), any_arg("inner_deg") = 0.0,
+           any_arg("outer_deg") = 45.0, other_keywords(), nb::sig(spot_signature),
+           R"(A spot.
 
 Args:
     position: (x, y, z), m.
@@ -185,16 +200,16 @@ void bind_area_light(nb::module_& module) {
   nb::class_<AreaLightShape> area(
       module, "AreaLight",
       "An area light: the front of a surface of the room emits by the generalized Lambert law about its normal.");
-  area.def(
-          "__init__",
-          [](AreaLightShape* self, nb::handle surface, nb::handle exponent) {
-            const double m = number_of(exponent, "exponent of the area light");
-            check_shape("AreaLight", LambertEmitter{{}, {0.0, -1.0, 0.0}, m});
-            new (self) AreaLightShape{text_of(surface, "name of the emitting surface"), m};
-          },
-          any_arg("surface"), any_arg("exponent") = 1.0,
-          nb::sig("def __init__(self, surface: str, exponent: float = 1.0) -> None"),
-          R"(An area light.
+  area.def("__init__",
+           checked(
+               "AreaLight", area_light_signature,
+               +[](AreaLightShape* self, nb::handle surface, nb::handle exponent) {
+                 const double m = number_of(exponent, "exponent of the area light");
+                 check_shape("AreaLight", LambertEmitter{{}, {0.0, -1.0, 0.0}, m});
+                 new (self) AreaLightShape{text_of(surface, "name of the emitting surface"), m};
+               }),
+           required("surface"), any_arg("exponent") = 1.0, other_keywords(), nb::sig(area_light_signature),
+           R"(An area light.
 
 Args:
     surface: Name of a surface of the room; its exitance is uniform.
@@ -244,14 +259,11 @@ void bind_luminaire(nb::module_& module) {
   nb::class_<LuminaireShape> luminaire(
       module, "Luminaire",
       "A luminaire with a photometric file (IES LM-63 or EULUMDAT): its intensity and, unless it is scaled, its flux.");
-  luminaire.def("__init__", &make_luminaire, any_arg("photometry"), any_arg("position"),
-                any_arg("aim") = nb::make_tuple(0, -1, 0), nb::kw_only(), any_arg("rotation_deg") = 0.0,
-                any_arg("lumens") = nb::none(), any_arg("scale") = nb::none(), any_arg("watts") = nb::none(),
-                any_arg("area") = false, any_arg("lamp_set") = 1, any_arg("flip_horizontal") = false,
-                nb::sig("def __init__(self, photometry: Photometry | str | os.PathLike[str], position: "
-                        "numpy.typing.ArrayLike, aim: numpy.typing.ArrayLike = (0, -1, 0), *, rotation_deg: float = "
-                        "0.0, lumens: float | None = None, scale: float | None = None, watts: float | None = None, "
-                        "area: bool = False, lamp_set: int = 1, flip_horizontal: bool = False) -> None"),
+  luminaire.def("__init__", checked("Luminaire", luminaire_signature, &make_luminaire), required("photometry"),
+                required("position"), any_arg("aim") = nb::make_tuple(0, -1, 0), nb::kw_only(),
+                any_arg("rotation_deg") = 0.0, any_arg("lumens") = nb::none(), any_arg("scale") = nb::none(),
+                any_arg("watts") = nb::none(), any_arg("area") = false, any_arg("lamp_set") = 1,
+                any_arg("flip_horizontal") = false, other_keywords(), nb::sig(luminaire_signature),
                 R"(A luminaire; at most one of lumens, scale and watts.
 
 Args:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "arguments.hpp"
+#include "checked_call.hpp"
 #include "emitter_shapes.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/overrides.hpp"
@@ -226,16 +227,21 @@ void bind_emitter(nb::module_& module) {
       });
 }
 
+// Signatures, for Python and for messages.
+constexpr const char* add_emitter_signature =
+    "def add_emitter(self, shape: Isotropic | Lambert | Spot | AreaLight | Luminaire, power: float | None = None, *, "
+    "unit: str = 'lm', name: str | None = None, delay: float = 0.0, maintenance_factor: float | None = None) -> str";
+constexpr const char* set_power_signature = "def set_power(self, name: str, power: float) -> None";
+
 }  // namespace
 
 void bind_emitters_of_room(nb::module_& module, RoomClass& room) {
   bind_emitter_shapes(module);
   bind_emitter(module);
-  room.def("add_emitter", &add, any_arg("shape"), any_arg("power") = nb::none(), nb::kw_only(), any_arg("unit") = "lm",
-           any_arg("name") = nb::none(), any_arg("delay") = 0.0, any_arg("maintenance_factor") = nb::none(),
-           nb::sig("def add_emitter(self, shape: Isotropic | Lambert | Spot | AreaLight | Luminaire, power: float | "
-                   "None = None, *, unit: str = 'lm', name: str | None = None, delay: float = 0.0, "
-                   "maintenance_factor: float | None = None) -> str"),
+  room.def("add_emitter", checked("add_emitter", add_emitter_signature, &add), required("shape"),
+           any_arg("power") = nb::none(), nb::kw_only(), any_arg("unit") = "lm", any_arg("name") = nb::none(),
+           any_arg("delay") = 0.0, any_arg("maintenance_factor") = nb::none(), other_keywords(),
+           nb::sig(add_emitter_signature),
            R"(Adds an emitter; returns its name.
 
 All emitters of a room have the same unit: luminous flux (lm) makes results in lx, radiant flux (W) in W/m².
@@ -252,8 +258,8 @@ Args:
 
 Raises:
     InputError: A value is out of its range, the surface of an AreaLight is not known, or the unit is not the room's.)")
-      .def("set_power", &set_power_of, any_arg("name"), any_arg("power"),
-           nb::sig("def set_power(self, name: str, power: float) -> None"),
+      .def("set_power", checked("set_power", set_power_signature, &set_power_of), required("name"), required("power"),
+           other_keywords(), nb::sig(set_power_signature),
            R"(Sets the power of emitters; of a Luminaire too, whose intensity is then scaled.
 
 Args:

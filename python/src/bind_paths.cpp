@@ -10,6 +10,7 @@
 
 #include "arguments.hpp"
 #include "aside.hpp"
+#include "checked_call.hpp"
 #include "lichtmc/paths.hpp"
 #include "named_values.hpp"
 #include "room_parts.hpp"
@@ -49,6 +50,10 @@ std::vector<PhotonPath> paths(const SharedRoom& room, nb::handle count, nb::hand
   return aside<std::vector<PhotonPath>>([&] { return trace_paths(kept->room, settings, number); });
 }
 
+// Signatures, for Python and for messages.
+constexpr const char* paths_signature =
+    "def paths(self, count: int = 50, *, seed: int = 1, estimator: str = 'collision') -> list[Path]";
+
 }  // namespace
 
 void bind_paths(nb::module_& module, RoomClass& room) {
@@ -67,9 +72,8 @@ void bind_paths(nb::module_& module, RoomClass& room) {
         return "<Path " + std::to_string(path.history) + ": " + std::to_string(path.points.size()) + " points, " +
                std::string(to_string(path.end)) + ">";
       });
-  room.def("paths", &paths, any_arg("count") = 50, nb::kw_only(), any_arg("seed") = 1,
-           any_arg("estimator") = "collision",
-           nb::sig("def paths(self, count: int = 50, *, seed: int = 1, estimator: str = 'collision') -> list[Path]"),
+  room.def("paths", checked("paths", paths_signature, &paths), any_arg("count") = 50, nb::kw_only(),
+           any_arg("seed") = 1, any_arg("estimator") = "collision", other_keywords(), nb::sig(paths_signature),
            R"(The paths of the first photons of a run with this seed and estimator, a list of :class:`Path`.
 
 Args:

@@ -13,6 +13,7 @@
 
 #include "arguments.hpp"
 #include "bindings.hpp"
+#include "checked_call.hpp"
 #include "emitter_shapes.hpp"
 #include "lichtmc/error.hpp"
 #include "vectors.hpp"
@@ -74,19 +75,26 @@ void def_field(Class& of, const char* name, Value Photometry::*member, const cha
       name, [member](const PhotometryFile& file) { return (*file.photometry).*member; }, text);
 }
 
+// Signatures, for Python and for messages.
+constexpr const char* photometry_signature =
+    "def __init__(self, path: str | os.PathLike[str], *, lamp_set: int = 1, flip_horizontal: bool = False, needs_flux: "
+    "bool = True) -> None";
+constexpr const char* from_text_signature =
+    "def from_text(text: str | bytes, name: str = 'text', *, lamp_set: int = 1, flip_horizontal: bool = False, "
+    "needs_flux: bool = True) -> Photometry";
+
 void def_making(Class& of) {
-  of.def(
-        "__init__",
-        [](PhotometryFile* self, nb::handle path, nb::handle lamp_set, nb::handle flip, nb::handle needs_flux) {
-          PhotometryFile file{std::make_shared<const Photometry>(
-              read_photometry(path_of(path, "photometric file"), options_of(lamp_set, flip, needs_flux)))};
-          new (self) PhotometryFile(std::move(file));
-        },
-        any_arg("path"), nb::kw_only(), any_arg("lamp_set") = 1, any_arg("flip_horizontal") = false,
-        any_arg("needs_flux") = true,
-        nb::sig("def __init__(self, path: str | os.PathLike[str], *, lamp_set: int = 1, flip_horizontal: bool = False, "
-                "needs_flux: bool = True) -> None"),
-        R"(Reads a file; the format is recognised by its content.
+  of.def("__init__",
+         checked(
+             "Photometry", photometry_signature,
+             +[](PhotometryFile* self, nb::handle path, nb::handle lamp_set, nb::handle flip, nb::handle needs_flux) {
+               PhotometryFile file{std::make_shared<const Photometry>(
+                   read_photometry(path_of(path, "photometric file"), options_of(lamp_set, flip, needs_flux)))};
+               new (self) PhotometryFile(std::move(file));
+             }),
+         required("path"), nb::kw_only(), any_arg("lamp_set") = 1, any_arg("flip_horizontal") = false,
+         any_arg("needs_flux") = true, other_keywords(), nb::sig(photometry_signature),
+         R"(Reads a file; the format is recognised by its content.
 
 Args:
     path: The file.
@@ -96,10 +104,9 @@ Args:
 
 Raises:
     InputError: The file cannot be read or is not valid; the message names the line.)")
-      .def_static("from_text", &from_text, any_arg("text"), any_arg("name") = "text", nb::kw_only(),
-                  any_arg("lamp_set") = 1, any_arg("flip_horizontal") = false, any_arg("needs_flux") = true,
-                  nb::sig("def from_text(text: str | bytes, name: str = 'text', *, lamp_set: int = 1, flip_horizontal: "
-                          "bool = False, needs_flux: bool = True) -> Photometry"),
+      .def_static("from_text", checked("Photometry.from_text", from_text_signature, &from_text), required("text"),
+                  any_arg("name") = "text", nb::kw_only(), any_arg("lamp_set") = 1, any_arg("flip_horizontal") = false,
+                  any_arg("needs_flux") = true, other_keywords(), nb::sig(from_text_signature),
                   "The same from the content of a file; `name` stands for it in messages. A separate TILT file is "
                   "refused.");
 }

@@ -11,6 +11,7 @@
 #include "arguments.hpp"
 #include "aside.hpp"
 #include "bindings.hpp"
+#include "checked_call.hpp"
 #include "lichtmc/cuboid.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/gltf.hpp"
@@ -133,6 +134,20 @@ std::string description(const SharedRoom& shared) {
   return text + ">";
 }
 
+// Signatures, for Python and for messages.
+constexpr const char* from_gltf_signature =
+    "def from_gltf(path: str | os.PathLike[str], *, scale: float = 1.0, up: str = 'y', scene: str = '', without: str | "
+    "collections.abc.Sequence[str] = (), unit: str | None = None, uv_set: int | None = None, reflectance: dict[str, "
+    "float] | None = None, follow_links: bool = False) -> Room";
+constexpr const char* from_bytes_signature =
+    "def from_bytes(data: bytes | bytearray | memoryview, *, name: str = 'bytes', scale: float = 1.0, up: str = 'y', "
+    "scene: str = '', without: str | collections.abc.Sequence[str] = (), unit: str | None = None, uv_set: int | None = "
+    "None, reflectance: dict[str, float] | None = None) -> Room";
+constexpr const char* cuboid_signature =
+    "def cuboid(size: numpy.typing.ArrayLike, reflectance: float = 0.5, *, floor: float | None = None, ceiling: float "
+    "| None = None, walls: float | None = None, x0: float | None = None, x1: float | None = None, z0: float | None = "
+    "None, z1: float | None = None) -> Room";
+
 void def_making(RoomClass& room) {
   room.def(
           "__init__",
@@ -143,13 +158,11 @@ void def_making(RoomClass& room) {
           },
           any_arg("source") = "room", nb::sig("def __init__(self, source: str = 'room') -> None"),
           "A room without surfaces, for :meth:`add_surface`. `source` is its name in messages and reports.")
-      .def_static("from_gltf", &from_gltf, any_arg("path"), nb::kw_only(), any_arg("scale") = 1.0, any_arg("up") = "y",
-                  any_arg("scene") = "", any_arg("without") = nb::make_tuple(), any_arg("unit") = nb::none(),
-                  any_arg("uv_set") = nb::none(), any_arg("reflectance") = nb::none(), any_arg("follow_links") = false,
-                  nb::sig("def from_gltf(path: str | os.PathLike[str], *, scale: float = 1.0, up: str = 'y', scene: "
-                          "str = '', without: str | collections.abc.Sequence[str] = (), unit: str | None = None, "
-                          "uv_set: int | None = None, reflectance: dict[str, float] | None = None, follow_links: bool "
-                          "= False) -> Room"),
+      .def_static("from_gltf", checked("Room.from_gltf", from_gltf_signature, &from_gltf), required("path"),
+                  nb::kw_only(), any_arg("scale") = 1.0, any_arg("up") = "y", any_arg("scene") = "",
+                  any_arg("without") = nb::make_tuple(), any_arg("unit") = nb::none(), any_arg("uv_set") = nb::none(),
+                  any_arg("reflectance") = nb::none(), any_arg("follow_links") = false, other_keywords(),
+                  nb::sig(from_gltf_signature),
                   R"(Reads a room from a .gltf or .glb file.
 
 Args:
@@ -166,27 +179,21 @@ Args:
 
 Raises:
     InputError: The file cannot be read or is not valid.)")
-      .def_static("from_bytes", &from_bytes, any_arg("data"), nb::kw_only(), any_arg("name") = "bytes",
-                  any_arg("scale") = 1.0, any_arg("up") = "y", any_arg("scene") = "",
-                  any_arg("without") = nb::make_tuple(), any_arg("unit") = nb::none(), any_arg("uv_set") = nb::none(),
-                  any_arg("reflectance") = nb::none(),
-                  nb::sig("def from_bytes(data: bytes | bytearray | memoryview, *, name: str = 'bytes', scale: float "
-                          "= 1.0, up: str = 'y', scene: str = '', without: str | collections.abc.Sequence[str] = (), "
-                          "unit: str | None = None, uv_set: int | None = None, reflectance: dict[str, float] | None = "
-                          "None) -> Room"),
+      .def_static("from_bytes", checked("Room.from_bytes", from_bytes_signature, &from_bytes), required("data"),
+                  nb::kw_only(), any_arg("name") = "bytes", any_arg("scale") = 1.0, any_arg("up") = "y",
+                  any_arg("scene") = "", any_arg("without") = nb::make_tuple(), any_arg("unit") = nb::none(),
+                  any_arg("uv_set") = nb::none(), any_arg("reflectance") = nb::none(), other_keywords(),
+                  nb::sig(from_bytes_signature),
                   R"(Reads a room from the content of a .glb file, or of a .gltf file with all its data embedded.
 
 Files that the content names are refused: in memory there is no folder for them. `name` stands for the room in
 messages and reports; the other arguments are those of :meth:`from_gltf`.)")
-      .def_static(
-          "cuboid", &cuboid, any_arg("size"), any_arg("reflectance") = 0.5, nb::kw_only(),
-          any_arg("floor") = nb::none(), any_arg("ceiling") = nb::none(), any_arg("walls") = nb::none(),
-          any_arg("x0") = nb::none(), any_arg("x1") = nb::none(), any_arg("z0") = nb::none(),
-          any_arg("z1") = nb::none(),
-          nb::sig("def cuboid(size: numpy.typing.ArrayLike, reflectance: float = 0.5, *, floor: float | None = None, "
-                  "ceiling: float | None = None, walls: float | None = None, x0: float | None = None, x1: float | "
-                  "None = None, z0: float | None = None, z1: float | None = None) -> Room"),
-          R"(An empty cuboid from the origin to size = (x, y, z), m, y upwards.
+      .def_static("cuboid", checked("Room.cuboid", cuboid_signature, &cuboid), required("size"),
+                  any_arg("reflectance") = 0.5, nb::kw_only(), any_arg("floor") = nb::none(),
+                  any_arg("ceiling") = nb::none(), any_arg("walls") = nb::none(), any_arg("x0") = nb::none(),
+                  any_arg("x1") = nb::none(), any_arg("z0") = nb::none(), any_arg("z1") = nb::none(), other_keywords(),
+                  nb::sig(cuboid_signature),
+                  R"(An empty cuboid from the origin to size = (x, y, z), m, y upwards.
 
 Its six surfaces are "floor", "ceiling", "wall_x0", "wall_x1", "wall_z0" and "wall_z1" (x0: at x = 0; x1: opposite).
 

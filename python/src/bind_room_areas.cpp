@@ -3,6 +3,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
 #include <functional>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "arguments.hpp"
 #include "aside.hpp"
+#include "checked_call.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/lay_areas.hpp"
 #include "named_values.hpp"
@@ -106,8 +108,19 @@ std::vector<std::string> add_wanted_areas(SharedRoom& room, const std::function<
   return std::move(added.names);
 }
 
+// Signatures, for Python and for messages.
+constexpr const char* add_area_signature =
+    "def add_area(self, name: str, corner: numpy.typing.ArrayLike, u: numpy.typing.ArrayLike, v: "
+    "numpy.typing.ArrayLike, **properties: typing.Any) -> str";
+constexpr const char* add_working_plane_signature =
+    "def add_working_plane(self, height: float, margin: float | None = None, *, name: str = 'plane', **properties: "
+    "typing.Any) -> list[str]";
+constexpr const char* add_area_on_signature =
+    "def add_area_on(self, surface: str, *, name: str | None = None, **properties: typing.Any) -> list[str]";
+
 std::string add_area(SharedRoom& room, nb::handle name, nb::handle corner, nb::handle u, nb::handle v,
                      const nb::kwargs& given) {
+  check_call("add_area", add_area_signature, std::array<nb::handle, 5>{nb::handle(), name, corner, u, v}, nullptr);
   AreaRequest request;
   request.properties = properties_of(given);
   request.properties.name = text_of(name, "name of the area");
@@ -125,6 +138,8 @@ std::string add_area(SharedRoom& room, nb::handle name, nb::handle corner, nb::h
 
 std::vector<std::string> add_working_plane(SharedRoom& room, nb::handle height, nb::handle margin, nb::handle name,
                                            const nb::kwargs& given) {
+  check_call("add_working_plane", add_working_plane_signature, std::array<nb::handle, 2>{nb::handle(), height},
+             nullptr);
   AreaProperties properties = properties_of(given);
   properties.name = text_of(name, "name of the working plane");
   properties.margin_m = optional_number(margin, "margin of the working plane");
@@ -133,6 +148,7 @@ std::vector<std::string> add_working_plane(SharedRoom& room, nb::handle height, 
 }
 
 std::vector<std::string> add_area_on(SharedRoom& room, nb::handle surface, nb::handle name, const nb::kwargs& given) {
+  check_call("add_area_on", add_area_on_signature, std::array<nb::handle, 2>{nb::handle(), surface}, nullptr);
   AreaProperties properties = properties_of(given);
   if (!name.is_none()) properties.name = text_of(name, "name of the area");
   const std::string which = text_of(surface, "surface of the area");
@@ -255,20 +271,12 @@ Args:
     surface: Name or pattern of a material or surface.
     name: Its name; several areas are numbered. Default: the name of the surface.)") +
       properties_text + warns_text;
-  room.def("add_area", &add_area, any_arg("name"), any_arg("corner"), any_arg("u"), any_arg("v"), nb::arg("properties"),
-           nb::sig("def add_area(self, name: str, corner: numpy.typing.ArrayLike, u: numpy.typing.ArrayLike, v: "
-                   "numpy.typing.ArrayLike, **properties: typing.Any) -> str"),
-           of_area.c_str())
-      .def("add_working_plane", &add_working_plane, any_arg("height"), any_arg("margin") = nb::none(), nb::kw_only(),
-           any_arg("name") = "plane", nb::arg("properties"),
-           nb::sig("def add_working_plane(self, height: float, margin: float | None = None, *, name: str = 'plane', "
-                   "**properties: typing.Any) -> list[str]"),
-           of_plane.c_str())
-      .def("add_area_on", &add_area_on, any_arg("surface"), nb::kw_only(), any_arg("name") = nb::none(),
-           nb::arg("properties"),
-           nb::sig("def add_area_on(self, surface: str, *, name: str | None = None, **properties: typing.Any) -> "
-                   "list[str]"),
-           on_surface.c_str())
+  room.def("add_area", &add_area, required("name"), required("corner"), required("u"), required("v"),
+           nb::arg("properties"), nb::sig(add_area_signature), of_area.c_str())
+      .def("add_working_plane", &add_working_plane, required("height"), any_arg("margin") = nb::none(), nb::kw_only(),
+           any_arg("name") = "plane", nb::arg("properties"), nb::sig(add_working_plane_signature), of_plane.c_str())
+      .def("add_area_on", &add_area_on, required("surface"), nb::kw_only(), any_arg("name") = nb::none(),
+           nb::arg("properties"), nb::sig(add_area_on_signature), on_surface.c_str())
       .def_prop_ro(
           "areas",
           [](SharedRoom& shared) {

@@ -9,6 +9,7 @@
 
 #include "arguments.hpp"
 #include "aside.hpp"
+#include "checked_call.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/receiver_table.hpp"
 #include "lichtmc/receivers.hpp"
@@ -172,20 +173,26 @@ void bind_receivers(nb::module_& module) {
            [](const ReceiversOfRoom& of) { return "<RoomReceivers: " + std::to_string(of.all().size()) + ">"; });
 }
 
+// Signatures, for Python and for messages.
+constexpr const char* add_receivers_signature =
+    "def add_receivers(self, positions: numpy.typing.ArrayLike, normals: numpy.typing.ArrayLike = (0, 1, 0), *, names: "
+    "str | collections.abc.Sequence[str] | None = None, half_angle: numpy.typing.ArrayLike = 90.0, area: "
+    "numpy.typing.ArrayLike = 1.0, concentrator_index: numpy.typing.ArrayLike | None = None, filter_gain: "
+    "numpy.typing.ArrayLike = 1.0, law: str = 'planar', facing: numpy.typing.ArrayLike = (1, 0, 0), cell_u: "
+    "numpy.typing.ArrayLike | None = None, cell_v: numpy.typing.ArrayLike | None = None) -> list[str]";
+constexpr const char* add_receiver_grid_signature =
+    "def add_receiver_grid(self, height: float, spacing: float = 0.5) -> list[str]";
+
 }  // namespace
 
 void bind_receivers_of_room(nb::module_& module, RoomClass& room) {
   bind_receivers(module);
-  room.def("add_receivers", &add_receivers, any_arg("positions"), any_arg("normals") = nb::make_tuple(0, 1, 0),
-           nb::kw_only(), any_arg("names") = nb::none(), any_arg("half_angle") = 90.0, any_arg("area") = 1.0,
-           any_arg("concentrator_index") = nb::none(), any_arg("filter_gain") = 1.0, any_arg("law") = "planar",
-           any_arg("facing") = nb::make_tuple(1, 0, 0), any_arg("cell_u") = nb::none(), any_arg("cell_v") = nb::none(),
-           nb::sig("def add_receivers(self, positions: numpy.typing.ArrayLike, normals: numpy.typing.ArrayLike = (0, "
-                   "1, 0), *, names: str | collections.abc.Sequence[str] | None = None, half_angle: "
-                   "numpy.typing.ArrayLike = 90.0, area: numpy.typing.ArrayLike = 1.0, concentrator_index: "
-                   "numpy.typing.ArrayLike | None = None, filter_gain: numpy.typing.ArrayLike = 1.0, law: str = "
-                   "'planar', facing: numpy.typing.ArrayLike = (1, 0, 0), cell_u: numpy.typing.ArrayLike | None = "
-                   "None, cell_v: numpy.typing.ArrayLike | None = None) -> list[str]"),
+  room.def("add_receivers", checked("add_receivers", add_receivers_signature, &add_receivers), required("positions"),
+           any_arg("normals") = nb::make_tuple(0, 1, 0), nb::kw_only(), any_arg("names") = nb::none(),
+           any_arg("half_angle") = 90.0, any_arg("area") = 1.0, any_arg("concentrator_index") = nb::none(),
+           any_arg("filter_gain") = 1.0, any_arg("law") = "planar", any_arg("facing") = nb::make_tuple(1, 0, 0),
+           any_arg("cell_u") = nb::none(), any_arg("cell_v") = nb::none(), other_keywords(),
+           nb::sig(add_receivers_signature),
            R"(Adds receivers, points at which irradiance is computed; returns their names.
 
 Each argument is one value for all receivers, or an array with one for each.
@@ -204,8 +211,8 @@ Args:
 
 Raises:
     InputError: A shape does not fit, or a value is out of its range.)")
-      .def("add_receiver_grid", &add_grid, any_arg("height"), any_arg("spacing") = 0.5,
-           nb::sig("def add_receiver_grid(self, height: float, spacing: float = 0.5) -> list[str]"),
+      .def("add_receiver_grid", checked("add_receiver_grid", add_receiver_grid_signature, &add_grid),
+           required("height"), any_arg("spacing") = 0.5, other_keywords(), nb::sig(add_receiver_grid_signature),
            R"(Adds a grid of receivers above all floors that light reaches, looking up; returns their names.
 
 Points inside furniture and walls are left out. Add emitters first: they tell which rooms are lit.

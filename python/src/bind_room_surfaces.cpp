@@ -15,6 +15,7 @@
 #include <glm/geometric.hpp>
 
 #include "arguments.hpp"
+#include "checked_call.hpp"
 #include "lichtmc/error.hpp"
 #include "room_parts.hpp"
 #include "vectors.hpp"
@@ -263,19 +264,27 @@ void bind_surface(nb::module_& module) {
       });
 }
 
+// Signatures, for Python and for messages.
+constexpr const char* from_triangles_signature =
+    "def from_triangles(vertices: numpy.typing.ArrayLike, faces: numpy.typing.ArrayLike, reflectance: "
+    "numpy.typing.ArrayLike = 0.5, *, surfaces: numpy.typing.ArrayLike | None = None, names: "
+    "collections.abc.Sequence[str] | None = None, two_sided: bool = False, uvs: numpy.typing.ArrayLike | None = None, "
+    "source: str = 'triangles') -> Room";
+constexpr const char* add_surface_signature =
+    "def add_surface(self, name: str, vertices: numpy.typing.ArrayLike, faces: numpy.typing.ArrayLike, reflectance: "
+    "float = 0.5, *, material: str = '', two_sided: bool = False, uvs: numpy.typing.ArrayLike | None = None, measured: "
+    "bool = True) -> None";
+
 }  // namespace
 
 void bind_surfaces_of_room(nb::module_& module, RoomClass& room) {
   bind_surface(module);
-  room.def_static(
-          "from_triangles", &from_triangles, any_arg("vertices"), any_arg("faces"), any_arg("reflectance") = 0.5,
-          nb::kw_only(), any_arg("surfaces") = nb::none(), any_arg("names") = nb::none(), any_arg("two_sided") = false,
-          any_arg("uvs") = nb::none(), any_arg("source") = "triangles",
-          nb::sig("def from_triangles(vertices: numpy.typing.ArrayLike, faces: numpy.typing.ArrayLike, reflectance: "
-                  "numpy.typing.ArrayLike = 0.5, *, surfaces: numpy.typing.ArrayLike | None = None, names: "
-                  "collections.abc.Sequence[str] | None = None, two_sided: bool = False, uvs: numpy.typing.ArrayLike | "
-                  "None = None, source: str = 'triangles') -> Room"),
-          R"(A room from the arrays of a mesh of triangles.
+  room.def_static("from_triangles", checked("Room.from_triangles", from_triangles_signature, &from_triangles),
+                  required("vertices"), required("faces"), any_arg("reflectance") = 0.5, nb::kw_only(),
+                  any_arg("surfaces") = nb::none(), any_arg("names") = nb::none(), any_arg("two_sided") = false,
+                  any_arg("uvs") = nb::none(), any_arg("source") = "triangles", other_keywords(),
+                  nb::sig(from_triangles_signature),
+                  R"(A room from the arrays of a mesh of triangles.
 
 Surfaces reflect on both sides; the front, from which the corners of a face are seen counter-clockwise, should look
 into the room. Faces whose corners lie on a line are left out.
@@ -292,12 +301,10 @@ Args:
 
 Raises:
     InputError: A shape, an index, a number or a name is not valid.)")
-      .def("add_surface", &add_surface, any_arg("name"), any_arg("vertices"), any_arg("faces"),
-           any_arg("reflectance") = 0.5, nb::kw_only(), any_arg("material") = "", any_arg("two_sided") = false,
-           any_arg("uvs") = nb::none(), any_arg("measured") = true,
-           nb::sig("def add_surface(self, name: str, vertices: numpy.typing.ArrayLike, faces: numpy.typing.ArrayLike, "
-                   "reflectance: float = 0.5, *, material: str = '', two_sided: bool = False, uvs: "
-                   "numpy.typing.ArrayLike | None = None, measured: bool = True) -> None"),
+      .def("add_surface", checked("add_surface", add_surface_signature, &add_surface), required("name"),
+           required("vertices"), required("faces"), any_arg("reflectance") = 0.5, nb::kw_only(),
+           any_arg("material") = "", any_arg("two_sided") = false, any_arg("uvs") = nb::none(),
+           any_arg("measured") = true, other_keywords(), nb::sig(add_surface_signature),
            R"(Adds a surface of triangles; arrays as in :meth:`from_triangles`.
 
 Args:
