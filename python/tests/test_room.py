@@ -47,7 +47,7 @@ def test_wrong_cuboids_are_refused(arguments, message):
 
 
 def test_errors_are_value_errors():
-    with pytest.raises(ValueError, match="No such file"):
+    with pytest.raises(ValueError, match=r"none.glb \(No such file or directory\)\. Give the name of a .gltf or .glb file\.$"):
         lichtmc.Room.from_gltf("none.glb")
     with pytest.raises(lichtmc.InputError, match="name of a file"):
         lichtmc.Room.from_gltf(5)
