@@ -93,7 +93,7 @@ def test_powers_are_set_and_emitters_removed():
         room.add_emitter(lichtmc.Isotropic((1, 1, 1)), 100, name=name)
     room.add_emitter(lichtmc.Luminaire(lamp(), (2, 2, 2)), name="office", maintenance_factor=0.5)
     shape = room.emitters[3].shape
-    room.set_power("*t", 250)
+    room.set_power("[rs]*", 250)
     assert [e.power for e in room.emitters[:3]] == [100, 250, 250]
     room.set_power("office", np.float32(600))
     assert (room.emitters[3].power, room.emitters[3].shape.power) == (300, 600)
