@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import importlib.util
 import math
-import shutil
+import os
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -18,6 +18,7 @@ from typing import Any, Protocol
 from lichtmc import _core
 
 _LINE_INTERVAL = 5.0  # s
+_USUAL_COLUMNS = 80  # of a terminal that does not tell
 _NO_LIMIT = 2**62  # of histories: other stop rules alone end the run
 
 
@@ -109,6 +110,14 @@ class _Bar:
             self._bar = None
 
 
+def _columns() -> int:
+    """Of the terminal that stderr is; stdout may be a file, and COLUMNS of another terminal."""
+    try:
+        return os.get_terminal_size(sys.stderr.fileno()).columns or _USUAL_COLUMNS
+    except (AttributeError, OSError, ValueError):  # stderr has been replaced by an object without a file
+        return _USUAL_COLUMNS
+
+
 class _TerminalLine:
     """A line on stderr that is written anew, and removed at the end."""
 
@@ -117,8 +126,7 @@ class _TerminalLine:
         self._drawn = False
 
     def __call__(self, progress: Any) -> None:
-        columns = shutil.get_terminal_size().columns
-        text = _text(progress, self._max_time)[: columns - 1]  # a line that wraps would not be written anew
+        text = _text(progress, self._max_time)[: _columns() - 1]  # a line that wraps would not be written anew
         print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
         self._drawn = True
 

@@ -29,10 +29,17 @@ def at(**values: object) -> SimpleNamespace:
     return SimpleNamespace(**{**usual, **unknown, **values})
 
 
-def on_a_terminal(program: str) -> str:
+def on_a_terminal(program: str, *, stdout: int | None = None, **variables: str) -> str:
+    """What a program shows on a terminal of 60 columns; its stdout may be elsewhere."""
     ours, theirs = pty.openpty()
     termios.tcsetwinsize(ours, (24, 60))
-    with subprocess.Popen([sys.executable, "-c", program], stdout=theirs, stderr=theirs, env=ENVIRONMENT) as process:
+    environment = {name: value for name, value in ENVIRONMENT.items() if name not in ("COLUMNS", "LINES")}
+    with subprocess.Popen(
+        [sys.executable, "-c", program],
+        stdout=theirs if stdout is None else stdout,
+        stderr=theirs,
+        env={**environment, **variables},
+    ) as process:
         os.close(theirs)
         shown = b""
         while True:
@@ -48,11 +55,28 @@ def on_a_terminal(program: str) -> str:
     return shown.decode()
 
 
-def test_a_line_on_a_terminal():
-    lines = on_a_terminal(WITHOUT_TQDM + RUN).split("\r")
+def lines_of(shown: str) -> list[str]:
+    """The lines that replaced each other; each fits into the terminal."""
+    lines = shown.split("\r")
     assert any("of 400k histories for the tiles" in line for line in lines)
     assert all(len(line.replace("\x1b[K", "").rstrip("\n")) < 60 for line in lines)
+    return lines
+
+
+def test_a_line_on_a_terminal():
+    lines = lines_of(on_a_terminal(WITHOUT_TQDM + RUN))
     assert "\x1b[Kphotons" in lines[-2] + lines[-1]  # the line is removed; what is printed follows
+
+
+def test_a_line_has_the_width_of_the_terminal_of_stderr():
+    lines_of(on_a_terminal(WITHOUT_TQDM + RUN, stdout=subprocess.DEVNULL))
+    lines_of(on_a_terminal(WITHOUT_TQDM + RUN, COLUMNS="200"))
+
+
+def test_a_line_on_an_unknown_terminal():
+    replace = "import io\nclass Own(io.StringIO):\n    def isatty(self): return True\nsys.stderr = Own()\n"
+    shown = on_a_terminal(WITHOUT_TQDM + replace + RUN + "print('histories for the tiles' in sys.stderr.getvalue())")
+    assert shown.split() == ["photons", "True"]
 
 
 def test_a_bar_on_a_terminal():
