@@ -110,7 +110,10 @@ void bind_figures(nb::module_& module) {
           "Standard errors of the values, same unit, float64. NaN: unknown; 0: exact.")
       .def_prop_ro(
           "shape",
-          [](const Figures& figures) { return nb::cast(numbers(figures, &Figure::value), has_owner).attr("shape"); },
+          [](const Figures& figures) {
+            // As an object: what attr() returns only refers to the array, which ends here.
+            return nb::object(nb::cast(numbers(figures, &Figure::value), has_owner).attr("shape"));
+          },
           nb::sig("def shape(self) -> tuple[int, ...]"), "Shape of the arrays.")
       .def("__getitem__", &figure_at, nb::arg("index").none(),
            nb::sig("def __getitem__(self, index: int | tuple[int, ...]) -> Figure"),
