@@ -7,7 +7,7 @@ import inspect
 import pytest
 
 import lichtmc
-from room_files import cuboid
+from rooms import cuboid
 
 POINT = (1, 1, 1)
 

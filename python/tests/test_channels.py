@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import lichtmc
-import lit_rooms
 import numpy as np
 import pytest
+import rooms
 
 FIGURES = [
     "gain", "line_of_sight", "diffuse", "rician_k", "mean_delay", "mean_excess_delay", "rms_delay_spread",
@@ -18,13 +18,13 @@ EMITTERS, ORDERS, BINS = 2, 4, 200
 
 
 def receivers() -> int:
-    return len(lit_rooms.box_with_channels().receivers)
+    return len(rooms.box_with_channels().receivers)
 
 
 def test_axes() -> None:
-    channels = lit_rooms.box_with_channels().channels
+    channels = rooms.box_with_channels().channels
     assert channels.emitters == ["left", "right"]
-    assert channels.receivers == lit_rooms.box_with_channels().receivers.names
+    assert channels.receivers == rooms.box_with_channels().receivers.names
     assert channels.orders == ["0", "1", "2", "3+"]
     assert channels.bin_width == 0.5e-9 and channels.time_span == pytest.approx(100e-9)
     np.testing.assert_allclose(channels.time, (np.arange(BINS) + 0.5) * 0.5e-9)
@@ -34,7 +34,7 @@ def test_axes() -> None:
 
 
 def test_arrays_are_views_with_their_shapes() -> None:
-    channels = lit_rooms.box_with_channels().channels
+    channels = rooms.box_with_channels().channels
     frequencies = len(channels.frequencies)
     shapes = {
         "h": (EMITTERS, receivers(), ORDERS, BINS),
@@ -54,7 +54,7 @@ def test_arrays_are_views_with_their_shapes() -> None:
 
 
 def test_figures_are_views_too() -> None:
-    channels = lit_rooms.box_with_channels().channels
+    channels = rooms.box_with_channels().channels
     for name in FIGURES:
         figures = getattr(channels, name)
         assert figures.shape == figures.value.shape == figures.standard_error.shape == (EMITTERS, receivers()), name
@@ -73,7 +73,7 @@ def test_figures_are_views_too() -> None:
 
 
 def test_h_adds_up() -> None:
-    result = lit_rooms.box_with_channels()
+    result = rooms.box_with_channels()
     channels = result.channels
     np.testing.assert_allclose(channels.h_all, channels.h.sum(axis=2), rtol=1e-9, atol=1e-9 * channels.h_all.max())
     inside = channels.h.sum(axis=3) * channels.bin_width
@@ -89,7 +89,7 @@ def test_h_adds_up() -> None:
 
 
 def test_the_first_light_comes_on_the_straight_line() -> None:
-    channels = lit_rooms.box_with_channels().channels
+    channels = rooms.box_with_channels().channels
     distance = np.linalg.norm(np.subtract((2, 2.9, 2), (1, 0.8, 1)))
     assert channels.first_arrival[0, 0] == pytest.approx(distance / 299_792_458.0, rel=1e-12)
     bin_of_arrival = int(channels.first_arrival[0, 0] / channels.bin_width)
@@ -97,14 +97,14 @@ def test_the_first_light_comes_on_the_straight_line() -> None:
 
 
 def test_emitters_together() -> None:
-    together = lit_rooms.box_with_channels(per_emitter=False).channels
+    together = rooms.box_with_channels(per_emitter=False).channels
     assert together.emitters == ["all"] and together.h.shape[0] == 1
-    assert lit_rooms.box_result().channels is None
+    assert rooms.box_result().channels is None
 
 
 def test_frequencies_asked_for() -> None:
     result = lichtmc.simulate(
-        lit_rooms.box_room(), photons=4096, only="receivers", estimator="weight", impulse_response=1e-9,
+        rooms.box_room(), photons=4096, only="receivers", estimator="weight", impulse_response=1e-9,
         frequencies=(0, 100e6, 50e6), squared_weights=True,
     )  # fmt: skip
     channels = result.channels
@@ -120,7 +120,7 @@ def test_digits_of_the_program(tmp_path: Path) -> None:
     room.add_emitter(lichtmc.Lambert((1.5, 2.9, 1.5)), 1, unit="W")
     room.add_receivers([(1, 0.5, 1)], area=1e-4, names=["detector"])
     room.write_gltf(file)
-    lit_rooms.run_program(
+    rooms.command_line(
         "run", file, "-o", tmp_path / "out", "--photons", 8192, "--estimator", "weight", "--only", "receivers", "--quiet",
         "--impulse-response", "1ns", "--time-span", "40ns", "--orders", 1, "--no-report",
     )  # fmt: skip
@@ -129,7 +129,7 @@ def test_digits_of_the_program(tmp_path: Path) -> None:
         time_span=40e-9, orders=1,
     )  # fmt: skip
     channels = result.channels
-    written = lit_rooms.table(tmp_path / "out/impulse_response.csv")
+    written = rooms.table(tmp_path / "out/impulse_response.csv")
     order = np.array(written["order"])
     for name, row in {"0": channels.h[0, 0, 0], "1": channels.h[0, 0, 1], "2+": channels.h[0, 0, 2]}.items():
         values = np.array(written["h"], dtype=float)[order == name]

@@ -6,13 +6,13 @@ import json
 from pathlib import Path
 
 import lichtmc
-import lit_rooms
 import numpy as np
 import pytest
+import rooms
 
 
 def test_arrays_of_parts() -> None:
-    result = lit_rooms.box_with_parts()
+    result = rooms.box_with_parts()
     parts = result.parts
     shape = (len(result.receivers), 2)
     assert parts.names == ["left", "right"] and len(parts) == 2
@@ -26,12 +26,12 @@ def test_arrays_of_parts() -> None:
     assert parts.covariance.shape == (len(result.receivers), 2, 2)
     np.testing.assert_array_equal(parts.irradiance, parts.direct + parts.reflected)
     np.testing.assert_allclose(parts.standard_error**2, np.einsum("kii->ki", parts.covariance))
-    assert lit_rooms.box_result().parts is None
+    assert rooms.box_result().parts is None
     assert repr(parts).startswith("EmitterParts(2 parts, ")
 
 
 def test_all_parts_together_are_the_run() -> None:
-    result = lit_rooms.box_with_parts()
+    result = rooms.box_with_parts()
     np.testing.assert_allclose(result.parts.irradiance.sum(axis=1), result.receivers.irradiance, rtol=1e-12)
     error = np.sqrt(result.parts.covariance.sum(axis=(1, 2)))
     np.testing.assert_allclose(error, result.receivers.standard_error, rtol=1e-9)
@@ -41,7 +41,7 @@ def test_all_parts_together_are_the_run() -> None:
 
 
 def test_dimming_is_linear() -> None:
-    result = lit_rooms.box_with_parts()
+    result = rooms.box_with_parts()
     factors = np.array([0.3, 1.2])
     scene = result.dim(factors)
     np.testing.assert_array_equal(scene.factors, factors)
@@ -58,7 +58,7 @@ def test_dimming_is_linear() -> None:
 
 
 def test_names_and_patterns() -> None:
-    result = lit_rooms.box_with_parts()
+    result = rooms.box_with_parts()
     np.testing.assert_array_equal(result.dim({"left": 0.5}).factors, [0.5, 1])
     np.testing.assert_array_equal(result.dim({"*": 0.25}).factors, [0.25, 0.25])
     np.testing.assert_array_equal(result.dim({"r?ght": 0}).factors, [1, 0])
@@ -66,7 +66,7 @@ def test_names_and_patterns() -> None:
 
 
 def test_a_scene_outlives_its_result() -> None:
-    result = lichtmc.simulate(lit_rooms.box_room(), photons=2048, per_emitter=True, only="receivers")
+    result = lichtmc.simulate(rooms.box_room(), photons=2048, per_emitter=True, only="receivers")
     expected = result.parts.irradiance @ [0.5, 0.5]
     values = result.dim({"*": 0.5}).receivers.irradiance
     del result
@@ -90,12 +90,12 @@ def test_a_scene_outlives_its_result() -> None:
 )
 def test_wrong_factors_are_refused(factors: object, message: str) -> None:
     with pytest.raises(lichtmc.InputError, match=message):
-        lit_rooms.box_with_parts().dim(factors)
+        rooms.box_with_parts().dim(factors)
 
 
 def test_a_result_without_parts_cannot_be_dimmed() -> None:
     with pytest.raises(lichtmc.InputError, match="per_emitter=True"):
-        lit_rooms.box_result().dim({"left": 0.5})
+        rooms.box_result().dim({"left": 0.5})
 
 
 def test_a_written_scene_is_that_of_the_program(tmp_path: Path) -> None:
@@ -104,11 +104,11 @@ def test_a_written_scene_is_that_of_the_program(tmp_path: Path) -> None:
     room.add_emitter(lichtmc.Lambert((1.5, 2.9, 2)), 1000, name="a")
     room.add_emitter(lichtmc.Lambert((3.5, 2.9, 2)), 1000, name="b")
     room.write_gltf(file)
-    lit_rooms.run_program(
+    rooms.command_line(
         "run", file, "-o", tmp_path / "run", "--photons", 8192, "--estimator", "collision", "--only", "receivers",
         "--per-emitter", "--plane", "0.75", "--no-report", "--quiet",
     )  # fmt: skip
-    lit_rooms.run_program("scene", tmp_path / "run", "--dim", "a=0.4", "-o", tmp_path / "program")
+    rooms.command_line("scene", tmp_path / "run", "--dim", "a=0.4", "-o", tmp_path / "program")
     same = lichtmc.Room.from_gltf(file)
     same.add_working_plane(0.75)
     result = lichtmc.simulate(same, photons=8192, only="receivers", per_emitter=True)

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import lichtmc
-from room_files import DATA, existing
+from rooms import DATA
 
 FOLDER = DATA / "luminaires"
 
 
 def oracles() -> list[dict[str, str]]:
-    with open(existing(FOLDER / "oracles.tsv"), newline="", encoding="utf-8") as rows:
+    with open(FOLDER / "oracles.tsv", newline="", encoding="utf-8") as rows:
         return list(csv.DictReader(rows, delimiter="\t"))
 
 
@@ -37,7 +37,7 @@ def test_figures_of_files_are_those_of_another_program():
 
 
 def test_what_a_file_says():
-    photometry = lichtmc.Photometry(existing(FOLDER / "c_skew.ies"))
+    photometry = lichtmc.Photometry(FOLDER / "c_skew.ies")
     assert photometry.source.endswith("c_skew.ies")
     assert photometry.version.startswith("LM-63")
     assert (photometry.type, photometry.intensity_unit) == ("C", "cd")
@@ -56,7 +56,7 @@ def test_what_a_file_says():
 
 
 def test_intensities_are_arrays():
-    photometry = lichtmc.Photometry(existing(FOLDER / "c_lambert.ies"))
+    photometry = lichtmc.Photometry(FOLDER / "c_lambert.ies")
     directions = np.array([(0, 0, 2.0), (0, 0, -1), (1, 0, 1)])
     values = photometry.candela(directions)
     assert (values.shape, values.dtype) == ((3,), np.float64)
@@ -66,7 +66,7 @@ def test_intensities_are_arrays():
 
 
 def test_texts_are_read_as_files():
-    file = existing(FOLDER / "c_lambert.ies")
+    file = FOLDER / "c_lambert.ies"
     for text in (file.read_text(encoding="latin-1"), file.read_bytes()):
         photometry = lichtmc.Photometry.from_text(text, "lamp.ies")
         assert photometry.source == "lamp.ies"
@@ -76,14 +76,14 @@ def test_texts_are_read_as_files():
 
 
 def test_lamp_sets():
-    file = existing(FOLDER / "c_ldt_two_sets.ldt")
+    file = FOLDER / "c_ldt_two_sets.ldt"
     assert lichtmc.Photometry(file).flux != lichtmc.Photometry(file, lamp_set=2).flux
     with pytest.raises(lichtmc.InputError, match="3"):
         lichtmc.Photometry(file, lamp_set=3)
 
 
 def test_lamps_without_flux():
-    file = existing(FOLDER / "b_ldt_flux0.ldt")
+    file = FOLDER / "b_ldt_flux0.ldt"
     with pytest.raises(lichtmc.InputError):
         lichtmc.Photometry(file)
     shape = lichtmc.Luminaire(lichtmc.Photometry(file, needs_flux=False), (2, 2, 2), lumens=500)
@@ -111,10 +111,10 @@ def test_wrong_files_are_refused():
 )
 def test_faults_are_told_with_file_and_line(name, message):
     with pytest.raises(lichtmc.InputError, match=message):
-        lichtmc.Photometry(existing(FOLDER / name))
+        lichtmc.Photometry(FOLDER / name)
 
 
 @pytest.mark.parametrize("directions", [(0, 0), [(0, 0, 0)], [(np.nan, 0, 1)], "down"])
 def test_wrong_directions_are_refused(directions):
     with pytest.raises(lichtmc.InputError, match="direction"):
-        lichtmc.Photometry(existing(FOLDER / "c_lambert.ies")).candela(directions)
+        lichtmc.Photometry(FOLDER / "c_lambert.ies").candela(directions)

@@ -7,13 +7,13 @@ import struct
 import zlib
 
 import lichtmc
-import lit_rooms
 import numpy as np
 import pytest
+import rooms
 
 
 def test_pixels() -> None:
-    picture = lit_rooms.box_result().render(width=320, height=240)
+    picture = rooms.box_result().render(width=320, height=240)
     assert picture.rgba.shape == (240, 320, 4) and picture.rgba.dtype == np.uint8
     assert picture.irradiance.shape == (240, 320) and picture.irradiance.dtype == np.float32
     assert not picture.rgba.flags.writeable and not picture.irradiance.flags.writeable
@@ -26,7 +26,7 @@ def test_pixels() -> None:
 
 
 def test_a_plan_shows_the_floor() -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     picture = result.render("above", width=600, height=400, colours="inferno", scale="logarithmic", scale_max=1000)
     assert (picture.view, picture.colours, picture.logarithmic, picture.high) == ("above", "inferno", True, 1000)
     inside = picture.irradiance[np.isfinite(picture.irradiance)]
@@ -34,7 +34,7 @@ def test_a_plan_shows_the_floor() -> None:
 
 
 def test_a_picture_is_an_array() -> None:
-    picture = lit_rooms.box_result().render(width=64, height=48)
+    picture = rooms.box_result().render(width=64, height=48)
     array = np.asarray(picture)
     assert np.shares_memory(array, picture.rgba)
     assert not np.shares_memory(np.array(picture), picture.rgba)
@@ -45,7 +45,7 @@ def test_a_picture_is_an_array() -> None:
 
 
 def test_a_notebook_gets_png_and_svg() -> None:
-    picture = lit_rooms.box_result().render(width=64, height=48)
+    picture = rooms.box_result().render(width=64, height=48)
     png = picture._repr_png_()
     assert png[:8] == b"\x89PNG\r\n\x1a\n" and struct.unpack(">II", png[16:24]) == (64, 48)
     data, at = b"", 8
@@ -59,7 +59,7 @@ def test_a_notebook_gets_png_and_svg() -> None:
 
 
 def test_without_tiles_a_picture_is_grey() -> None:
-    picture = lit_rooms.box_with_parts().render(width=64, height=48)
+    picture = rooms.box_with_parts().render(width=64, height=48)
     opaque = picture.rgba[picture.rgba[..., 3] == 255].astype(int)
     assert len(opaque) > 0 and np.ptp(opaque[:, :3], axis=1).max() <= 3 or np.isnan(picture.irradiance).mean() < 1
 
@@ -80,4 +80,4 @@ def test_without_tiles_a_picture_is_grey() -> None:
 )
 def test_wrong_arguments_are_refused(arguments: dict[str, object], message: str) -> None:
     with pytest.raises(lichtmc.InputError, match=message):
-        lit_rooms.box_result().render(**arguments)
+        rooms.box_result().render(**arguments)

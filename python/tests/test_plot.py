@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from typing import Any
 
 import lichtmc
-import lit_rooms
 import numpy as np
 import pytest
+import rooms
 
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("Agg")
@@ -28,7 +28,7 @@ def texts(ax: Any) -> list[str]:
 
 
 def test_a_flat_surface_is_drawn_to_scale() -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     floor = result.surfaces["floor"]
     ax = result.plot_surface("floor")
     image = ax.images[0]
@@ -42,7 +42,7 @@ def test_a_flat_surface_is_drawn_to_scale() -> None:
 
 
 def test_a_wall_is_seen_from_inside() -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     ax = result.plot_surface("wall_x0")  # in the plane x = 0, seen towards −x: z to the left
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("z (m)", "y (m)")
     np.testing.assert_allclose((*ax.get_xlim(), *ax.get_ylim()), (4, 0, 0, 3), atol=1e-9)
@@ -79,7 +79,7 @@ def test_a_curved_surface_is_drawn_by_its_tiles() -> None:
 
 
 def test_options_of_plots_of_surfaces() -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     figure, axes = pyplot.subplots(1, 2)
     ax = result.plot_surface("floor", axes[0], error=True, colours="inferno", scale_max=50)
     assert ax is axes[0]
@@ -89,12 +89,12 @@ def test_options_of_plots_of_surfaces() -> None:
     ax = result.plot_surface("floor", axes[1], isolines=[100, 150])
     assert {text for text in texts(ax)} <= {"100", "150"} and len(texts(ax)) > 0
     figure.canvas.draw()
-    gable = lit_rooms.half_covered().plot_surface("gable").images[0].get_array()
-    assert np.ma.count(gable) == lit_rooms.half_covered().surfaces["gable"].tiles
+    gable = rooms.half_covered().plot_surface("gable").images[0].get_array()
+    assert np.ma.count(gable) == rooms.half_covered().surfaces["gable"].tiles
 
 
 def test_areas() -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     desk = result.areas["desk"]
     ax = result.plot_area("desk")
     np.testing.assert_array_equal(ax.images[0].get_array(), desk.grid)
@@ -107,7 +107,7 @@ def test_areas() -> None:
 
 
 def test_impulse_responses() -> None:
-    result = lit_rooms.box_with_channels()
+    result = rooms.box_with_channels()
     for options in ({}, {"log": True}, {"stacked": False, "errors": False}, {"unit": "us"}):
         ax = result.plot_channel("left", "phone", **options)
         labels = [text.get_text() for text in ax.get_legend().get_texts()]
@@ -117,7 +117,7 @@ def test_impulse_responses() -> None:
         assert ax.get_xlabel() == f"time since emission ({'µs' if options.get('unit') == 'us' else 'ns'})"
         ax.figure.canvas.draw()
     assert any("line of sight" in text for text in texts(result.plot_channel(0, 0)))  # cut, and it says so
-    together = lit_rooms.box_with_channels(per_emitter=False).plot_channel()
+    together = rooms.box_with_channels(per_emitter=False).plot_channel()
     assert together.get_title().startswith("all emitters → phone")
 
 
@@ -134,11 +134,11 @@ def test_impulse_responses() -> None:
 )
 def test_wrong_arguments_are_refused(call: Any, error: type[Exception], message: str) -> None:
     with pytest.raises(error, match=message):
-        call(lit_rooms.box_result())
+        call(rooms.box_result())
 
 
 def test_wrong_channels_are_refused() -> None:
-    result = lit_rooms.box_with_channels()
+    result = rooms.box_with_channels()
     with pytest.raises(KeyError, match="no receiver 'fone'.*'phone'"):
         result.plot_channel(0, "fone")
     with pytest.raises(IndexError, match="no emitter number 2: the channels have 2"):
@@ -162,5 +162,7 @@ for plot in (lambda: result.plot_surface("floor"), lambda: result.plot_channel()
     except ImportError as error:
         print(error)
 """
-    done = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-c", program], env=rooms.ENVIRONMENT, check=True, capture_output=True, text=True, timeout=120
+    )
     assert done.stdout.splitlines() == ['Plots need matplotlib. Install it: pip install "lichtmc[plot]"'] * 3

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import lichtmc
-import lit_rooms
 import numpy as np
 import pytest
+import rooms
 
 
 def test_arrays_of_receivers() -> None:
-    receivers = lit_rooms.box_result().receivers
+    receivers = rooms.box_result().receivers
     assert receivers.names[:2] == ["phone", "tablet"] and len(receivers) == len(receivers.names)
     for name in ("irradiance", "standard_error", "direct", "indirect", "gain"):
         values = getattr(receivers, name)
@@ -21,7 +21,7 @@ def test_arrays_of_receivers() -> None:
 
 
 def test_one_receiver() -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     receivers = result.receivers
     phone = receivers["phone"]
     assert phone.name == "phone" and phone.irradiance == receivers.irradiance[0] == receivers[0].irradiance
@@ -47,7 +47,7 @@ def test_receivers_of_one_name_need_their_numbers() -> None:
 
 
 def test_a_run_for_tiles_has_no_receivers() -> None:
-    result = lichtmc.simulate(lit_rooms.box_room(), photons=2048, only="tiles")
+    result = lichtmc.simulate(rooms.box_room(), photons=2048, only="tiles")
     assert len(result.receivers) == 0 and result.receivers.position.shape == (0, 3)
     assert len(result.areas) == 0 and result.receiver_walk is None
     with pytest.raises(KeyError, match="the result has no areas"):
@@ -55,7 +55,7 @@ def test_a_run_for_tiles_has_no_receivers() -> None:
 
 
 def test_figures_of_an_area() -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     assert list(result.areas) == ["desk", "plane"]
     desk = result.areas["desk"]
     assert (desk.role, desk.quantity, desk.points) == ("task", "horizontal", 30)
@@ -73,7 +73,7 @@ def test_figures_of_an_area() -> None:
 
 
 def test_grid_of_an_area() -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     desk = result.areas["desk"]
     assert desk.grid.shape == desk.grid_error.shape == desk.grid_direct.shape == (desk.rows, desk.columns) == (5, 6)
     assert desk.position.shape == (5, 6, 3)

@@ -7,16 +7,16 @@ import math
 import pickle
 
 import lichtmc
-import lit_rooms
 import numpy as np
 import pytest
+import rooms
 
 
 def test_facts_of_a_run() -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     assert result.unit == "lm" and result.irradiance_unit == "lx"
     assert result.engine == "cuboid" and result.threads >= 1 and result.stopped_by == "photons"
-    assert result.histories == lit_rooms.PHOTONS == result.walk.histories
+    assert result.histories == rooms.PHOTONS == result.walk.histories
     assert result.rms_relative_error == result.walk.rms_relative_error > 0
     assert result.seconds == result.walk.seconds + result.receiver_walk.seconds
     assert result.ignored == [] and "receivers" in result.choices[0]
@@ -36,12 +36,12 @@ def test_radiometric_units() -> None:
 
 
 def test_the_settings_repeat_a_run() -> None:
-    result = lit_rooms.box_with_channels()
+    result = rooms.box_with_channels()
     settings = dict(result.settings)
     assert settings["photons"] == 20_000 and settings["impulse_response"] == 0.5e-9 and settings["per_emitter"] is True
     again = lichtmc.simulate(result.room, **result.settings)
     np.testing.assert_array_equal(again.channels.h, result.channels.h)
-    part = lichtmc.simulate(lit_rooms.box_room(), histories=(1024, 3072), only="tiles", error_floor=2.0)
+    part = lichtmc.simulate(rooms.box_room(), histories=(1024, 3072), only="tiles", error_floor=2.0)
     assert part.settings["histories"] == (1024, 3072) or part.settings["histories"] == [1024, 3072]
     assert part.settings["photons"] is None and part.settings["error_floor"] == 2.0
     np.testing.assert_array_equal(
@@ -52,17 +52,17 @@ def test_the_settings_repeat_a_run() -> None:
 
 
 def test_balance_adds_up() -> None:
-    balance = lit_rooms.box_result().balance
+    balance = rooms.box_result().balance
     assert balance.emitted == 5000 and balance.lost == 0 and balance.escaped == 0
     assert balance.absorbed + balance.escaped + balance.residual + balance.lost == pytest.approx(5000)
-    assert math.isnan(lit_rooms.box_with_parts().balance.absorbed)
+    assert math.isnan(rooms.box_with_parts().balance.absorbed)
     assert repr(balance).startswith("Balance(emitted=5000.0")
-    escaped = lit_rooms.half_covered().balance.escaped
+    escaped = rooms.half_covered().balance.escaped
     assert 0.5 < escaped / 100 < 1
 
 
 def test_reports_of_the_walks() -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     walk, receiver_walk = result.walk, result.receiver_walk
     assert walk.estimator == "collision" and walk.choice == "" and walk.stopped_by == "photons"
     assert walk.impacts > walk.histories and walk.rays >= walk.impacts
@@ -75,27 +75,27 @@ def test_reports_of_the_walks() -> None:
 
 
 def test_a_chosen_estimator_is_explained() -> None:
-    result = lichtmc.simulate(lit_rooms.box_room(), photons=20_000, estimator="auto", only="tiles")
+    result = lichtmc.simulate(rooms.box_room(), photons=20_000, estimator="auto", only="tiles")
     assert result.settings["estimator"] == "auto"
     assert result.walk.estimator in ("collision", "weight", "absorption")
     assert result.walk.choice and len(result.choices) == 1
 
 
 def test_the_room_is_as_it_was() -> None:
-    room = lit_rooms.box_room()
+    room = rooms.box_room()
     result = lichtmc.simulate(room, photons=2048, only="tiles")
     room.set_reflectance("floor", 0.9)
     assert result.room.surfaces[0].reflectance == 0.3 and room.surfaces[0].reflectance == 0.9
 
 
 def test_repr_is_a_summary() -> None:
-    text = repr(lit_rooms.box_result())
+    text = repr(rooms.box_result())
     assert text.startswith("Result of 'cuboid'")
     for word in ("10 800 tiles", "floor", "mean (lx)", "desk (task): Em", "60 000 histories", "ended by photons"):
         assert word in text, word
-    assert "receiver" in repr(lit_rooms.box_with_parts())
-    assert "Channels(2 emitters" in repr(lit_rooms.box_with_channels())
-    office = lichtmc.simulate(lichtmc.Room.from_gltf(lit_rooms.ROOT / "tests/data/office.glb"), photons=2048)
+    assert "receiver" in repr(rooms.box_with_parts())
+    assert "Channels(2 emitters" in repr(rooms.box_with_channels())
+    office = lichtmc.simulate(lichtmc.Room.from_gltf(rooms.DATA / "office.glb"), photons=2048)
     assert len(repr(office).splitlines()) < 30
 
 

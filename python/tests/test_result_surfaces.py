@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import lit_rooms
 import numpy as np
 import pytest
+import rooms
 
 
 def test_surfaces_are_a_mapping() -> None:
-    surfaces = lit_rooms.box_result().surfaces
+    surfaces = rooms.box_result().surfaces
     names = ["floor", "ceiling", "wall_x0", "wall_x1", "wall_z0", "wall_z1"]
     assert isinstance(surfaces, Mapping)
     assert len(surfaces) == 6 and list(surfaces) == surfaces.keys() == names
@@ -23,7 +23,7 @@ def test_surfaces_are_a_mapping() -> None:
 
 
 def test_what_is_no_surface_is_refused_with_advice() -> None:
-    surfaces = lit_rooms.box_result().surfaces
+    surfaces = rooms.box_result().surfaces
     with pytest.raises(KeyError, match="no surface 'wall_x2'.*'wall_x1'.*'floor'"):
         surfaces["wall_x2"]
     with pytest.raises(IndexError, match="no surface number 6: the result has 6 surfaces"):
@@ -32,11 +32,11 @@ def test_what_is_no_surface_is_refused_with_advice() -> None:
         with pytest.raises(TypeError, match=r"by name \(str\) or number \(int\)"):
             surfaces[key]
     with pytest.raises(KeyError, match="the result has no surfaces"):
-        lit_rooms.box_with_parts().surfaces["floor"]
+        rooms.box_with_parts().surfaces["floor"]
 
 
 def test_figures_of_a_surface() -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     floor = result.surfaces["floor"]
     assert (floor.area, floor.tiles, floor.rows, floor.columns) == (pytest.approx(24), 2400, 60, 40) or (
         floor.area, floor.tiles, floor.rows, floor.columns) == (pytest.approx(24), 2400, 40, 60)  # fmt: skip
@@ -53,7 +53,7 @@ def test_figures_of_a_surface() -> None:
 
 @pytest.mark.parametrize("name", ["grid", "grid_error", "grid_area", "grid_position"])
 def test_a_full_grid_is_a_view_of_the_tiles(name: str) -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     column = {"grid": "irradiance", "grid_error": "standard_error", "grid_area": "area", "grid_position": "position"}[name]
     tiles = getattr(result.tiles, column)
     for surface in result.surfaces.values():
@@ -65,14 +65,14 @@ def test_a_full_grid_is_a_view_of_the_tiles(name: str) -> None:
 
 
 def test_rows_follow_v_and_columns_u() -> None:
-    floor = lit_rooms.box_result().surfaces["floor"]  # u along x, v along z
+    floor = rooms.box_result().surfaces["floor"]  # u along x, v along z
     np.testing.assert_allclose(floor.grid_position[0, :, 0], (np.arange(60) + 0.5) * 0.1, atol=1e-9)
     np.testing.assert_allclose(floor.grid_position[:, 0, 2], (np.arange(40) + 0.5) * 0.1, atol=1e-9)
     assert floor.grid[20, 20] > 1.3 * floor.grid[0, 59]  # under a lamp, and in a corner
 
 
 def test_cells_without_a_tile_are_nan() -> None:
-    result = lit_rooms.half_covered()
+    result = rooms.half_covered()
     gable = result.surfaces["gable"]
     assert 0 < gable.tiles < gable.rows * gable.columns
     for grid in (gable.grid, gable.grid_error, gable.grid_area, gable.grid_position[..., 0]):

@@ -7,9 +7,9 @@ import resource
 from pathlib import Path
 
 import lichtmc
-import lit_rooms
 import numpy as np
 import pytest
+import rooms
 
 COLUMNS = {
     "irradiance": (np.float64, 1),
@@ -28,7 +28,7 @@ COLUMNS = {
 
 @pytest.mark.parametrize("name", COLUMNS)
 def test_columns_have_their_type_and_shape(name: str) -> None:
-    tiles = lit_rooms.box_result().tiles
+    tiles = rooms.box_result().tiles
     dtype, dimensions = COLUMNS[name]
     values = getattr(tiles, name)
     assert values.dtype == dtype
@@ -38,7 +38,7 @@ def test_columns_have_their_type_and_shape(name: str) -> None:
 
 @pytest.mark.parametrize("name", [name for name in COLUMNS if name != "unreached"])
 def test_columns_show_the_memory_of_the_result(name: str) -> None:
-    result = lit_rooms.box_result()
+    result = rooms.box_result()
     assert np.shares_memory(getattr(result.tiles, name), getattr(result.tiles, name))
     assert np.may_share_memory(result.tiles.irradiance, result.tiles.standard_error)  # fields of the same structures
     assert not getattr(result.tiles, name).flags.owndata
@@ -46,7 +46,7 @@ def test_columns_show_the_memory_of_the_result(name: str) -> None:
 
 @pytest.mark.parametrize("name", COLUMNS)
 def test_columns_are_read_only(name: str) -> None:
-    values = getattr(lit_rooms.box_result().tiles, name)
+    values = getattr(rooms.box_result().tiles, name)
     with pytest.raises(ValueError, match="read-only"):
         values[0] = 0
     with pytest.raises(ValueError):
@@ -74,7 +74,7 @@ def test_arrays_take_no_memory() -> None:
 
 
 def test_views_outlive_their_result() -> None:
-    result = lichtmc.simulate(lit_rooms.box_room(), photons=2048)
+    result = lichtmc.simulate(rooms.box_room(), photons=2048)
     kept = {name: getattr(result.tiles, name) for name in COLUMNS}
     grid = result.surfaces["floor"].grid
     area_grid = result.areas["desk"].grid
@@ -89,7 +89,7 @@ def test_views_outlive_their_result() -> None:
 
 
 def test_parts_of_a_result_outlive_it() -> None:
-    result = lichtmc.simulate(lit_rooms.box_room(), photons=2048)
+    result = lichtmc.simulate(rooms.box_room(), photons=2048)
     floor, desk, phone = result.surfaces["floor"], result.areas["desk"], result.receivers["phone"]
     walk, balance = result.walk, result.balance
     mean = floor.mean
@@ -103,21 +103,21 @@ def test_parts_of_a_result_outlive_it() -> None:
 
 
 def test_power_is_irradiance_times_area() -> None:
-    tiles = lit_rooms.box_result().tiles
+    tiles = rooms.box_result().tiles
     np.testing.assert_allclose(tiles.power, tiles.irradiance * tiles.area, rtol=1e-12)
     assert np.isnan(tiles.direct).all()  # scored together with reflected light
     assert not tiles.unreached.any()
 
 
 def test_direct_light_apart() -> None:
-    result = lichtmc.simulate(lit_rooms.box_room(), photons=2048, direct="analytic", only="tiles")
+    result = lichtmc.simulate(rooms.box_room(), photons=2048, direct="analytic", only="tiles")
     assert np.all(result.tiles.direct >= 0) and np.all(result.tiles.direct <= result.tiles.irradiance)
     floor = result.surfaces["floor"]
     assert floor.direct == pytest.approx(np.average(floor.grid_direct, weights=floor.grid_area), rel=1e-9)
 
 
 def test_unreached_tiles_are_named() -> None:
-    room = lichtmc.Room.from_gltf(lit_rooms.ROOT / "tests/data/office.glb")
+    room = lichtmc.Room.from_gltf(rooms.DATA / "office.glb")
     result = lichtmc.simulate(room, photons=20_000, only="tiles")
     unreached = result.tiles.unreached
     assert unreached.any() and not unreached.all()
@@ -127,7 +127,7 @@ def test_unreached_tiles_are_named() -> None:
 
 
 def test_a_run_for_receivers_has_no_tiles() -> None:
-    result = lit_rooms.box_with_parts()
+    result = rooms.box_with_parts()
     assert len(result.tiles) == 0
     assert {getattr(result.tiles, name).shape[0] for name in COLUMNS} == {0}
     assert result.tiles.position.shape == (0, 3)
@@ -136,8 +136,8 @@ def test_a_run_for_receivers_has_no_tiles() -> None:
 
 
 def test_digits_of_the_program(tmp_path: Path) -> None:
-    file = lit_rooms.ROOT / "scenes/l_room.gltf"
-    lit_rooms.run_program(
+    file = rooms.SCENES / "l_room.gltf"
+    rooms.command_line(
         "run", file, "-o", tmp_path / "out", "--photons", 30_000, "--estimator", "collision", "--seed", 7, "--no-report",
         "--no-images", "--plane", "0.75", "--direct", "analytic", "--tile", 0.25, "--quiet",
     )  # fmt: skip
@@ -145,7 +145,7 @@ def test_digits_of_the_program(tmp_path: Path) -> None:
     room.add_working_plane(0.75)
     result = lichtmc.simulate(room, photons=30_000, seed=7, direct="analytic", tile=0.25)
 
-    written = lit_rooms.table(tmp_path / "out/tiles.csv")
+    written = rooms.table(tmp_path / "out/tiles.csv")
     tiles = result.tiles
     numbers = {name: np.array(written[name], dtype=float) for name in ("x", "y", "z", "area", "power", "irradiance",
                                                                      "standard_error", "direct")}  # fmt: skip
@@ -157,7 +157,7 @@ def test_digits_of_the_program(tmp_path: Path) -> None:
     names = list(result.surfaces)
     assert [names[k] for k in tiles.map] == written["surface"]
 
-    written = lit_rooms.table(tmp_path / "out/surfaces.csv")
+    written = rooms.table(tmp_path / "out/surfaces.csv")
     for column, attribute in {
         "name": "name", "material": "material", "reflectance": "reflectance", "area": "area", "tiles": "tiles",
         "mean_irradiance": "mean", "min_irradiance": "minimum", "max_irradiance": "maximum",
@@ -168,12 +168,12 @@ def test_digits_of_the_program(tmp_path: Path) -> None:
             value = getattr(surface, attribute)
             assert value == type(value)(text) or (value != value and text == "nan"), column
 
-    written = lit_rooms.table(tmp_path / "out/receivers.csv")
+    written = rooms.table(tmp_path / "out/receivers.csv")
     assert result.receivers.names == written["name"]
     for name in ("irradiance", "direct", "indirect", "standard_error", "gain"):
         np.testing.assert_array_equal(getattr(result.receivers, name), np.array(written[name], dtype=float))
 
-    written = lit_rooms.table(tmp_path / "out/areas.csv")
+    written = rooms.table(tmp_path / "out/areas.csv")
     area = result.areas[0]
     for column, figure in {"em": area.mean, "emin": area.minimum, "emax": area.maximum, "u0": area.uniformity}.items():
         assert figure.value == float(written[column][0])

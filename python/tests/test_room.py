@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import lichtmc
-from room_files import DATA, ROOMS, SCENES, cuboid, existing
+from rooms import DATA, SCENES, cuboid, of_others
 
 
 def test_cuboid_has_six_named_walls_with_their_reflectances():
@@ -56,7 +56,7 @@ def test_errors_are_value_errors():
 
 
 def test_files_are_read_by_str_and_path():
-    file = existing(SCENES / "living_room.glb")
+    file = SCENES / "living_room.glb"
     room = lichtmc.Room.from_gltf(file)
     assert room.source == str(file)
     assert repr(room) == repr(lichtmc.Room.from_gltf(str(file)))
@@ -65,7 +65,7 @@ def test_files_are_read_by_str_and_path():
 
 
 def test_options_of_reading():
-    file = existing(DATA / "office.glb")
+    file = DATA / "office.glb"
     plain = lichtmc.Room.from_gltf(file)
     small = lichtmc.Room.from_gltf(file, scale=0.1, unit="W", without="chair*", reflectance={"walls": 0.25})
     assert small.unit == "W"
@@ -100,13 +100,13 @@ def test_options_of_reading():
     ],
 )
 def test_wrong_options_are_refused(options, message):
-    file = existing(DATA / "office.glb")
+    file = DATA / "office.glb"
     with pytest.raises(lichtmc.InputError, match=message):
         lichtmc.Room.from_gltf(file, **options)
 
 
 def test_bytes_are_read_as_the_file():
-    file = existing(DATA / "office.glb")
+    file = DATA / "office.glb"
     data = file.read_bytes()
     from_file = lichtmc.Room.from_gltf(file)
     for content in (data, bytearray(data), memoryview(data)):
@@ -119,7 +119,7 @@ def test_bytes_are_read_as_the_file():
 
 
 def test_gltf_texts_are_read_from_bytes():
-    room = lichtmc.Room.from_bytes(existing(SCENES / "l_room.gltf").read_bytes())
+    room = lichtmc.Room.from_bytes((SCENES / "l_room.gltf").read_bytes())
     assert room.source == "bytes"
     assert len(room.surfaces) > 0
 
@@ -134,7 +134,7 @@ def test_wrong_bytes_are_refused(data, message):
 
 
 def test_bytes_that_name_files_are_refused():
-    folder = existing(ROOMS / "real" / "webxr_garage")
+    folder = of_others("real", "webxr_garage")
     file = next(folder.rglob("*.gltf"))
     with pytest.raises(lichtmc.InputError, match="have no folder .allowed: embedded data"):
         lichtmc.Room.from_bytes(file.read_bytes())
@@ -142,7 +142,7 @@ def test_bytes_that_name_files_are_refused():
 
 @pytest.mark.parametrize("name", ["godot_living_room.glb", "bevy_CornellBox.glb", "playcanvas_house.glb"])
 def test_files_of_others_are_read_from_bytes_too(name):
-    file = existing(ROOMS / "real" / name)
+    file = of_others("real", name)
     assert len(lichtmc.Room.from_bytes(file.read_bytes()).surfaces) == len(lichtmc.Room.from_gltf(file).surfaces)
 
 
@@ -308,7 +308,7 @@ def test_an_empty_room_is_filled_surface_by_surface():
 
 
 def test_malformed_files_are_refused_or_read_as_from_disk():
-    files = [file for file in sorted(existing(ROOMS / "malformed").rglob("*.gl*")) if file.stat().st_size > 0]
+    files = [file for file in sorted(of_others("malformed").rglob("*.gl*")) if file.stat().st_size > 0]
     assert files
     refused = 0
     for file in files:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import lichtmc
-from room_files import DATA, VERTICES, command, cuboid, existing, table
+from rooms import DATA, VERTICES, command_line, cuboid, numbers
 
 
 def test_areas_are_laid_out_at_once():
@@ -157,8 +157,8 @@ def test_two_areas_of_one_name_are_refused():
 
 
 def test_areas_of_the_command_line_have_the_same_digits(tmp_path):
-    file = existing(DATA / "office.glb")
-    command(
+    file = DATA / "office.glb"
+    command_line(
         "run", file, "--photons", 4000, "--only", "receivers", "--receiver-walk", "next-event", "--no-report", "--quiet",
         "--estimator", "collision", "--plane", "0.75:0.4:role=task", "--area", "desk:1,0.9,-2:1,0,0:0,0,1",
         "-o", tmp_path / "out",
@@ -167,8 +167,8 @@ def test_areas_of_the_command_line_have_the_same_digits(tmp_path):
     room.add_area("desk", (1, 0.9, -2), (1, 0, 0), (0, 0, 1))
     room.add_working_plane(0.75, 0.4, role="task")
     result = lichtmc.simulate(room, photons=4000, only="receivers", receiver_walk="next-event")
-    assert result.receivers.irradiance.tolist() == table(tmp_path / "out" / "receivers.csv", "irradiance")
-    assert result.receivers.standard_error.tolist() == table(tmp_path / "out" / "receivers.csv", "standard_error")
+    assert result.receivers.irradiance.tolist() == numbers(tmp_path / "out" / "receivers.csv", "irradiance")
+    assert result.receivers.standard_error.tolist() == numbers(tmp_path / "out" / "receivers.csv", "standard_error")
 
 
 def file_with_an_area() -> bytes:

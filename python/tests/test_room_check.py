@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import lichtmc
-from room_files import DATA, ROOMS, SCENES, command, cuboid, existing
+from rooms import DATA, SCENES, command_line, cuboid, of_others
 
 
 def test_a_sound_room():
@@ -67,12 +67,14 @@ def test_faults_and_warnings():
 
 @pytest.mark.parametrize("name", ["living_room.glb", "l_room.gltf", "office.glb", "fazil_cornell-box.glb"])
 def test_findings_are_those_of_the_command_line(name):
-    folder = {"office.glb": DATA, "fazil_cornell-box.glb": ROOMS / "real"}.get(name, SCENES)
-    file = existing(folder / name)
+    if name.startswith("fazil"):
+        file = of_others("real", name)
+    else:
+        file = (DATA if name == "office.glb" else SCENES) / name
     room = lichtmc.Room.from_gltf(file)
     inspection = room.check()
     # No room with a fault: then the command line has an exit status.
-    expected = json.loads(command("check", file, "--json"))
+    expected = json.loads(command_line("check", file, "--json"))
     assert inspection.to_json() == expected
     found = [{"severity": f.severity, "topic": f.topic, "text": f.text, "advice": f.advice} for f in inspection.findings]
     assert found == [{key: one[key] for key in found[0]} for one in expected["findings"]]
@@ -139,7 +141,7 @@ def test_paths_of_a_room_without_emitters_are_refused():
 
 
 def test_ctrl_c_ends_a_check_when_it_has_ended():
-    room = lichtmc.Room.from_gltf(existing(SCENES / "living_room.glb"))
+    room = lichtmc.Room.from_gltf(SCENES / "living_room.glb")
     timer = threading.Timer(0.1, _thread.interrupt_main)
     with pytest.raises(KeyboardInterrupt):
         timer.start()

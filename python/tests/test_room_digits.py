@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import lichtmc
-from room_files import DATA, SCENES, command, cuboid, existing, table
+from rooms import DATA, SCENES, command_line, cuboid, numbers
 
 PHOTONS = 20_000
 
@@ -53,16 +53,16 @@ def test_arrays_give_the_digits_of_the_cuboid(make, engine):
 
 def test_the_command_line_gives_the_same_digits(tmp_path):
     file = tmp_path / "room.glb"
-    command(
+    command_line(
         "cuboid", "--size", 4, 2.5, 5, "--reflectance", 0.5, "--ceiling", 0.75, "--light", "point:2,2.25,2.5:1000lm",
         "-o", file,
     )  # fmt: skip
-    command(
+    command_line(
         "run", file, "--photons", PHOTONS, "--engine", "embree", "--estimator", "collision", "--no-report", "--no-images",
         "--quiet", "-o", tmp_path / "out",
     )  # fmt: skip
-    irradiance = table(tmp_path / "out" / "tiles.csv", "irradiance")
-    error = table(tmp_path / "out" / "tiles.csv", "standard_error")
+    irradiance = numbers(tmp_path / "out" / "tiles.csv", "irradiance")
+    error = numbers(tmp_path / "out" / "tiles.csv", "standard_error")
     written = tmp_path / "written.glb"
     cuboid().write_gltf(written)
     for room in (
@@ -78,8 +78,8 @@ def test_the_command_line_gives_the_same_digits(tmp_path):
 
 
 def test_options_of_reading_have_the_digits_of_the_command_line(tmp_path):
-    file = existing(SCENES / "l_room.gltf")
-    command(
+    file = SCENES / "l_room.gltf"
+    command_line(
         "run", file, "--photons", PHOTONS, "--estimator", "collision", "--no-report", "--no-images", "--quiet",
         "--light", "lambert:0.5,0.8,0.5:0,-1,0:5:500lm", "--light", "point:0.5,0.7,0.25:100lm", "--max-reflectance", 0.6,
         "--maintenance-factor", 0.8, "--scale", 0.9, "-o", tmp_path / "out",
@@ -90,16 +90,16 @@ def test_options_of_reading_have_the_digits_of_the_command_line(tmp_path):
     room.add_emitter(lichtmc.Isotropic((0.5, 0.7, 0.25)), 100)
     room.set_maintenance_factor(0.8)
     tiles = lichtmc.simulate(room, photons=PHOTONS).tiles
-    assert tiles.irradiance.tolist() == table(tmp_path / "out" / "tiles.csv", "irradiance")
+    assert tiles.irradiance.tolist() == numbers(tmp_path / "out" / "tiles.csv", "irradiance")
 
 
 def test_luminaires_and_receivers_have_the_digits_of_the_command_line(tmp_path):
-    lamp = existing(DATA / "luminaires" / "c_skew.ies")
+    lamp = DATA / "luminaires" / "c_skew.ies"
     receivers = tmp_path / "receivers.csv"
     receivers.write_text("name,x,y,z,nx,ny,nz,area,fov\na,1,1,1,0,1,0,1e-4,80\nb,2,1,1,0,1,0,1e-4,60\n", encoding="utf-8")
     room = lichtmc.Room.cuboid((4, 2.5, 5), 0.5)
     room.write_gltf(tmp_path / "room.glb")
-    command(
+    command_line(
         "run", tmp_path / "room.glb", "--photons", PHOTONS, "--estimator", "collision", "--receiver-walk", "two-way",
         "--light", f"ies:{lamp}:2,2.25,2.5:0.5,-1,0:30:lm=1500", "--light", f"ies:{lamp}:1,2,1",
         "--receivers", receivers, "--grid", 0.75, "--grid-spacing", 1, "--no-report", "--no-images", "--quiet",
@@ -111,8 +111,8 @@ def test_luminaires_and_receivers_have_the_digits_of_the_command_line(tmp_path):
     room.add_receiver_grid(0.75, 1)
     again = room.copy()
     result = lichtmc.simulate(room, photons=PHOTONS, receiver_walk="two-way")
-    assert result.tiles.irradiance.tolist() == table(tmp_path / "out" / "tiles.csv", "irradiance")
-    assert result.receivers.irradiance.tolist() == table(tmp_path / "out" / "receivers.csv", "irradiance")
+    assert result.tiles.irradiance.tolist() == numbers(tmp_path / "out" / "tiles.csv", "irradiance")
+    assert result.receivers.irradiance.tolist() == numbers(tmp_path / "out" / "receivers.csv", "irradiance")
     assert [e.name for e in again.emitters] == ["c_skew", "c_skew_2"]
 
 

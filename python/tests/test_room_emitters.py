@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import lichtmc
-from room_files import DATA, existing
+from rooms import DATA
 
 
 def empty() -> lichtmc.Room:
@@ -16,7 +16,7 @@ def empty() -> lichtmc.Room:
 
 
 def lamp() -> Path:
-    return existing(DATA / "luminaires" / "c_skew.ies")
+    return DATA / "luminaires" / "c_skew.ies"
 
 
 def test_shapes_are_values():
@@ -234,7 +234,7 @@ def test_luminaires_by_radiant_flux():
 
 def test_many_luminaires_of_a_file_share_its_tables():
     room = empty()
-    file = existing(DATA / "luminaires" / "c_tilt_include.ies")  # of which the room has a remark
+    file = DATA / "luminaires" / "c_tilt_include.ies"  # of which the room has a remark
     for k in range(50):
         room.add_emitter(lichtmc.Luminaire(file, (0.05 * k + 0.1, 2, 2)))
     assert len(room.ignored) == len(set(room.ignored)) > 0

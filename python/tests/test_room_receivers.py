@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import lichtmc
-from room_files import SCENES, cuboid, existing
+from rooms import SCENES, cuboid
 
 
 def test_receivers_from_arrays():
@@ -108,9 +108,9 @@ def test_grids():
 
 
 def test_tables(tmp_path):
-    room = lichtmc.Room.from_gltf(existing(SCENES / "living_room.glb"))
+    room = lichtmc.Room.from_gltf(SCENES / "living_room.glb")
     before = len(room.receivers)
-    names = room.read_receivers(existing(SCENES / "living_room_receivers.csv"))
+    names = room.read_receivers(SCENES / "living_room_receivers.csv")
     assert names[0] == "eye_0"
     assert len(room.receivers) == before + len(names)
     assert room.receivers.half_angle[before] == 80

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import lichtmc
-from room_files import cuboid
+from rooms import cuboid
 
 
 def test_a_room_changes_while_another_thread_works_with_it():

@@ -6,33 +6,25 @@ equal to the one in Python, bit for bit.
 
 from __future__ import annotations
 
-import csv
-import subprocess
-import sys
 from pathlib import Path
 
 import lichtmc
 import numpy as np
 import pytest
+from rooms import DATA, SCENES, command_line, numbers, rows_of
 
-ROOT = Path(__file__).resolve().parents[2]
-CUBE = ROOT / "scenes/cube_paper.gltf"
-LIVING_ROOM = ROOT / "scenes/living_room.glb"
-OFFICE = ROOT / "tests/data/office.glb"
-PROGRAM = "import sys; from lichtmc._command_line import main; sys.exit(main())"
+CUBE = SCENES / "cube_paper.gltf"
+LIVING_ROOM = SCENES / "living_room.glb"
+LIVING_ROOM_RECEIVERS = SCENES / "living_room_receivers.csv"
+OFFICE = DATA / "office.glb"
 
 
 def run_program(room: Path, folder: Path, *options: str) -> None:
-    words = ["run", str(room), "-o", str(folder), "--no-report", "--no-images", "--quiet", *options]
-    done = subprocess.run([sys.executable, "-c", PROGRAM, *words], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    command_line("run", room, "-o", folder, "--no-report", "--no-images", "--quiet", *options)
 
 
 def columns(file: Path, *names: str) -> list[np.ndarray]:
-    with file.open(encoding="utf-8", newline="") as lines:
-        rows = list(csv.DictReader(lines))
-    assert rows
-    return [np.array([float(row[name] or "nan") for row in rows]) for name in names]
+    return [np.array(numbers(file, name)) for name in names]
 
 
 def assert_same(file: Path, **arrays: np.ndarray) -> None:
@@ -121,15 +113,14 @@ def test_tiles(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("walk", ["two-way", "next-event", "backward"])
 def test_receivers(walk: str, tmp_path: Path) -> None:
-    table = ROOT / "scenes/living_room_receivers.csv"
     run_program(
         LIVING_ROOM,
         tmp_path / "out",
-        *("--only", "receivers", "--receivers", str(table), "--receiver-walk", walk),
+        *("--only", "receivers", "--receivers", str(LIVING_ROOM_RECEIVERS), "--receiver-walk", walk),
         *("--photons", "20000", "--estimator", "weight", "--threads", "2"),
     )
     room = lichtmc.Room.from_gltf(LIVING_ROOM)
-    room.read_receivers(table)
+    room.read_receivers(LIVING_ROOM_RECEIVERS)
     result = lichtmc.simulate(
         room, only="receivers", receiver_walk=walk, photons=20_000, estimator="weight", threads=1
     )
@@ -160,8 +151,7 @@ def test_areas(tmp_path: Path) -> None:
     room.add_area("desk", corner=(0.8, 0.76, -1.2), u=(1.6, 0, 0), v=(0, 0, -0.8))
     room.add_working_plane(0.75, target_lx=300, target_uniformity=0.6)
     result = lichtmc.simulate(room, only="receivers", photons=20_000, estimator="weight", threads=2)
-    with (tmp_path / "out/areas.csv").open(encoding="utf-8", newline="") as lines:
-        rows = {row["area"]: row for row in csv.DictReader(lines)}
+    rows = {row["area"]: row for row in rows_of(tmp_path / "out/areas.csv")}
     assert list(rows) == list(result.areas)
     for name, row in rows.items():
         area = result.areas[name]
@@ -175,15 +165,14 @@ def test_areas(tmp_path: Path) -> None:
 
 @pytest.mark.filterwarnings("ignore::lichtmc.ResultWarning")
 def test_channels(tmp_path: Path) -> None:
-    table = ROOT / "scenes/living_room_receivers.csv"
     run_program(
         LIVING_ROOM,
         tmp_path / "out",
-        *("--receivers", str(table), "--only", "receivers", "--impulse-response", "1ns", "--time-span", "60ns"),
+        *("--receivers", str(LIVING_ROOM_RECEIVERS), "--only", "receivers", "--impulse-response", "1ns", "--time-span", "60ns"),
         *("--orders", "2", "--per-emitter", "--photons", "20000", "--estimator", "weight", "--threads", "2"),
     )
     room = lichtmc.Room.from_gltf(LIVING_ROOM)
-    room.read_receivers(table)
+    room.read_receivers(LIVING_ROOM_RECEIVERS)
     channels = lichtmc.simulate(
         room,
         only="receivers",
@@ -195,8 +184,7 @@ def test_channels(tmp_path: Path) -> None:
         estimator="weight",
         threads=1,
     ).channels
-    with (tmp_path / "out/impulse_response.csv").open(encoding="utf-8", newline="") as lines:
-        rows = list(csv.DictReader(lines))
+    rows = rows_of(tmp_path / "out/impulse_response.csv")
     place = {
         "emitter": {name: k for k, name in enumerate(channels.emitters)},
         "receiver": {name: k for k, name in enumerate(channels.receivers)},
