@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds wheels of the Python package that need nothing but glibc and numpy: the libraries that it stands on (Embree, OpenEXR,
+# Builds wheels of the Python package that need nothing but glibc and numpy: the libraries that it uses (Embree, OpenEXR,
 # HDF5, Draco ...) are put into them by auditwheel, with their licences. MPI is left out.
 #   tools/build-wheel.sh [PYTHON...]
 # The library is that of build/release; what is missing there is compiled.

@@ -75,17 +75,21 @@ def simulate(
         seed: Of the random numbers.
         threads: Number of threads; 0: one per processor.
         estimator: "collision", "weight", "absorption", or "auto": the most efficient one, by a short pilot of each.
+            With `max_bounces` or `impulse_response` give "weight": the command line then takes it by itself,
+            simulate() does not.
         engine: "auto", "cuboid", "embree" or "embree-fast".
         tile: Edge of a tile, m.
         only: "all", "tiles" or "receivers": what is measured.
         tile_walk: "forward" or "backward": photons from the emitters, or walks from the tiles.
         receiver_walk: "auto", "two-way", "next-event" or "backward".
         direct: "sampled", or "analytic": the direct light of tiles is integrated, photons score reflected light only.
-        max_bounces: Ends each history after this many flights; with the estimator "weight" only.
+        max_bounces: Ends each history after this many flights. With estimator="weight" only: others, also the default,
+            raise an InputError.
         error_floor: Irradiance (W/m² or lx) to which relative errors refer where it is darker.
         error_floor_share: The same as a share of the mean irradiance, if `error_floor` is not given.
         histories: (first, behind the last): a part of a run, for merge(). In place of `photons`.
-        impulse_response: Width of the bins, s: measures impulse responses at the receivers.
+        impulse_response: Width of the bins, s: measures impulse responses at the receivers. Give estimator="weight"
+            with it: with the default, late bins have large errors, and a warning says so.
         time_span: Of the impulse responses, s. Default: chosen from the room.
         orders: Light of 0, 1, … `orders` reflections is kept apart in the impulse responses.
         frequencies: (first, last, step) in Hz, at which the frequency response is accumulated.
