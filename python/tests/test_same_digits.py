@@ -111,6 +111,25 @@ def test_tiles(name: str, tmp_path: Path) -> None:
     assert_same_tiles(tmp_path / "out", result)
 
 
+@pytest.mark.filterwarnings("ignore::lichtmc.ResultWarning")
+def test_only_the_command_line_takes_the_estimator_weight_by_itself(tmp_path: Path) -> None:
+    room = lichtmc.Room.from_gltf(CUBE)
+    run_program(CUBE, tmp_path / "out", "--only", "tiles", "--photons", "5000", "--max-bounces", "5")
+    settings = {"only": "tiles", "photons": 5000, "max_bounces": 5}
+    assert_same_tiles(tmp_path / "out", lichtmc.simulate(room, estimator="weight", **settings))
+    with pytest.raises(lichtmc.InputError, match="only 'weight' is cut off"):
+        lichtmc.simulate(room, **settings)
+
+
+def test_impulse_responses_by_the_usual_estimator_warn() -> None:
+    room = lichtmc.Room.from_gltf(CUBE)
+    room.add_receivers([(0.5, 0.25, 0.5)], area=1e-4)
+    settings = {"only": "receivers", "photons": 2000, "impulse_response": 1e-9}
+    with pytest.warns(lichtmc.ResultWarning, match="by the estimator 'collision'.*weight"):
+        lichtmc.simulate(room, **settings)
+    assert not lichtmc.simulate(room, estimator="weight", **settings).warnings
+
+
 @pytest.mark.parametrize("walk", ["two-way", "next-event", "backward"])
 def test_receivers(walk: str, tmp_path: Path) -> None:
     run_program(
