@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 from collections.abc import Callable
 from typing import Any
@@ -37,6 +38,18 @@ def number(name: str, value: Any, meaning: str) -> float:
         except (TypeError, ValueError):
             pass
     raise InputError(f"The argument {name} is {value!r} (allowed: {meaning}). Give it as a number.")
+
+
+def share(name: str, value: Any) -> float:
+    """A number below 1, as 0.01 for 1 %: larger ones were meant in per cent. The library refuses those not above 0."""
+    meaning = "above 0 and below 1; 0.01 means 1 %"
+    given = number(name, value, meaning)
+    if 1 <= given < math.inf:
+        raise InputError(
+            f"The argument {name} is {value!r}, which means {100 * given:g} % (allowed: {meaning}). For {given:g} % give "
+            f"{name}={given / 100:g}."
+        )
+    return given
 
 
 def numbers(name: str, values: Any, length: int, meaning: str) -> tuple[float, ...]:

@@ -6,9 +6,10 @@ import warnings
 from collections.abc import Iterable
 
 from lichtmc import _core
-from lichtmc._arguments import count, number, optional
+from lichtmc._arguments import count, number, optional, share
 from lichtmc._progress import listener
 from lichtmc._simulate import OnProgress, ResultWarning, warn_of
+from lichtmc._text import end_text
 
 
 def _require_result(value: object, what: str) -> _core.Result:
@@ -32,12 +33,15 @@ def resume(
     """Continues a run: the new result has the digits of one run with these rules. The old result does not change.
 
     The first rule that is met ends the run. Without any, the run continues to its own rules: that completes a run
-    that Ctrl-C has stopped. All other settings are those of the run.
+    that Ctrl-C has stopped. All other settings are those of the run. If the result meets a rule already (fewer photons
+    than it has, or no rule for a run that was complete), the new result is the same as the old.
 
     Args:
         result: Of simulate(), resume(), merge() (without gaps) or Result.load().
-        photons: Histories in total, from the start of the run.
-        target_error: Stop at this relative standard error, above 0: 0.01 means 1 %.
+        photons: The total from the start of the run, not how many are added: after 100 000 photons, 300_000 adds
+            200 000.
+        target_error: Stop at this relative standard error, above 0 and below 1: 0.01 means 1 %. Errors are checked after
+            32 768 photons at the earliest, then each time that there are a quarter more.
         max_time: Stop after this time of the continuation, s.
         threads: Number of threads; 0: one per processor.
         progress: As for simulate().
@@ -49,12 +53,13 @@ def resume(
     _require_result(result, "The first argument of resume()")
     rules = (
         optional(count, "photons", photons, least=1),
-        optional(number, "target_error", target_error, "above 0; 0.01 means 1 %"),
+        optional(share, "target_error", target_error),
         optional(number, "max_time", max_time, "above 0, in s"),
     )
     workers = count("threads", threads, most=2**31 - 1)
-    with listener(progress, max_time=max_time) as on_progress:
-        resumed = _core.resume(result, *rules, workers, on_progress)
+    with listener(progress, max_time=max_time) as told:
+        resumed = _core.resume(result, *rules, workers, told.callback)
+        told.end(lambda: end_text(resumed))
     return warn_of(resumed, stacklevel=2)
 
 
@@ -81,8 +86,9 @@ def merge(
         )
     workers = count("threads", threads, most=2**31 - 1)
     parts = [_require_result(part, f"results[{k}]") for k, part in enumerate(results)]
-    with listener(progress) as on_progress:
-        merged, gaps = _core.merge(parts, workers, on_progress)
+    with listener(progress) as told:
+        merged, gaps = _core.merge(parts, workers, told.callback)
+        told.end(lambda: end_text(merged))
     for text in gaps:
         warnings.warn(text, ResultWarning, stacklevel=2)
     return warn_of(merged, stacklevel=2)

@@ -19,8 +19,12 @@ Isolines = bool | int | Sequence[float]
 _UP = np.array([0.0, 1.0, 0.0])
 _MOST_TEXTS = 400  # cells of an area that get their values written
 _TOP_SHARE = 0.99  # of the area, that the colour scale covers
+_BRIGHT = 10.0  # times the median: brighter tops of a scale make it logarithmic
 _DECADES = 3  # of a logarithmic scale, below its top
+_AGREES = 3.0  # standard errors
 _ALIGNED = 1e-6  # sine of an angle that only rounding explains
+# At which ends of a colour bar values lie beyond it: above, below.
+EXTEND = {(True, True): "both", (True, False): "max", (False, True): "min", (False, False): "neither"}
 
 
 # --- Where cells lie on the paper -------------------------------------------------------------------------------------
@@ -95,7 +99,7 @@ def _flat_paper(corners: Array, u: Array, v: Array, middle: Array) -> _Paper:
     return _Paper(across, upwards - upwards.min(), label, "up the surface (m)", across_falls=falls)
 
 
-def _cell_paper(rows: int, columns: int) -> _Paper:
+def cell_paper(rows: int, columns: int) -> _Paper:
     across, upwards = np.meshgrid(np.arange(columns + 1.0), np.arange(rows + 1.0))
     return _Paper(across, upwards, "column of the tile", "row of the tile", metres=False)
 
@@ -132,7 +136,7 @@ def _reached(result: _core.Result, surface: _core.SurfaceResult) -> NDArray[np.b
 def _surface_paper(result: _core.Result, surface: _core.SurfaceResult, reached: NDArray[np.bool_]) -> _Paper:
     edges = _edges_of_cells(surface.grid_position, np.where(reached, surface.grid_area, np.nan))
     if edges is None:
-        return _cell_paper(surface.rows, surface.columns)
+        return cell_paper(surface.rows, surface.columns)
     middle = np.average(result.tiles.position, axis=0, weights=result.tiles.area)
     return _flat_paper(_corners(surface.rows, surface.columns, *edges), edges[1], edges[2], middle)
 
@@ -160,9 +164,9 @@ def _norm(values: Array, weights: Array, scale: str, scale_max: float | None) ->
     """The colour scale, and at which end values lie beyond it."""
     from matplotlib.colors import LogNorm, Normalize
 
-    if scale not in ("linear", "logarithmic"):
+    if scale not in ("auto", "linear", "log"):
         raise _core.InputError(
-            f"The argument scale is {scale!r} (allowed: 'linear', 'logarithmic'). Choose one of these."
+            f"The argument scale is {scale!r} (allowed: 'auto', 'linear', 'log'). Choose one of these."
         )
     known = np.isfinite(values)
     order = np.argsort(values[known])
@@ -176,15 +180,16 @@ def _norm(values: Array, weights: Array, scale: str, scale_max: float | None) ->
             f"The argument scale_max is {scale_max!r} (allowed: a number above 0). Give the irradiance of the top colour."
         )
     above = bool(np.any(values[known] > top))
-    if scale == "linear":
+    if scale == "auto" and len(sorted_values) > 0:
+        median = float(sorted_values[np.searchsorted(shares, 0.5 * shares[-1])])
+        scale = "log" if scale_max is None and 0 < _BRIGHT * median < top else "linear"
+    if scale != "log":
         return Normalize(0.0, top), "max" if above else "neither"
     positive = sorted_values[sorted_values > 0]
     low = max(top * 10.0**-_DECADES, float(positive[0]) if len(positive) > 0 else 0.0)
     low = low if low < top else top / 10
     below = bool(np.any(values[known] < low))
-    return LogNorm(low, top), {(True, True): "both", (True, False): "max", (False, True): "min"}.get(
-        (above, below), "neither"
-    )
+    return LogNorm(low, top), EXTEND[above, below]
 
 
 def _draw_cells(ax: Any, paper: _Paper, values: Array, norm: Any, colours: str) -> Any:
@@ -203,8 +208,19 @@ def _draw_cells(ax: Any, paper: _Paper, values: Array, norm: Any, colours: str) 
     return ax.imshow(shown, extent=extent, origin="lower", norm=norm, cmap=colours, interpolation="nearest")
 
 
+def _hatch(ax: Any, paper: _Paper, cells: NDArray[np.bool_]) -> None:
+    ax.pcolor(
+        paper.across, paper.upwards, np.ma.masked_where(~cells, cells.astype(float)), facecolor="none", edgecolor="0.6",
+        hatch="////", linewidth=0,
+    )  # fmt: skip
+
+
 def _smoothed(values: Array, errors: Array) -> Array:
-    """By a Gaussian that leaves 1 % of statistical error, so that isolines show the light and not its noise."""
+    """By a Gaussian that leaves 1 % of statistical error, so that isolines show the light and not its noise.
+
+    Where it changes more than the noise of a cell, as at edges of shadows, the cell keeps its value. Values that are NaN
+    remain so, and have no influence.
+    """
     mean = float(np.nanmedian(values))
     error = float(np.nan_to_num(np.nanmedian(errors))) / mean if mean > 0 else 0.0
     widest = 2.5  # cells: wider ones would move the lines
@@ -224,7 +240,8 @@ def _smoothed(values: Array, errors: Array) -> Array:
 
     known = np.isfinite(values)
     smooth = spread(np.where(known, values, 0.0)) / np.maximum(spread(known.astype(float)), 1e-300)
-    return np.where(known, smooth, np.nan)
+    agrees = np.abs(smooth - values) <= _AGREES * np.nan_to_num(errors)
+    return np.where(agrees, smooth, values)
 
 
 def _levels(isolines: Isolines, top: float) -> Array:
@@ -291,7 +308,7 @@ def _finish(ax: Any, paper: _Paper, title: str) -> None:
     ax.set_title(title, fontsize="medium")
 
 
-def _add_colour_bar(ax: Any, paper: _Paper, image: Any, label: str, extend: str) -> None:
+def add_colour_bar(ax: Any, paper: _Paper, image: Any, label: str, extend: str) -> None:
     from matplotlib.colors import LogNorm
     from matplotlib.ticker import FuncFormatter, LogLocator
 
@@ -320,14 +337,20 @@ def _plot_grid(
     error: bool, texts: bool, isolines: Isolines, colours: str, scale: str, scale_max: float | None,
 ) -> Any:  # fmt: skip
     pyplot()
-    shown = errors if error else values
+    dark = np.zeros_like(values, dtype=bool) if error else values == 0
+    if dark.all():  # nothing else to show
+        dark = np.zeros_like(dark)
+    shown = errors if error else np.where(dark, np.nan, values)
     norm, extend = _norm(shown, weights, scale, scale_max)
     ax = _new_axes(paper) if ax is None else ax
     image = _draw_cells(ax, paper, shown, norm, colours)
+    if dark.any():
+        _hatch(ax, paper, dark)
+        title += "\nhatched: no photon arrived"
     word, unit = _unit_text(result)
     _finish(ax, paper, title)
-    _add_colour_bar(ax, paper, image, f"{'standard error' if error else word} ({unit})", extend)
-    _draw_isolines(ax, paper, shown, errors, isolines, norm.vmax)
+    add_colour_bar(ax, paper, image, f"{'standard error' if error else word} ({unit})", extend)
+    _draw_isolines(ax, paper, shown, np.zeros_like(errors) if error else errors, isolines, norm.vmax)
     if texts:
         _write_values(ax, paper, shown, image)
     return ax
@@ -335,7 +358,7 @@ def _plot_grid(
 
 def plot_surface(
     result: _core.Result, surface: str | int, ax: Any = None, *, error: bool = False, isolines: Isolines = False,
-    colours: str = "viridis", scale: str = "linear", scale_max: float | None = None,
+    colours: str = "viridis", scale: str = "auto", scale_max: float | None = None,
 ) -> Any:  # fmt: skip
     """See Result.plot_surface()."""
     pyplot()
@@ -356,7 +379,7 @@ def plot_surface(
 
 def plot_area(
     result: _core.Result, area: str | int, ax: Any = None, *, error: bool = False, values: bool = True,
-    isolines: Isolines = False, colours: str = "viridis", scale: str = "linear", scale_max: float | None = None,
+    isolines: Isolines = False, colours: str = "viridis", scale: str = "auto", scale_max: float | None = None,
 ) -> Any:  # fmt: skip
     """See Result.plot_area()."""
     pyplot()

@@ -1,7 +1,7 @@
 """Progress for people: a bar by tqdm if it is installed, else a line of text.
 
 On a terminal the line is written anew, in a notebook it is an output that changes; elsewhere, as in a file, there is a
-line every few seconds.
+line every few seconds. A last line says how a run of more than two seconds has ended.
 """
 
 from __future__ import annotations
@@ -19,11 +19,13 @@ from lichtmc import _core
 
 _LINE_INTERVAL = 5.0  # s
 _USUAL_COLUMNS = 80  # of a terminal that does not tell
+_SHORT = 2.0  # s: the end of such runs is not told
 _NO_LIMIT = 2**62  # of histories: other stop rules alone end the run
 
 
 class _Shown(Protocol):
     def __call__(self, progress: Any) -> None: ...
+    def end(self, text: str) -> None: ...
     def close(self) -> None: ...
 
 
@@ -80,6 +82,19 @@ def _text(progress: _core.Progress | _core.StudyProgress, max_time: float | None
     return ", ".join(parts)
 
 
+def repr_of(progress: _core.Progress) -> str:
+    """As "tiles: 1.2e+06 of 2e+06, 3.1 s, error 2.1 %"."""
+    if progress.stage == "preparation":
+        return f"preparation: {progress.step}"
+    parts = [f"{progress.stage}: {progress.histories:.3g}"]
+    if _is_limited(progress):
+        parts[0] += f" of {progress.target:.3g}"
+    parts.append(f"{progress.seconds:.1f} s")
+    if error := _error_text(progress):
+        parts.append(error)
+    return ", ".join(parts)
+
+
 class _Bar:
     """One bar of tqdm for each stage, removed at its end; in a notebook tqdm draws it as a widget."""
 
@@ -103,6 +118,9 @@ class _Bar:
         self._bar.total = total
         self._bar.set_postfix_str(text, refresh=False)
         self._bar.update(done - self._bar.n)
+
+    def end(self, text: str) -> None:
+        pass  # the bars remain
 
     def close(self) -> None:
         if self._bar is not None:
@@ -130,9 +148,14 @@ class _TerminalLine:
         print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
         self._drawn = True
 
+    def end(self, text: str) -> None:
+        self.close()
+        print(text, file=sys.stderr, flush=True)
+
     def close(self) -> None:
         if self._drawn:
             print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+        self._drawn = False
 
 
 class _Lines:
@@ -148,12 +171,15 @@ class _Lines:
             self._last = now
             print(_text(progress, self._max_time), file=sys.stderr, flush=True)
 
+    def end(self, text: str) -> None:
+        print(text, file=sys.stderr, flush=True)
+
     def close(self) -> None:
         pass
 
 
 class _NotebookLine:
-    """An output of a notebook's cell that changes, and is empty at the end."""
+    """An output of a notebook's cell that changes; empty after a short run."""
 
     def __init__(self, display: Callable[..., Any], max_time: float | None) -> None:
         self._display = display
@@ -169,6 +195,10 @@ class _NotebookLine:
 
     def __call__(self, progress: Any) -> None:
         self._show(_text(progress, self._max_time))
+
+    def end(self, text: str) -> None:
+        self._show(text)
+        self._handle = None
 
     def close(self) -> None:
         if self._handle is not None:
@@ -207,21 +237,35 @@ def _shown(max_time: float | None) -> _Shown:
     return _TerminalLine(max_time)
 
 
+class Listener:
+    """Where a run tells its progress."""
+
+    def __init__(self, callback: Callable[[Any], object] | None, shown: _Shown | None = None) -> None:
+        self.callback = callback
+        self._shown = shown
+        self._began = time.monotonic()
+
+    def end(self, text: Callable[[], str]) -> None:
+        """Tells how the run has ended, if it was not a short one."""
+        if self._shown is not None and time.monotonic() - self._began > _SHORT:
+            self._shown.end(text())
+
+
 @contextmanager
 def listener(
     progress: bool | Callable[[Any], object] | None, *, max_time: float | None = None
-) -> Iterator[Callable[[Any], object] | None]:
-    """The callback that `progress` (of simulate() and its like) asks for, or None. max_time: of the run, s."""
+) -> Iterator[Listener]:
+    """What `progress` (of simulate() and its like) asks for. max_time: of the run, s."""
     if progress is None or progress is False:
-        yield None
+        yield Listener(None)
     elif progress is True:
         shown = _shown(max_time)
         try:
-            yield shown
+            yield Listener(shown, shown)
         finally:
             shown.close()
     elif callable(progress):
-        yield progress
+        yield Listener(progress)
     else:
         raise _core.InputError(
             f"The argument progress is of type {type(progress).__name__} (allowed: True, False, None, or a function "

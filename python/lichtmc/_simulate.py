@@ -7,8 +7,9 @@ from collections.abc import Callable
 from typing import Literal
 
 from lichtmc import _core
-from lichtmc._arguments import count, flag, histories_of, number, numbers, optional, word
+from lichtmc._arguments import count, flag, histories_of, number, numbers, optional, share, word
 from lichtmc._progress import listener
+from lichtmc._text import end_text
 
 Estimator = Literal["collision", "weight", "absorption", "auto"]
 Engine = Literal["auto", "cuboid", "embree", "embree-fast"]
@@ -69,7 +70,7 @@ def simulate(
         room: The room. The result keeps it as it is now.
         photons: Histories to simulate, 1 or more: for the tiles, and the same number for all receivers together.
             Default: a million if there is no other stop rule, else no limit.
-        target_error: Stop at this relative standard error, above 0: 0.01 means 1 %. Of tiles: the rms, weighted by
+        target_error: Stop at this relative standard error, above 0 and below 1: 0.01 means 1 %. Of tiles: the rms, weighted by
             area; of receivers: the rms.
         max_time: Stop after this time, s.
         seed: Of the random numbers.
@@ -96,7 +97,8 @@ def simulate(
         squared_weights: Adds the rms delay spread with the weights h².
         per_emitter: Keeps the part of each emitter apart: at receivers and areas, or in the impulse responses.
         progress: True: a progress bar (by tqdm if it is installed). Or a function that is called with a Progress
-            some times a second, in the calling thread; an exception from it ends the run and is raised.
+            some times a second, in the calling thread; an exception from it ends the run and is raised. With True,
+            a run of more than two seconds says how it ended, also where there is no terminal.
 
     Raises:
         InputError: The room or an argument is not valid.
@@ -109,7 +111,7 @@ def simulate(
         )
     settings = _core.make_settings(
         photons=optional(count, "photons", photons, least=1),
-        target_error=optional(number, "target_error", target_error, "above 0; 0.01 means 1 %"),
+        target_error=optional(share, "target_error", target_error),
         max_time=optional(number, "max_time", max_time, "above 0, in s"),
         seed=count("seed", seed),
         threads=count("threads", threads, most=2**31 - 1),
@@ -131,6 +133,7 @@ def simulate(
         squared_weights=flag("squared_weights", squared_weights),
         per_emitter=flag("per_emitter", per_emitter),
     )
-    with listener(progress, max_time=max_time) as on_progress:
-        result = _core.simulate(room, settings, on_progress)
+    with listener(progress, max_time=max_time) as told:
+        result = _core.simulate(room, settings, told.callback)
+        told.end(lambda: end_text(result))
     return warn_of(result, stacklevel=2)

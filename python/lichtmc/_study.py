@@ -49,5 +49,7 @@ def study(
         count("seed", seed),
         count("threads", threads, most=2**31 - 1),
     )
-    with listener(progress) as on_progress:
-        return _core.study(room, *arguments, on_progress)
+    with listener(progress) as told:
+        found = _core.study(room, *arguments, told.callback)
+        told.end(lambda: str(found))
+    return found

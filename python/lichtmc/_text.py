@@ -52,6 +52,16 @@ def _receiver_lines(result: _core.Result, unit: str) -> list[str]:
     return _table(rows)
 
 
+def end_text(result: _core.Result) -> str:
+    """How a run has ended, a line for each of its walks."""
+    walks = []
+    if result.walk is not None:
+        walks.append(_walk_text(result.walk, _count(len(result.tiles), "tile")))
+    if result.receiver_walk is not None:
+        walks.append(_walk_text(result.receiver_walk, _count(len(result.receivers), "receiver")))
+    return "\n".join(walks)
+
+
 def result_text(result: _core.Result) -> str:
     """The most important figures of a result, some lines."""
     unit = "W/m²" if result.unit == "W" else "lx"

@@ -102,6 +102,10 @@ struct SealedState {
 SealedState state_in(const fs::path& folder) {
   const fs::path file = folder / "state.h5";
   std::error_code unknown;
+  if (!fs::exists(folder, unknown))
+    throw InputError("The folder " + folder.string() +
+                     " does not exist (allowed: the folder of a result that Result.write() or `lichtmc run` has "
+                     "written). Correct the path.");
   if (!fs::exists(file, unknown))
     throw InputError("The folder " + folder.string() +
                      " contains no state.h5 (allowed: the folder of a result that Result.write() or `lichtmc run` has "
@@ -158,7 +162,7 @@ void bind_files(nb::module_& module) {
         options.files.tile_images = images;
         ReportOptions& page = options.page;
         page.style = of_word<ReportStyle>("report_style", report_style,
-                                          {{"automatic", ReportStyle::automatic},
+                                          {{"auto", ReportStyle::automatic},
                                            {"lighting", ReportStyle::lighting},
                                            {"technical", ReportStyle::technical}});
         page.project = project;
@@ -166,10 +170,9 @@ void bind_files(nb::module_& module) {
         page.date = date;
         page.scale.colours =
             of_word<ColourMap>("colours", colours, {{"viridis", ColourMap::viridis}, {"inferno", ColourMap::inferno}});
-        page.scale.type = of_word<ScaleType>("scale", scale,
-                                             {{"automatic", ScaleType::automatic},
-                                              {"linear", ScaleType::linear},
-                                              {"logarithmic", ScaleType::logarithmic}});
+        page.scale.type = of_word<ScaleType>(
+            "scale", scale,
+            {{"auto", ScaleType::automatic}, {"linear", ScaleType::linear}, {"log", ScaleType::logarithmic}});
         page.scale.high = scale_max;
         page.tile_images = images;
         page.paths = paths;
@@ -178,8 +181,8 @@ void bind_files(nb::module_& module) {
         write_files(run, folder, std::move(options));
       },
       nb::arg("folder"), nb::kw_only(), nb::arg("report") = true, nb::arg("images") = true,
-      nb::arg("report_style") = "automatic", nb::arg("project") = "", nb::arg("author") = "", nb::arg("date") = "",
-      nb::arg("colours") = "viridis", nb::arg("scale") = "automatic", nb::arg("scale_max").none() = nb::none(),
+      nb::arg("report_style") = "auto", nb::arg("project") = "", nb::arg("author") = "", nb::arg("date") = "",
+      nb::arg("colours") = "viridis", nb::arg("scale") = "auto", nb::arg("scale_max").none() = nb::none(),
       nb::arg("paths") = 0,
       R"(Writes the files that `lichtmc run` writes into a folder: tables, state.h5, a report; docs/results.md lists them.
 
@@ -191,12 +194,12 @@ Args:
     folder: The folder.
     report: Whether report.html, room_lit.glb and pictures are written too.
     images: Whether the tiles are written as OpenEXR images too.
-    report_style: "lighting" (pages for a client), "technical", or "automatic": lighting if there are areas.
+    report_style: "lighting" (pages for a client), "technical", or "auto": lighting if there are areas.
     project: Words for the title of lighting pages.
     author: The same.
     date: The same.
     colours: "viridis" or "inferno".
-    scale: "linear", "logarithmic", or "automatic": logarithmic if few tiles are far brighter than the others.
+    scale: "linear", "log" (logarithmic), or "auto": logarithmic if few tiles are far brighter than the others.
     scale_max: Irradiance of the top colour, W/m² or lx. Default: chosen from the tiles.
     paths: Number of photon paths in the report, 0 to 10 000.
 

@@ -45,7 +45,7 @@ DrawnPicturePtr render(const RunResultPtr& run, nb::handle view_name, nb::handle
   options.colours = named("colours", text_of(colours, "argument colours"), {ColourMap::viridis, ColourMap::inferno});
   options.type = named<ScaleType>(
       "scale", text_of(scale_type, "argument scale"),
-      {{"automatic", ScaleType::automatic}, {"linear", ScaleType::linear}, {"logarithmic", ScaleType::logarithmic}});
+      {{"auto", ScaleType::automatic}, {"linear", ScaleType::linear}, {"log", ScaleType::logarithmic}});
   options.high = optional_number(scale_max, "argument scale_max");
   const std::int64_t columns = whole_number_of(width, "width of the picture in pixels", least_size, greatest_size);
   const std::int64_t rows = whole_number_of(height, "height of the picture in pixels", least_size, greatest_size);
@@ -125,6 +125,26 @@ void bind_picture(nb::module_& module) {
           nb::sig("def __array__(self, dtype: typing.Any = None, copy: bool | None = None) -> "
                   "numpy.typing.NDArray[typing.Any]"),
           "The pixels, see rgba.")
+      .def_prop_ro(
+          "irradiance_unit", [](const DrawnPicture& drawn) { return irradiance_unit(drawn.run->room->room.quantity); },
+          "'lx' or 'W/m^2': of irradiance, low and high.")
+      .def(
+          "save",
+          [](nb::object picture, nb::object path) {
+            nb::module_::import_("lichtmc._pictures").attr("save")(picture, path);
+          },
+          nb::arg("path").none(), nb::sig("def save(self, path: str | os.PathLike[str]) -> None"),
+          "Writes the picture into a file: .png, the pixels with their opacity; or .svg, with title and colour "
+          "scale.\n\nA file that exists is replaced when the new one is complete. Raises InputError if the name ends "
+          "otherwise, RuntimeError if the file cannot be written.")
+      .def(
+          "plot",
+          [](nb::object picture, nb::object ax) {
+            return nb::module_::import_("lichtmc._plot").attr("plot_picture")(picture, ax);
+          },
+          nb::arg("ax").none() = nb::none(), nb::sig("def plot(self, ax: typing.Any = None) -> typing.Any"),
+          "Shows the picture with a colour bar and its unit; returns the Axes of matplotlib (pip install "
+          "\"lichtmc[plot]\"). ax: Axes to draw into; by default of a new figure.")
       .def("_repr_png_", &png_bytes, "The pixels as a PNG file.")
       .def("_repr_svg_", &svg_text, "See svg.")
       .def("__repr__", [](const DrawnPicture& drawn) {
@@ -149,45 +169,49 @@ void bind_plot(nb::class_<RunResult>& of, const char* name, const Extra&... extr
 void bind_pictures(nb::module_& module) {
   bind_picture(module);
   auto result = nb::borrow<nb::class_<RunResult>>(nb::type<RunResult>());
-  result.def("render", &render, nb::arg("view").none() = "corner", nb::kw_only(), nb::arg("width").none() = 960,
-             nb::arg("height").none() = 720, nb::arg("colours").none() = "viridis",
-             nb::arg("scale").none() = "automatic", nb::arg("scale_max").none() = nb::none(),
-             nb::arg("threads").none() = 0,
-             nb::sig("def render(self, view: str = 'corner', *, width: int = 960, height: int = 720, colours: str = "
-                     "'viridis', scale: str = 'automatic', scale_max: float | None = None, threads: int = 0) -> "
-                     "Picture"),
-             "Draws the room in false colour; grey if its tiles were not measured.\n\n"
-             "view: 'corner', oblique from above, or 'above', a plan. width, height: pixels, 16 … 16384. colours: "
-             "'viridis' or 'inferno'. scale: 'automatic', 'linear' or 'logarithmic'; scale_max: W/m² or lx at its top, "
-             "by default a round number that 98 % of the lit area do not exceed. threads: 0: one per processor.");
+  result.def(
+      "render", &render, nb::arg("view").none() = "corner", nb::kw_only(), nb::arg("width").none() = 960,
+      nb::arg("height").none() = 720, nb::arg("colours").none() = "viridis", nb::arg("scale").none() = "auto",
+      nb::arg("scale_max").none() = nb::none(), nb::arg("threads").none() = 0,
+      nb::sig("def render(self, view: str = 'corner', *, width: int = 960, height: int = 720, colours: str = "
+              "'viridis', scale: str = 'auto', scale_max: float | None = None, threads: int = 0) -> "
+              "Picture"),
+      "Draws the room in false colour; grey if its tiles were not measured.\n\nview: 'corner', oblique from above, or "
+      "'above', a plan. width, height: pixels, 16 … 16384. colours: 'viridis' or 'inferno'. scale: 'linear', 'log' "
+      "(logarithmic), or 'auto': 'log' if the brightest tiles have more than 10 times the median; scale_max: W/m² or "
+      "lx at its top, by default a round number that 98 % of the lit area do not exceed. threads: 0: one per "
+      "processor.");
   bind_plot(
       result, "plot_surface",
       nb::sig("def plot_surface(self, surface: str | int, ax: typing.Any = None, *, error: bool = False, "
               "isolines: bool | int | collections.abc.Sequence[float] = False, colours: str = 'viridis', "
-              "scale: str = 'linear', scale_max: float | None = None) -> typing.Any"),
-      "Plots the irradiance of a surface; returns the Axes of matplotlib (pip install \"lichtmc[plot]\").\n\n"
-      "surface: name or number, see surfaces. ax: Axes to draw into; by default of a new figure. error: plots "
-      "the standard error instead. isolines: True, how many, or their values; they are smoothed by up to 2.5 tiles, by "
-      "the size of the errors. scale: 'linear' or 'logarithmic'; scale_max: W/m² or lx at the top of the colours, by "
-      "default what 99 % of the area do not exceed. A flat surface is drawn to scale, its axes in m: level ones from "
-      "above, walls from the middle of the room; others by column and row of their tiles. Cells without a tile, and "
-      "tiles that light cannot reach, are white.");
+              "scale: str = 'auto', scale_max: float | None = None) -> typing.Any"),
+      "Plots the irradiance of a surface; returns the Axes of matplotlib (pip install \"lichtmc[plot]\").\n\nsurface: "
+      "name or number, see surfaces. ax: Axes to draw into; by default of a new figure. error: plots the standard "
+      "error instead. isolines: True, how many, or their values (W/m² or lx); for them the noise is smoothed over up "
+      "to 2.5 tiles, but only where this changes the value of a tile by less than three standard errors: at edges of "
+      "shadows the lines follow the tiles. scale: 'linear', 'log' (logarithmic), or 'auto', as in render(); "
+      "scale_max: W/m² or lx at the top of the colours, by default what 99 % of the area do not exceed. A flat "
+      "surface is drawn to scale, its axes in m: level ones from above, walls from the middle of the room; others by "
+      "column and row of their tiles. Cells without a tile, and tiles that light cannot reach, are white. Tiles where "
+      "no photon arrived, as under a carpet, are hatched.");
   bind_plot(result, "plot_area",
             nb::sig("def plot_area(self, area: str | int, ax: typing.Any = None, *, error: bool = False, "
                     "values: bool = True, isolines: bool | int | collections.abc.Sequence[float] = False, "
-                    "colours: str = 'viridis', scale: str = 'linear', scale_max: float | None = None) -> typing.Any"),
+                    "colours: str = 'viridis', scale: str = 'auto', scale_max: float | None = None) -> typing.Any"),
             "Plots the grid of a calculation area; returns the Axes of matplotlib (pip install \"lichtmc[plot]\").\n\n"
             "area: name or number, see areas. values: writes the value of each point into its cell, if the grid has at "
             "most 400 cells. The other arguments are those of plot_surface().");
   bind_plot(
       result, "plot_channel",
       nb::sig("def plot_channel(self, emitter: int | str = 0, receiver: int | str = 0, ax: typing.Any = None, *, "
-              "stacked: bool = True, log: bool = False, errors: bool = True, unit: str = 'ns') -> typing.Any"),
+              "stacked: bool = True, log: bool | None = None, errors: bool = True, unit: str = 'ns') -> typing.Any"),
       "Plots an impulse response h(t) by order of reflection; returns the Axes of matplotlib (pip install "
-      "\"lichtmc[plot]\").\n\n"
-      "emitter, receiver: number or name, see channels. stacked: areas that add up to h(t); otherwise lines. log: "
-      "logarithmic h axis (then lines). errors: shows ± one standard error of the sum. unit: of the times, 'ns', "
-      "'us', 'ms' or 's'.");
+      "\"lichtmc[plot]\").\n\nemitter, receiver: number or name, see channels. stacked: areas that add up to h(t); "
+      "otherwise lines. log: logarithmic h axis, with a line for the sum and each order; by default if most of the "
+      "time axis would be empty on a linear one. errors: shows ± one standard error of the sum. unit: of the times, "
+      "'ns', 'us', 'ms' or 's'. Where the standard error of the sum is more than 20 %, up to a 20th of the bins are "
+      "shown together, as their mean; its standard error is drawn as if they were independent.");
 }
 
 }  // namespace lichtmc::python

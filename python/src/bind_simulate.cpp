@@ -80,7 +80,10 @@ void bind_simulate(nb::module_& module) {
           "Relative standard error at the last error check; NaN before the first.")
       .def_prop_ro(
           "seconds_to_target", [](const ProgressReport& r) { return r.progress.seconds_to_target; },
-          "Forecast of the time until target_error is met, s; NaN if there is none.");
+          "Forecast of the time until target_error is met, s; NaN if there is none.")
+      .def("__repr__", [](nb::object progress) {
+        return nb::cast<std::string>(nb::module_::import_("lichtmc._progress").attr("repr_of")(progress));
+      });
   module.def(
       "simulate",
       [](SharedRoom& room, const Settings& settings, nb::object progress) {

@@ -27,6 +27,19 @@ def test_resume_to_an_error():
     assert same_tiles(more, lichtmc.simulate(cube(), target_error=0.05, tile=0.5))
 
 
+def test_resume_to_fewer_photons_gives_the_result():
+    first = lichtmc.simulate(cube(), photons=5000, tile=0.5)
+    assert same_tiles(lichtmc.resume(first, photons=2048), first)
+
+
+def test_a_target_error_in_per_cent_is_refused():
+    message = r"target_error is 2, which means 200 % .*For 2 % give target_error=0\.02"
+    with pytest.raises(lichtmc.InputError, match=message):
+        lichtmc.simulate(cube(), target_error=2)
+    with pytest.raises(lichtmc.InputError, match=message):
+        lichtmc.resume(lichtmc.simulate(cube(), photons=5000, tile=0.5), target_error=2)
+
+
 def test_resume_keeps_other_settings():
     first = lichtmc.simulate(cube(), photons=5000, tile=0.5, seed=7, estimator="weight")
     assert same_tiles(

@@ -171,9 +171,9 @@ def test_folders_that_cannot_be_used(result, tmp_path):
         result.write(tmp_path / "file")
     with pytest.raises(lichtmc.InputError, match="no state.h5"):
         lichtmc.Result.load(tmp_path)
-    with pytest.raises(lichtmc.InputError, match="no state.h5"):
+    with pytest.raises(lichtmc.InputError, match="missing does not exist"):
         lichtmc.Result.load(tmp_path / "missing")
-    for argument in ({"report_style": "nice"}, {"colours": "jet"}, {"scale": "log"}):
+    for argument in ({"report_style": "nice"}, {"colours": "jet"}, {"scale": "logarithmic"}):
         with pytest.raises(lichtmc.InputError, match="allowed: "):
             result.write(tmp_path / "out", **argument)
     assert not (tmp_path / "out").exists()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import struct
 import zlib
+from pathlib import Path
 
 import lichtmc
 import numpy as np
@@ -27,7 +28,7 @@ def test_pixels() -> None:
 
 def test_a_plan_shows_the_floor() -> None:
     result = rooms.box_result()
-    picture = result.render("above", width=600, height=400, colours="inferno", scale="logarithmic", scale_max=1000)
+    picture = result.render("above", width=600, height=400, colours="inferno", scale="log", scale_max=1000)
     assert (picture.view, picture.colours, picture.logarithmic, picture.high) == ("above", "inferno", True, 1000)
     inside = picture.irradiance[np.isfinite(picture.irradiance)]
     assert np.mean(inside) == pytest.approx(result.surfaces["floor"].mean, rel=0.05)
@@ -58,6 +59,31 @@ def test_a_notebook_gets_png_and_svg() -> None:
     assert svg == picture.svg and svg.lstrip().startswith("<") and "Illuminance" in svg and "lx" in svg
 
 
+def test_files(tmp_path: Path) -> None:
+    picture = rooms.box_result().render(width=64, height=48)
+    assert picture.irradiance_unit == "lx"
+    (tmp_path / "room.png").write_bytes(b"old")
+    picture.save(tmp_path / "room.png")
+    picture.save(str(tmp_path / "room.SVG"))
+    assert (tmp_path / "room.png").read_bytes() == picture._repr_png_()
+    assert (tmp_path / "room.SVG").read_text(encoding="utf-8") == picture.svg
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["room.SVG", "room.png"]
+    (tmp_path / "other").touch()
+    assert (tmp_path / "room.png").stat().st_mode == (tmp_path / "other").stat().st_mode
+    with pytest.raises(lichtmc.InputError, match=r"'room.jpg' .allowed: .*\.png or \.svg"):
+        picture.save("room.jpg")
+    with pytest.raises(lichtmc.InputError, match="path is 3"):
+        picture.save(3)
+    with pytest.raises(lichtmc.InputError, match="path is None"):
+        picture.save(None)
+    with pytest.raises(lichtmc.RuntimeError, match="No such file or directory"):
+        picture.save(tmp_path / "none" / "room.png")
+    (tmp_path / "folder.png").mkdir()
+    with pytest.raises(lichtmc.RuntimeError, match="folder.png cannot be written"):
+        picture.save(tmp_path / "folder.png")
+    assert not list(tmp_path.glob(".*"))
+
+
 def test_without_tiles_a_picture_is_grey() -> None:
     picture = rooms.box_with_parts().render(width=64, height=48)
     opaque = picture.rgba[picture.rgba[..., 3] == 255].astype(int)
@@ -74,7 +100,7 @@ def test_without_tiles_a_picture_is_grey() -> None:
         ({"height": "tall"}, "height of the picture in pixels is 'tall'"),
         ({"threads": -1}, "number of threads is -1"),
         ({"colours": "jet"}, "colours is 'jet' .allowed: 'viridis', 'inferno'"),
-        ({"scale": "log"}, "scale is 'log' .allowed: 'automatic', 'linear', 'logarithmic'"),
+        ({"scale": "logarithmic"}, "scale is 'logarithmic' .allowed: 'auto', 'linear', 'log'"),
         ({"scale_max": 0.0}, "0"),
     ],
 )

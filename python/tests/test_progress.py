@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pty
+import re
 import subprocess
 import sys
 import termios
@@ -12,7 +13,7 @@ from types import SimpleNamespace
 import lichtmc
 import pytest
 from lichtmc import _progress
-from rooms import ENVIRONMENT, SCENES, cube
+from rooms import ENVIRONMENT, SCENES, cube, living_room
 
 RUN = f"""
 import lichtmc
@@ -125,3 +126,42 @@ def test_no_progress_prints_nothing(capfd):
         lichtmc.simulate(cube(), photons=5000, tile=0.5, progress=progress)
     captured = capfd.readouterr()
     assert captured.out == captured.err == ""
+
+
+def test_progress_is_readable() -> None:
+    seen: list[str] = []
+    lichtmc.simulate(living_room(), photons=300_000, progress=lambda p: seen.append(repr(p)))
+    assert any(text.startswith("preparation: ") for text in seen)
+    pattern = r"tiles: [0-9.e+]+ of 3e\+05, \d+\.\d s(, error [0-9.e+]+ %)?"
+    walks = [text for text in seen if text.startswith("tiles: ")]
+    assert walks and all(re.fullmatch(pattern, text) for text in walks)
+
+
+def test_without_a_limit_there_is_none_in_the_text() -> None:
+    seen: list[str] = []
+    lichtmc.simulate(living_room(), target_error=0.5, progress=lambda p: seen.append(repr(p)))
+    walks = [text for text in seen if text.startswith("tiles: ")]
+    assert walks and not any(" of " in text for text in walks)
+
+
+def printed(max_time: float) -> str:
+    program = f"""
+import lichtmc
+room = lichtmc.Room.from_gltf({str(SCENES / "cube_paper.gltf")!r})
+result = lichtmc.simulate(room, max_time={max_time}, progress=True)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], env=ENVIRONMENT, check=True, capture_output=True, text=True, timeout=120
+    )
+    assert done.stdout == ""
+    return done.stderr
+
+
+def test_the_end_of_a_run_is_told_in_a_file() -> None:
+    lines = printed(max_time=2.2).splitlines()
+    assert re.fullmatch(
+        r"[\d ]+ tiles: rms relative standard error [0-9.e-]+ % after [\d ]+ histories \(collision, 2\.\d s, ended by "
+        r"max-time\)",
+        lines[-1],
+    ), lines
+    assert printed(max_time=0.1) == ""
