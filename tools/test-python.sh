@@ -68,6 +68,6 @@ check "python -m lichtmc is the command line" "$venv/bin/python" -m lichtmc --ve
 awk '/^```python$/ && !done {on=1; next} /^```$/ && on {on=0; done=1} on' README.md >build/python/example.py
 check "the example of README.md is correct by the stubs" "$venv/bin/mypy" --strict --cache-dir build/python/mypy build/python/example.py
 rm -rf build/python/api
-check "the pages of the interface in build/python/api" "$venv/bin/python" -m pdoc --docformat restructuredtext -o build/python/api lichtmc
+check "the pages of the interface in build/python/api" "$venv/bin/python" tools/python_pages.py build/python/api
 echo "$passed passed, $failed failed"
 [ "$status" -eq 0 ] && [ "$failed" -eq 0 ]

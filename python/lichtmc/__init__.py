@@ -8,6 +8,7 @@ Units are m, s, W or lm, W/m² or lx. Points and directions have glTF's axes, Y 
 
 from __future__ import annotations
 
+from lichtmc import _core
 from lichtmc._compare import compare
 from lichtmc._continue import merge, resume
 from lichtmc._core import (
@@ -44,7 +45,6 @@ from lichtmc._core import (
     Room,
     RoomReceivers,
     RoomWarning,
-    RuntimeError,
     Scene,
     Settings,
     Spot,
@@ -61,6 +61,9 @@ from lichtmc._core import (
 from lichtmc._simulate import ResultWarning, simulate
 from lichtmc._study import study
 
+RuntimeError = _core.RuntimeError
+
+# Without RuntimeError: `from lichtmc import *` would put it in place of Python's own.
 __all__ = [
     "Advice",
     "Area",
@@ -96,7 +99,6 @@ __all__ = [
     "Room",
     "RoomReceivers",
     "RoomWarning",
-    "RuntimeError",
     "Scene",
     "Settings",
     "Spot",

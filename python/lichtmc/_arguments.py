@@ -35,7 +35,7 @@ def number(name: str, value: Any, meaning: str) -> float:
     if not isinstance(value, (str, bytes, bool)):
         try:
             return float(value)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             pass
     raise InputError(f"The argument {name} is {value!r} (allowed: {meaning}). Give it as a number.")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
 from lichtmc import _core
@@ -9,4 +10,4 @@ from lichtmc import _core
 
 def main() -> int:
     """Runs the program with the words of the command line; returns its exit status."""
-    return _core.run_command_line(["lichtmc", *sys.argv[1:]])
+    return _core.run_command_line([b"lichtmc", *map(os.fsencode, sys.argv[1:])])

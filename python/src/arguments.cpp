@@ -4,6 +4,7 @@
 #include <nanobind/stl/string.h>
 
 #include <cmath>
+#include <limits>
 
 #include "lichtmc/error.hpp"
 #include "vectors.hpp"
@@ -22,7 +23,30 @@ bool is_flag(nb::handle value) {
   return nb::isinstance<nb::bool_>(value) || type_of(value).starts_with("numpy.bool");
 }
 
+// The value as Python's int; invalid: it is no whole number.
+nb::object integer_of(nb::handle value) {
+  if (is_flag(value)) return {};
+  const bool is_whole_float =
+      nb::isinstance<nb::float_>(value) && std::trunc(nb::cast<double>(value)) == nb::cast<double>(value);
+  nb::object integer = nb::steal(is_whole_float ? PyNumber_Long(value.ptr()) : PyNumber_Index(value.ptr()));
+  if (!integer.is_valid()) clear_error_of_value();
+  return integer;
+}
+
 }  // namespace
+
+bool tells_of_value(const nb::python_error& error) {
+  for (PyObject* kind : {PyExc_TypeError, PyExc_ValueError, PyExc_OverflowError, PyExc_BufferError}) {
+    if (error.matches(kind)) return true;
+  }
+  return false;
+}
+
+void clear_error_of_value() {
+  if (PyErr_Occurred() == nullptr) return;
+  const nb::python_error error;
+  if (!tells_of_value(error)) throw error;
+}
 
 std::string shown(nb::handle value) {
   constexpr std::size_t longest = 80;  // bytes
@@ -37,10 +61,23 @@ void refuse_value(const std::string& what, nb::handle value, const std::string& 
   throw InputError("The " + what + " is " + shown(value) + " (allowed: " + allowed + "). " + remedy);
 }
 
+nb::object text_of_file_name(const std::string& name) {
+  nb::object text = nb::steal(PyUnicode_DecodeFSDefaultAndSize(name.data(), static_cast<Py_ssize_t>(name.size())));
+  if (!text.is_valid()) throw nb::python_error();
+  return text;
+}
+
+std::string readable(const std::string& text) {
+  const nb::object decoded =
+      nb::steal(PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "backslashreplace"));
+  if (!decoded.is_valid()) throw nb::python_error();
+  return nb::cast<std::string>(decoded);
+}
+
 double number_of(nb::handle value, const std::string& what, const char* example) {
   const double number = is_flag(value) ? 0.0 : PyFloat_AsDouble(value.ptr());
   if (!is_flag(value) && PyErr_Occurred() == nullptr) return number;
-  PyErr_Clear();
+  clear_error_of_value();
   refuse_value(what, value, "a number", std::string("Give a number, for example ") + example + ".");
 }
 
@@ -50,15 +87,21 @@ std::optional<double> optional_number(nb::handle value, const std::string& what)
 }
 
 std::int64_t whole_number_of(nb::handle value, const std::string& what, std::int64_t least, std::int64_t most) {
-  const nb::object integer =
-      nb::isinstance<nb::float_>(value) && std::trunc(nb::cast<double>(value)) == nb::cast<double>(value)
-          ? nb::steal(PyNumber_Long(value.ptr()))  // such as 1e6
-          : nb::steal(PyNumber_Index(value.ptr()));
+  const nb::object integer = integer_of(value);
   const long long number = integer.is_valid() ? PyLong_AsLongLong(integer.ptr()) : 0;
-  const bool whole = PyErr_Occurred() == nullptr && !is_flag(value);
-  PyErr_Clear();
+  const bool whole = integer.is_valid() && PyErr_Occurred() == nullptr;
+  clear_error_of_value();
   if (whole && number >= least && number <= most) return number;
   refuse_value(what, value, "a whole number, " + std::to_string(least) + " to " + std::to_string(most),
+               "Give such a number.");
+}
+
+std::uint64_t seed_of(nb::handle value) {
+  const nb::object integer = integer_of(value);
+  const unsigned long long seed = integer.is_valid() ? PyLong_AsUnsignedLongLong(integer.ptr()) : 0;
+  if (integer.is_valid() && PyErr_Occurred() == nullptr) return seed;
+  clear_error_of_value();
+  refuse_value("seed", value, "a whole number, 0 to " + std::to_string(std::numeric_limits<std::uint64_t>::max()),
                "Give such a number.");
 }
 
@@ -81,7 +124,7 @@ std::vector<std::string> texts_of(nb::handle value, const std::string& what) {
   if (nb::isinstance<nb::str>(value)) return {text_of(value, what)};
   const nb::object items = nb::steal(PyObject_GetIter(value.ptr()));
   if (!items.is_valid()) {
-    PyErr_Clear();
+    clear_error_of_value();
     refuse_value(what, value, "texts, as a list or tuple", "Give a list of str.");
   }
   std::vector<std::string> texts;
@@ -102,8 +145,11 @@ bool flag_of(nb::handle value, const std::string& what) {
 std::filesystem::path path_of(nb::handle value, const std::string& what) {
   std::filesystem::path path;
   const bool is_content = nb::isinstance<nb::bytes>(value);
-  if (!is_content && nb::try_cast(value, path)) return path;
-  PyErr_Clear();
+  if (!is_content) {
+    const nb::object name = nb::steal(PyOS_FSPath(value.ptr()));
+    if (name.is_valid() && nb::try_cast(name, path)) return path;
+    clear_error_of_value();
+  }
   refuse_value(
       what, value, "the name of a file, as str or pathlib.Path",
       is_content ? "For the content of a file in memory there are from_bytes() and from_text()." : "Give such a name.");
@@ -125,7 +171,8 @@ WholeArray whole_numbers_of(nb::handle value, const std::string& what) {
     const auto kind = nb::cast<std::string>(array.attr("dtype").attr("kind"));
     if (kind == "i" || kind == "u") return nb::cast<WholeArray>(numpy.attr("ascontiguousarray")(array, "int64"));
     type = nb::cast<std::string>(array.attr("dtype").attr("name"));
-  } catch (const nb::python_error&) {
+  } catch (const nb::python_error& error) {
+    if (!tells_of_value(error)) throw;
   } catch (const nb::cast_error&) {
   }
   throw InputError("The type of the " + what + " is " + type +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <stop_token>
 
 #include "shared_room.hpp"
@@ -23,7 +24,8 @@ Outcome aside(const std::function<Outcome()>& work) {
 void change_aside(SharedRoom& room, const std::function<void(Room&)>& change);
 
 // The room with the areas of its file laid out: when they are first needed, because the emitters that are added after
-// reading tell which rooms are lit.
-const SharedRoom& with_areas(SharedRoom& room);
+// reading tell which rooms are lit. If another thread changes the room meanwhile, it is the room as it was before, or
+// the one in which that thread has laid them out.
+std::shared_ptr<const KeptRoom> with_areas(SharedRoom& room);
 
 }  // namespace lichtmc::python

@@ -11,7 +11,6 @@
 #include "aside.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/inspect.hpp"
-#include "lichtmc/lay_areas.hpp"
 #include "room_parts.hpp"
 
 namespace lichtmc::python {
@@ -49,18 +48,18 @@ std::vector<Finding> of_severity(const InspectionOfRoom& of, Severity severity) 
   return chosen;
 }
 
-// The areas of the file as far as they can be laid out: what is wrong with them, the inspection says.
-void lay_areas_if_possible(SharedRoom& room) {
+// The room, with the areas of its file if they can be laid out: what is wrong with them, the inspection says.
+KeptRoomPtr with_possible_areas(SharedRoom& room) {
   try {
-    with_areas(room);
+    return with_areas(room);
   } catch (const InputError&) {
+    return room.kept();
   }
 }
 
 InspectionOfRoom check(SharedRoom& room, nb::handle tile) {
   const double tile_edge_m = number_of(tile, "edge of a tile");
-  lay_areas_if_possible(room);
-  const auto kept = room.kept();
+  const auto kept = with_possible_areas(room);
   auto facts = aside<std::shared_ptr<const Inspection>>(
       [&] { return std::make_shared<const Inspection>(inspect(kept->room, tile_edge_m, kept->prepared(0))); });
   return {kept, std::move(facts)};
@@ -77,9 +76,9 @@ std::string text_of(const InspectionOfRoom& of) {
       nb::str(
           "{}\n  Size      {:.4g} x {:.4g} x {:.4g} m (x, height y, z)\n  Meshes    {} triangles in {} surfaces, {} "
           "tiles\n  Shape     {}{}, {}\n")
-          .attr("format")(of.kept->room.source, size.x, size.y, size.z, facts.triangles, facts.surfaces.size(),
-                          facts.tiles, facts.cuboid ? "empty cuboid, " : "", facts.convex ? "convex" : "not convex",
-                          facts.closed ? "closed" : "not closed");
+          .attr("format")(readable(of.kept->room.source), size.x, size.y, size.z, facts.triangles,
+                          facts.surfaces.size(), facts.tiles, facts.cuboid ? "empty cuboid, " : "",
+                          facts.convex ? "convex" : "not convex", facts.closed ? "closed" : "not closed");
   std::string text = nb::cast<std::string>(head);
   for (const Finding& finding : facts.findings) text += text_of(finding) + "\n";
   const std::size_t faults = facts.count(Severity::fault);

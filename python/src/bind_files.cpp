@@ -132,7 +132,7 @@ RunResultPtr kept_result(const fs::path& folder, const SealedState& sealed) {
 
 RunResultPtr load(const fs::path& folder, std::optional<SharedRoom> room) {
   SealedState sealed;
-  std::shared_ptr<const KeptRoom> of_state = room ? with_areas(*room).kept() : nullptr;
+  std::shared_ptr<const KeptRoom> of_state = room ? with_areas(*room) : nullptr;
   {
     const nb::gil_scoped_release without_lock;
     sealed = state_in(folder);

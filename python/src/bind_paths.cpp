@@ -3,7 +3,6 @@
 #include <nanobind/stl/vector.h>
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,8 +39,7 @@ View<std::int64_t> surfaces_of(const PhotonPath& path) {
 
 std::vector<PhotonPath> paths(const SharedRoom& room, nb::handle count, nb::handle seed, nb::handle estimator) {
   Settings settings;
-  settings.seed =
-      static_cast<std::uint64_t>(whole_number_of(seed, "seed", 0, std::numeric_limits<std::int64_t>::max()));
+  settings.seed = seed_of(seed);
   settings.estimator =
       named<Estimator>("estimator", text_of(estimator, "estimator"),
                        {Estimator::automatic, Estimator::collision, Estimator::weight, Estimator::absorption});

@@ -79,7 +79,7 @@ class Buffer {
  public:
   explicit Buffer(nb::handle data) {
     if (PyObject_GetBuffer(data.ptr(), &view_, PyBUF_SIMPLE) == 0) return;
-    PyErr_Clear();
+    clear_error_of_value();
     throw InputError("The data of the room is of the type " + std::string(nb::type_name(data.type()).c_str()) +
                      " (allowed: bytes, bytearray or memoryview, the content of a .glb or .gltf file). For the name of "
                      "a file use Room.from_gltf().");
@@ -122,7 +122,7 @@ std::string counted(std::size_t count, const std::string& word) {
 
 std::string description(const SharedRoom& shared) {
   const Room& room = shared.room();
-  std::string text = "<Room " + std::string(nb::repr(nb::str(room.source.c_str())).c_str()) + ": " +
+  std::string text = "<Room " + std::string(nb::repr(text_of_file_name(room.source)).c_str()) + ": " +
                      counted(room.surfaces.size(), "surface") + ", " + counted(room.emitters.size(), "emitter");
   if (!room.emitters.empty()) {
     const nb::object power = nb::str("{:.6g}").attr("format")(total_power(room));
@@ -207,8 +207,8 @@ Args:
 
 void def_content(RoomClass& room) {
   room.def_prop_ro(
-          "source", [](const SharedRoom& shared) { return shared.room().source; },
-          "Origin of the room: the name of its file, 'cuboid', …")
+          "source", [](const SharedRoom& shared) { return text_of_file_name(shared.room().source); },
+          nb::sig("def source(self) -> str"), "Origin of the room: the name of its file, 'cuboid', …")
       .def_prop_ro(
           "unit", [](const SharedRoom& shared) { return std::string(power_unit(shared.room().quantity)); },
           "'lm' or 'W': the unit of the powers of its emitters.")

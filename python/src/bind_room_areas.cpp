@@ -281,7 +281,7 @@ Args:
           "areas",
           [](SharedRoom& shared) {
             std::vector<AreaOfRoom> areas;
-            const auto kept = with_areas(shared).kept();
+            const auto kept = with_areas(shared);
             for (std::size_t k = 0; k < kept->room.areas.size(); ++k) areas.push_back({kept, k});
             return areas;
           },

@@ -2,6 +2,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <utility>
@@ -122,8 +123,25 @@ std::vector<std::string> add_receivers(SharedRoom& room, nb::handle positions, n
 std::vector<std::string> add_grid(SharedRoom& room, nb::handle height, nb::handle spacing) {
   const double height_m = number_of(height, "height of the grid");
   const double spacing_m = number_of(spacing, "spacing of the grid");
-  const auto kept = room.kept();
+  auto kept = room.kept();
   auto receivers = aside<std::vector<Receiver>>([&] { return receiver_grid(kept->room, height_m, spacing_m); });
+  kept.reset();  // so that the room is changed in place
+  return insert(room, std::move(receivers));
+}
+
+// Python's texts are Unicode.
+void check_is_unicode(const std::string& name, std::size_t number, const std::filesystem::path& file) {
+  const auto size = static_cast<Py_ssize_t>(name.size());
+  if (nb::steal(PyUnicode_DecodeUTF8(name.data(), size, nullptr)).is_valid()) return;
+  clear_error_of_value();
+  throw InputError("The name of receiver " + std::to_string(number) + " of " + file.string() + " is " + readable(name) +
+                   ", which is not UTF-8 (allowed: UTF-8). Save the table as CSV in UTF-8.");
+}
+
+std::vector<std::string> read_receivers(SharedRoom& room, nb::handle path) {
+  const std::filesystem::path file = path_of(path, "table of receivers");
+  std::vector<Receiver> receivers = read_receiver_table(file).receivers;
+  for (std::size_t k = 0; k < receivers.size(); ++k) check_is_unicode(receivers[k].name, k + 1, file);
   return insert(room, std::move(receivers));
 }
 
@@ -220,19 +238,14 @@ Points inside furniture and walls are left out. Add emitters first: they tell wh
 Args:
     height: Above the floors, m.
     spacing: Of the receivers along x and z, m.)")
-      .def(
-          "read_receivers",
-          [](SharedRoom& shared, nb::handle path) {
-            const std::filesystem::path file = path_of(path, "table of receivers");
-            return insert(shared, read_receiver_table(file).receivers);
-          },
-          any_arg("path"), nb::sig("def read_receivers(self, path: str | os.PathLike[str]) -> list[str]"),
-          R"(Adds the receivers of a table (CSV); returns their names.
+      .def("read_receivers", &read_receivers, any_arg("path"),
+           nb::sig("def read_receivers(self, path: str | os.PathLike[str]) -> list[str]"),
+           R"(Adds the receivers of a table (CSV); returns their names.
 
 Columns by a heading: x, y, z (m), nx, ny, nz (normal) and, if wanted, name, area (m²), fov (half angle, degrees),
 concentrator_index, filter_gain.)")
       .def_prop_ro(
-          "receivers", [](SharedRoom& shared) { return ReceiversOfRoom{with_areas(shared).kept()}; },
+          "receivers", [](SharedRoom& shared) { return ReceiversOfRoom{with_areas(shared)}; },
           "Its receivers, a :class:`RoomReceivers`.");
 }
 

@@ -87,7 +87,7 @@ void bind_simulate(nb::module_& module) {
   module.def(
       "simulate",
       [](SharedRoom& room, const Settings& settings, nb::object progress) {
-        const auto kept = with_areas(room).kept();
+        const auto kept = with_areas(room);
         return run_aside(kept, settings.threads, std::move(progress),
                          [&](const Control& control) { return simulate(kept->room, settings, control); });
       },

@@ -12,6 +12,7 @@ namespace lichtmc::python {
 namespace nb = nanobind;
 
 void bind_errors(nb::module_& module);
+void bind_worker(nb::module_& module);
 void bind_photometry(nb::module_& module);
 void bind_room(nb::module_& module);  // with the parts of room_parts.hpp
 void bind_settings(nb::module_& module);

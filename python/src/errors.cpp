@@ -2,8 +2,10 @@
 #include <Python.h>
 
 #include <exception>
+#include <filesystem>
 #include <string>
 
+#include "arguments.hpp"
 #include "bindings.hpp"
 #include "lichtmc/error.hpp"
 #include "room_parts.hpp"
@@ -28,22 +30,30 @@ PyObject* make_class(nb::module_& module, const char* name, const char* doc, PyO
   return made;
 }
 
+// Messages may hold names of files that are not UTF-8.
+void set_error(PyObject* kind, const std::string& message) {
+  PyErr_SetString(kind, readable(message).c_str());
+}
+
 void translate(const std::exception_ptr& error, void* /*unused*/) {
   try {
     std::rethrow_exception(error);
   } catch (const InputError& wrong) {
-    PyErr_SetString(input_class, wrong.what());
+    set_error(input_class, wrong.what());
   } catch (const RuntimeError& failed) {
-    PyErr_SetString(runtime_class, failed.what());
+    set_error(runtime_class, failed.what());
   } catch (const Error& other) {
-    PyErr_SetString(base_class, other.what());
+    set_error(base_class, other.what());
+  } catch (const std::filesystem::filesystem_error& failed) {
+    set_error(runtime_class, "Cannot use " + failed.path1().string() + " (" + failed.code().message() +
+                                 "). Check the path, its permissions and its disk.");
   }
 }
 
 }  // namespace
 
 void warn_of_room(const std::string& text) {
-  if (PyErr_WarnEx(room_warning, text.c_str(), 1) != 0) throw nb::python_error();
+  if (PyErr_WarnEx(room_warning, readable(text).c_str(), 1) != 0) throw nb::python_error();
 }
 
 void bind_errors(nb::module_& module) {

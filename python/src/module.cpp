@@ -12,6 +12,7 @@ NB_MODULE(_core, module) {
   module.doc() = "The compiled part of lichtmc. Use `import lichtmc`.";
   module.attr("__version__") = std::string(lichtmc::version());
   bind_errors(module);
+  bind_worker(module);
   bind_photometry(module);
   bind_room(module);
   bind_figures(module);

@@ -53,16 +53,30 @@ std::size_t find_number(nb::handle key, const NamedElements& elements) {
 }  // namespace
 
 std::size_t NamedElements::find(nb::handle key) const {
-  if (nb::isinstance<nb::str>(key)) return find_name(nb::cast<std::string>(key), *this);
+  if (nb::isinstance<nb::str>(key)) {
+    std::string name;
+    if (nb::try_cast(key, name)) return find_name(name, *this);
+    const std::string text =
+        "There is no " + what + " " + nb::cast<std::string>(nb::module_::import_("builtins").attr("ascii")(key)) + ".";
+    throw nb::key_error(text.c_str());  // half a pair of UTF-16, which no name has
+  }
   if (PyIndex_Check(key.ptr()) != 0) return find_number(key, *this);
   const std::string text = "The " + plural + " of a result are found by name (str) or number (int), not by " +
                            std::string(nb::repr(key).c_str()) + ".";
   throw nb::type_error(text.c_str());
 }
 
+bool NamedElements::contains_number(nb::handle key) const {
+  if (PyIndex_Check(key.ptr()) == 0) return false;
+  const Py_ssize_t number = PyNumber_AsSsize_t(key.ptr(), nullptr);  // a large one becomes the largest
+  if (number == -1 && PyErr_Occurred() != nullptr) throw nb::python_error();
+  const auto size = static_cast<Py_ssize_t>(count);
+  return number >= -size && number < size;
+}
+
 bool NamedElements::contains(nb::handle key) const {
-  if (!nb::isinstance<nb::str>(key)) return false;
-  const std::string wanted = nb::cast<std::string>(key);
+  std::string wanted;
+  if (!nb::isinstance<nb::str>(key) || !nb::try_cast(key, wanted)) return false;
   for (std::size_t k = 0; k < count; ++k) {
     if (name(k) == wanted) return true;
   }

@@ -26,7 +26,9 @@ struct NamedElements {
   // The element that a name (str) or number (negative: from the end) means. Throws Python's KeyError, with similar
   // names first, IndexError or TypeError.
   std::size_t find(nb::handle key) const;
+  // By name, as a dict; a number is none of its keys, but find() takes it.
   bool contains(nb::handle key) const;
+  bool contains_number(nb::handle key) const;
   nb::list names() const;
 };
 
@@ -78,10 +80,11 @@ void bind_mapping(nb::class_<Mapping>& of, const std::string& type, const Elemen
           "get",
           [elements, element](const Mapping& mapping, nb::object key, nb::object otherwise) {
             const NamedElements named = elements(mapping);
-            return named.contains(key) ? nb::cast(element(mapping, named.find(key))) : otherwise;
+            return named.contains(key) || named.contains_number(key) ? nb::cast(element(mapping, named.find(key)))
+                                                                     : otherwise;
           },
           nb::arg("key").none(), nb::arg("default").none() = nb::none(),
-          nb::sig(("def get(self, key: str, default: typing.Any = None) -> " + type + " | typing.Any").c_str()),
+          nb::sig(("def get(self, key: str | int, default: typing.Any = None) -> " + type + " | typing.Any").c_str()),
           "The element, or `default` if there is none.");
   nb::module_::import_("collections.abc").attr("Mapping").attr("register")(of);
 }

@@ -41,9 +41,20 @@ class KeptRoom {
   // Before the surfaces change.
   void forget_surfaces() { prepared_.reset(); }
 
+  // When only results hold this room: there may be many of them, few of which are worked with again. If the room is
+  // just being prepared, that is kept.
+  void forget_preparation() {
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (lock) prepared_.reset();
+  }
+
+  // Counts the SharedRooms that have this room: each holds it.
+  std::shared_ptr<const char> shared_rooms() const { return shared_rooms_; }
+
   Room room;
 
  private:
+  std::shared_ptr<const char> shared_rooms_ = std::make_shared<const char>();
   mutable std::mutex mutex_;
   mutable std::shared_ptr<PreparedRoom> prepared_;  // ends before the room
   mutable unsigned threads_ = 0;
@@ -55,9 +66,11 @@ class KeptRoom {
 // All functions are called with Python's lock. Work without the lock holds kept() meanwhile, and so sees no change.
 class SharedRoom {
  public:
-  explicit SharedRoom(Room room) : kept_(std::make_shared<KeptRoom>(std::move(room))) {}
+  explicit SharedRoom(Room room)
+      : kept_(std::make_shared<KeptRoom>(std::move(room))), counted_(kept_->shared_rooms()) {}
   // What results hold. Rooms are never made const (make_shared<KeptRoom>), only held so: this class may change them.
-  explicit SharedRoom(const std::shared_ptr<const KeptRoom>& kept) : kept_(std::const_pointer_cast<KeptRoom>(kept)) {}
+  explicit SharedRoom(const std::shared_ptr<const KeptRoom>& kept)
+      : kept_(std::const_pointer_cast<KeptRoom>(kept)), counted_(kept_->shared_rooms()) {}
 
   const Room& room() const { return kept_->room; }
   std::shared_ptr<const KeptRoom> kept() const { return kept_; }
@@ -78,7 +91,12 @@ class SharedRoom {
     return change(kept_->room);
   }
 
-  void replace(Room room) { kept_ = std::make_shared<KeptRoom>(std::move(room)); }
+  void replace(Room room) {
+    constexpr long own = 2;  // counted_, and that of kept_
+    if (counted_.use_count() == own) kept_->forget_preparation();
+    kept_ = std::make_shared<KeptRoom>(std::move(room));
+    counted_ = kept_->shared_rooms();
+  }
 
  private:
   // Makes the room its own.
@@ -92,6 +110,7 @@ class SharedRoom {
   }
 
   std::shared_ptr<KeptRoom> kept_;
+  std::shared_ptr<const char> counted_;
 };
 
 }  // namespace lichtmc::python

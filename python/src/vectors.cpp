@@ -17,7 +17,8 @@ DoubleArray doubles_of(nb::handle value, const std::string& what) {
     const auto kind = nb::cast<std::string>(given.attr("dtype").attr("kind"));
     if (kind == "f" || kind == "i" || kind == "u" || kind == "b")
       return nb::cast<DoubleArray>(numpy.attr("ascontiguousarray")(given, "float64"));
-  } catch (const nb::python_error&) {
+  } catch (const nb::python_error& error) {
+    if (!tells_of_value(error)) throw;
   } catch (const nb::cast_error&) {
   }
   refuse_value(what, value, "numbers, as a list, tuple or numpy array", "Give it as such.");

@@ -18,6 +18,7 @@
 #include <stop_token>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace lichtmc::python {
 
@@ -36,17 +37,29 @@ enum class Interrupted {
 // The part that does not depend on the types of the work.
 class CallingThread {
  public:
-  CallingThread(std::stop_source stop, Interrupted interrupted) : stop_(std::move(stop)), policy_(interrupted) {}
+  // With Python's lock, which is held at the end too. Raises SystemExit if Python is ending.
+  CallingThread(std::stop_source stop, Interrupted interrupted);
+  ~CallingThread();
+  CallingThread(const CallingThread&) = delete;
+  CallingThread& operator=(const CallingThread&) = delete;
 
   // Runs `call`, which may call Python, and Python's signal handlers. The lock is taken for it.
   void visit_python(const std::function<void()>& call) noexcept;
   // Raises the first exception that `visit_python` has met, if any; `failed`: also a first Ctrl-C, because the work has
-  // nothing to return. With the lock.
+  // nothing to return; SystemExit if Python is ending. With the lock.
   void raise(bool failed) const;
+
+  // At the end of Python: stops the work of all threads, and waits until it has ended. Python ends the threads that are
+  // left then (daemon threads) when they next ask for its lock, by unwinding their stacks, which the functions of this
+  // module do not allow.
+  static void end_all();
 
  private:
   void note(std::exception_ptr error);
 
+  static std::vector<CallingThread*>& running();  // only used with the lock
+
+  int process_;  // after a fork the threads of the parent are not here
   std::stop_source stop_;
   Interrupted policy_;
   std::exception_ptr interrupt_;  // the first Ctrl-C

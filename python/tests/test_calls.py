@@ -53,3 +53,8 @@ def test_the_message_names_the_argument(call, message):
 def test_the_signature_is_that_of_the_documentation():
     assert "other_keywords" not in lichtmc.Room.add_receivers.__nb_signature__[0][0]
     assert "Ellipsis" not in (inspect.getdoc(lichtmc.Room.add_receivers) or "")
+
+
+def test_a_number_that_is_too_large_is_told():
+    with pytest.raises(lichtmc.InputError, match="argument max_time is 1000"):
+        lichtmc.simulate(lichtmc.Room.cuboid((1, 1, 1)), max_time=10**400)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import builtins
 import inspect
 
 import lichtmc
 
+PUBLIC = [*lichtmc.__all__, "RuntimeError"]  # which would replace Python's own in `from lichtmc import *`
 INHERITED = {"with_traceback", "add_note", "args"}  # of Python's exceptions
 
 
@@ -29,7 +31,7 @@ def members_of(cls: type) -> list[tuple[str, object]]:
 
 def test_every_public_name_has_a_docstring() -> None:
     without = []
-    for name in lichtmc.__all__:
+    for name in PUBLIC:
         if name == "__version__":
             continue
         thing = getattr(lichtmc, name)
@@ -57,4 +59,8 @@ def test_all_names_the_public_names() -> None:
     modules = {"annotations"}
     public = {name for name, value in vars(lichtmc).items()
               if not name.startswith("_") and not inspect.ismodule(value) and name not in modules}
-    assert public == set(lichtmc.__all__) - {"__version__"}
+    assert public == set(PUBLIC) - {"__version__"}
+
+
+def test_an_import_of_all_leaves_the_names_of_python() -> None:
+    assert not set(lichtmc.__all__) & set(dir(builtins))

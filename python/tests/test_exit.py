@@ -33,3 +33,27 @@ def test_nothing_is_said_at_the_end_of_a_program():
     """nanobind reports objects that are left, Python threads that fail."""
     done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, env=ENVIRONMENT, timeout=120)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+DAEMON = """
+import lichtmc, threading, time
+room = lichtmc.Room.cuboid((2, 2, 2), 0.5)
+room.add_emitter(lichtmc.Lambert((1, 1.9, 1)), 1000)
+started = threading.Semaphore(0)
+def work():
+    while True:  # also begins anew while the program ends
+        lichtmc.simulate(room, photons=10**9, tile=0.5, threads=1, progress=lambda progress: started.release())
+def read():
+    while True:
+        lichtmc.Room.cuboid((2, 2, 2)).check()
+for target in (work, work, read):
+    threading.Thread(target=target, daemon=True).start()
+for _ in range(4):
+    started.acquire()
+"""
+
+
+def test_a_program_ends_while_daemon_threads_simulate():
+    """Python ends such threads by unwinding their stacks, or lets them wait for ever."""
+    done = subprocess.run([sys.executable, "-c", DAEMON], capture_output=True, text=True, env=ENVIRONMENT, timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")

@@ -19,6 +19,9 @@ def test_surfaces_are_a_mapping() -> None:
     assert surfaces[0].name == surfaces["floor"].name == surfaces[np.int64(-6)].name == "floor"
     assert "floor" in surfaces and "roof" not in surfaces and 3 not in surfaces
     assert surfaces.get("roof") is None and surfaces.get("roof", 5) == 5
+    assert surfaces.get(0).name == surfaces.get(-6).name == "floor"
+    assert surfaces.get(6) is None and surfaces.get(-7, 5) == 5 and surfaces.get(2**70) is None
+    assert surfaces.get(1.5) is surfaces.get("\ud800") is None and "\ud800" not in surfaces
     assert {name: surface.rows for name, surface in surfaces.items()} == {n: dict(surfaces)[n].rows for n in names}
 
 
@@ -26,6 +29,8 @@ def test_what_is_no_surface_is_refused_with_advice() -> None:
     surfaces = rooms.box_result().surfaces
     with pytest.raises(KeyError, match="no surface 'wall_x2'.*'wall_x1'.*'floor'"):
         surfaces["wall_x2"]
+    with pytest.raises(KeyError, match=r"no surface 'x\\+ud800'"):
+        surfaces["x\ud800"]
     with pytest.raises(IndexError, match="no surface number 6: the result has 6 surfaces"):
         surfaces[6]
     for key in (None, 1.5, slice(0, 2), ("floor",)):

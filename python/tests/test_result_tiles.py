@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import gc
 import resource
 from pathlib import Path
@@ -180,3 +181,28 @@ def test_digits_of_the_program(tmp_path: Path) -> None:
         assert figure.standard_error == float(written[column + "_se"][0])
     assert area.points == int(written["points"][0])
     assert sum(area.left_out.values()) == int(written["left_out"][0])
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="only Linux says how much memory is resident")
+def test_results_of_earlier_states_of_a_room_do_not_keep_what_is_known_of_its_surfaces() -> None:
+    """That takes some 150 bytes for each triangle, and is found again when it is needed."""
+    n = 200
+    x, z = np.meshgrid(np.linspace(0.5, 3.5, n + 1), np.linspace(0.5, 3.5, n + 1))
+    vertices = np.stack([x, np.full_like(x, 0.5), z], axis=-1).reshape(-1, 3)
+    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).reshape(-1)
+    halves = [(corner, corner + n + 1, corner + 1), (corner + 1, corner + n + 1, corner + n + 2)]
+    triangles = np.concatenate([np.stack(half, 1) for half in halves])
+    room = lichtmc.Room.cuboid((4, 2, 4))
+    room.add_surface("sheet", vertices, triangles)
+    room.add_emitter(lichtmc.Isotropic((2, 1.5, 2)), 1000)
+    results = []
+    sizes = []
+    for k in range(13):
+        room.set_reflectance("floor", 0.05 * k)
+        results.append(lichtmc.simulate(room, photons=1000, tile=1))
+        gc.collect()
+        getattr(ctypes.CDLL(None), "malloc_trim", int)(0)  # what is freed is not resident
+        sizes.append(resident_bytes())
+    growth = (sizes[-1] - sizes[2]) / 10 / len(triangles)
+    assert growth < 150, growth
+    assert len(lichtmc.simulate(results[0].room, photons=1000, tile=1).tiles) == len(results[0].tiles)

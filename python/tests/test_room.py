@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import copy
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import lichtmc
-from rooms import DATA, SCENES, cuboid, of_others
+from rooms import DATA, ENVIRONMENT, SCENES, cuboid, of_others
 
 
 def test_cuboid_has_six_named_walls_with_their_reflectances():
@@ -321,3 +325,49 @@ def test_malformed_files_are_refused_or_read_as_from_disk():
         refused += str(file) + ":" in outcomes[0]
         assert outcomes[0] == outcomes[1] or "have no folder" in outcomes[1], file
     assert refused > 0
+
+
+class Failing:
+    """A value that fails when it is read."""
+
+    def __init__(self, error: type[BaseException]) -> None:
+        self.error = error
+
+    def fail(self, *_: object, **__: object) -> float:
+        raise self.error
+
+    __float__ = __index__ = __iter__ = __fspath__ = __array__ = fail
+
+
+@pytest.mark.parametrize("call", [
+    lambda value: lichtmc.Room.cuboid((1, 1, 1), value),
+    lambda value: lichtmc.Room.cuboid(value),
+    lambda value: cuboid().paths(value),
+    lambda value: cuboid().paths(1, seed=value),
+    lambda value: cuboid().measure_only(value),
+    lambda value: lichtmc.Room.from_gltf(value),
+    lambda value: lichtmc.Room.from_triangles([(0, 0, 0), (1, 0, 0), (0, 0, 1)], value),
+])
+def test_only_an_error_about_a_value_is_an_input_error(call):
+    for error in (KeyboardInterrupt, MemoryError):
+        with pytest.raises(error):
+            call(Failing(error))
+    for error in (TypeError, ValueError, OverflowError):
+        with pytest.raises(lichtmc.InputError):
+            call(Failing(error))
+
+
+def test_names_of_files_need_not_be_unicode(tmp_path):
+    file = os.fsencode(tmp_path) + b"/r\xffom.gltf"
+    copy = os.fsdecode(file)
+    Path(copy).write_bytes((SCENES / "cube_paper.gltf").read_bytes())
+    room = lichtmc.Room.from_gltf(copy)
+    assert room.source == copy and "r\\udcffom.gltf" in repr(room)
+    assert "r\\xffom.gltf" in str(room.check())
+    with pytest.raises(lichtmc.InputError, match=r"r.xffom.gltf"):
+        room.set_reflectance("none", 0.5)
+    words = [sys.executable, "-m", "lichtmc", "check", file]
+    done = subprocess.run(words, capture_output=True, timeout=120, env=ENVIRONMENT)
+    assert done.returncode == 0 and b"om.gltf" in done.stdout, done.stderr
+    with pytest.raises(lichtmc.InputError, match=r"n.xffne.gltf"):
+        lichtmc.Room.from_gltf(os.fsdecode(b"n\xffne.gltf"))

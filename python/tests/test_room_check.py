@@ -109,6 +109,10 @@ def test_paths():
         assert not path.points.flags.writeable
         assert repr(path) == f"<Path {number}: {len(path)} points, absorbed>"
     assert np.array_equal(room.paths(3)[2].points, paths[2].points)
+    assert len(room.paths(1, seed=2**64 - 1)) == 1
+    for seed in (2**64, -1, 0.5, True, "1"):
+        with pytest.raises(lichtmc.InputError, match=r"seed is .*0 to 18446744073709551615"):
+            room.paths(1, seed=seed)
     assert not np.array_equal(room.paths(1, seed=2)[0].points, paths[0].points)
     assert room.paths(5, estimator="weight")[0].weights.min() < 1
     assert len(room.paths()) == 50

@@ -130,3 +130,12 @@ def test_receivers_of_a_room_do_not_change_with_it():
     room.add_receivers((2, 1, 1))
     assert (len(before), len(room.receivers)) == (1, 2)
     assert position.tolist() == [[1, 1, 1]]
+
+
+def test_a_table_with_names_that_are_no_unicode_is_refused_before_it_is_added(tmp_path):
+    room = cuboid()
+    table = tmp_path / "table.csv"
+    table.write_bytes(b"name,x,y,z,nx,ny,nz\nfirst,1,1,1,0,1,0\nb\xfcro,1,1,2,0,1,0\n")
+    with pytest.raises(lichtmc.InputError, match=r"receiver 2 of .*table.csv is b.xfcro, which is not UTF-8"):
+        room.read_receivers(table)
+    assert len(room.receivers) == 0

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -90,3 +92,50 @@ def test_rooms_are_made_in_several_threads():
 def test_an_error_in_a_thread_is_an_input_error():
     with pytest.raises(lichtmc.InputError):
         lichtmc.Room.from_bytes(b"damaged")
+
+
+def file_with_an_area(folder: Path) -> Path:
+    """A room whose area takes a while to lay out, which is done when it is first needed."""
+    room = cuboid()
+    room.add_surface("carpet", *sheet(60))
+    file = folder / "room.gltf"
+    room.write_gltf(file)
+    document = json.loads(file.read_text())
+    desk = {"name": "desk", "mesh": 0, "translation": [0, 0.75, 0], "extras": {"calculation_area": "task"}}
+    document["scenes"][0]["nodes"].append(len(document["nodes"]))
+    document["nodes"].append(desk)
+    file.write_text(json.dumps(document))
+    return file
+
+
+def test_threads_that_only_read_a_room_with_areas_do_not_disturb_each_other(tmp_path):
+    room = lichtmc.Room.from_gltf(file_with_an_area(tmp_path))
+    start = threading.Barrier(4)
+    found: list[object] = []
+
+    def work(call) -> None:
+        start.wait()
+        try:
+            found.append(call())
+        except lichtmc.InputError as error:
+            found.append(error)
+
+    calls = [lambda: len(lichtmc.simulate(room, photons=2000, tile=0.5, threads=1).areas)] * 2
+    calls += [lambda: len(room.areas), lambda: len(room.check(tile=0.5).to_json()["areas"])]
+    threads = [threading.Thread(target=work, args=(call,)) for call in calls]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == [1, 1, 1, 1]
+
+
+def test_a_change_while_areas_are_laid_out_is_kept(tmp_path):
+    room = lichtmc.Room.from_gltf(file_with_an_area(tmp_path))
+    areas: list[int] = []
+    thread = threading.Thread(target=lambda: areas.append(len(room.areas)))
+    thread.start()
+    name = room.add_emitter(lichtmc.Isotropic((1, 1, 1)), 1)
+    thread.join()
+    assert areas == [1]
+    assert [emitter.name for emitter in room.emitters][-1] == name and len(room.areas) == 1
