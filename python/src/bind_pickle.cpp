@@ -33,7 +33,11 @@ std::string_view text_of(const nb::bytes& bytes) {
 
 void bind_pickle(nb::module_& module) {
   auto room = nb::borrow<nb::class_<SharedRoom>>(module.attr("Room"));
-  room.def("__getstate__", [](const SharedRoom& self) { return bytes_of([&] { return pack(self.room()); }); })
+  room.def("__getstate__",
+           [](const SharedRoom& self) {
+             const auto kept = self.kept();  // other threads then change a copy
+             return bytes_of([&] { return pack(kept->room); });
+           })
       .def("__setstate__", [](SharedRoom& self, const nb::bytes& state) {
         new (&self) SharedRoom(unpack_room(text_of(state), "the pickle of a Room"));
       });
