@@ -34,6 +34,12 @@ void add_override_options(CLI::App& command, OverrideOptions& options, const std
 
 namespace {
 
+// Whether Result.write() has written the state, of a room that was not read by a command line.
+bool is_from_python(const State& state) {
+  const nlohmann::json note = nlohmann::json::parse(state.note(), nullptr, false);
+  return note.is_object() && note.contains("python");
+}
+
 // The options of the run, with file names relative to the folder in which it was started.
 RunOptions noted_options(const State& state, const fs::path& file) {
   const auto refuse = [&file](const std::string& why) {
@@ -41,7 +47,7 @@ RunOptions noted_options(const State& state, const fs::path& file) {
                      " (allowed: a state written by `lichtmc run`). Continue it with the program that wrote it.");
   };
   const nlohmann::json note = nlohmann::json::parse(state.note(), nullptr, false);
-  if (note.is_object() && note.contains("python"))
+  if (is_from_python(state))
     throw InputError("The state " + file.string() +
                      " was written from Python, whose rooms have no options of a command line (allowed here: a state "
                      "written by `lichtmc run`). Continue it in Python: lichtmc.resume(lichtmc.Result.load(FOLDER), "
@@ -113,6 +119,11 @@ RunJob job_of(const State& state, const RunOptions& run, const OverrideOptions& 
 }
 
 Room noted_room(const State& state, const fs::path& file) {
+  if (is_from_python(state))
+    throw InputError("The state " + file.string() +
+                     " was written from Python, and beside it is no result.lichtmc of the same result (allowed: all "
+                     "files of one Result.write(), or the room as well). Give the room: lichtmc.Result.load(FOLDER, "
+                     "room=…).");
   RunOptions run = options_of(state, file, {});
   const std::string remedy = "Give the room to Result.load(), as room=…";
   check_exists(run.reading.file, "the room", remedy);

@@ -9,10 +9,13 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
+
+#include <unistd.h>
 
 #include "aside.hpp"
 #include "bindings.hpp"
@@ -21,6 +24,7 @@
 #include "lichtmc/output.hpp"
 #include "lichtmc/simulate.hpp"
 #include "lichtmc/state.hpp"
+#include "named_values.hpp"
 #include "noted_room.hpp"
 #include "outcome.hpp"
 #include "packed.hpp"
@@ -46,34 +50,64 @@ std::string seal_of_state(const fs::path& file) {
   return seal;
 }
 
-// The value of a table of words. Throws InputError that lists them.
-template <class Value>
-Value of_word(const std::string& what, const std::string& word,
-              const std::vector<std::pair<const char*, Value>>& words) {
-  std::string allowed;
-  for (const auto& [name, value] : words) {
-    if (word == name) return value;
-    allowed += (allowed.empty() ? "'" : ", '") + std::string(name) + "'";
-  }
-  throw InputError("The argument " + what + " is '" + word + "' (allowed: " + allowed + "). Choose one of these.");
-}
-
 struct FileOptions {
   bool report = true;
   ResultFiles files;
   ReportOptions page;
 };
 
+// What write_report() would refuse, when the tables are written already.
+void check_page(const ReportOptions& page) {
+  constexpr std::uint64_t most_paths = 10'000;
+  if (page.paths > most_paths)
+    throw InputError("The argument paths is " + std::to_string(page.paths) +
+                     " (allowed: 0 to 10000). Give a smaller number.");
+  const std::optional<double>& high = page.scale.high;
+  if (high && !(*high >= least_scale_top && *high <= greatest_scale_top)) {
+    std::ostringstream text;
+    text << *high;
+    throw InputError("The argument scale_max is " + text.str() +
+                     " (allowed: a number above 0, from 1e-300 to 1e300, in W/m² or lx). Give such a number, or leave "
+                     "it out.");
+  }
+}
+
+// A state that is written beside its later place, and removed unless it is moved there. Killed processes leave it
+// behind; its name is one of those that prepare_output() then removes.
+class StagedState {
+ public:
+  StagedState(const State& state, const fs::path& folder, const std::string& note)
+      : file_(folder / "state.h5"), staged_(folder / ("state.h5.tmp" + std::to_string(::getpid()))) {
+    write_state(state, staged_, note);
+  }
+  ~StagedState() {
+    std::error_code moved;
+    fs::remove(staged_, moved);
+  }
+  StagedState(const StagedState&) = delete;
+  StagedState& operator=(const StagedState&) = delete;
+
+  std::string seal() const { return seal_of_state(staged_); }
+  void publish() {
+    std::error_code error;
+    fs::rename(staged_, file_, error);
+    if (error) throw RuntimeError("Cannot write " + file_.string() + " (" + error.message() + "). Write it again.");
+  }
+
+ private:
+  fs::path file_, staged_;
+};
+
 void write_files(const RunResult& run, const fs::path& folder, FileOptions options) {
+  check_page(options.page);
   const Room& room = run.room->room;
   const FolderLock lock = prepare_output(folder);
   options.page.prepared = run.room->prepared(run.result.settings.threads);
   options.page.inspection =
       std::make_shared<const Inspection>(inspect(room, run.result.settings.tile_edge_m, options.page.prepared));
-  const fs::path state = folder / "state.h5";
   const std::string& note = run.result.state.note();
-  write_state(run.result.state, state, note.empty() ? python_note : note);
-  options.files.kept = pack_beside_state(room, run.result, seal_of_state(state));
+  StagedState state(run.result.state, folder, note.empty() ? python_note : note);
+  options.files.kept = pack_beside_state(room, run.result, state.seal());
 
   // As the command line does: with the warnings of the check. Only they need a copy.
   const std::vector<std::string> of_check = warning_lines(room, *options.page.inspection);
@@ -85,6 +119,7 @@ void write_files(const RunResult& run, const fs::path& folder, FileOptions optio
   }
   const Result& written = with_warnings ? *with_warnings : run.result;
   write_results(room, written, folder, options.files);
+  state.publish();
   if (options.report) write_report(room, written, folder, options.page);
 }
 
@@ -124,10 +159,10 @@ RunResultPtr kept_result(const fs::path& folder, const SealedState& sealed) {
   const fs::path file = folder / "result.lichtmc";
   std::error_code unknown;
   if (!fs::exists(file, unknown)) return nullptr;
-  ResultBesideState kept = unpack_beside_state(content_of(file), "the file " + file.string());
-  if (kept.seal != sealed.seal) return nullptr;
-  kept.result.state = sealed.state;
-  return make_run_result(std::make_shared<KeptRoom>(std::move(kept.room)), std::move(kept.result));
+  auto kept = unpack_beside_state(content_of(file), sealed.seal, "the file " + file.string());
+  if (!kept) return nullptr;
+  kept->result.state = sealed.state;
+  return make_run_result(std::make_shared<KeptRoom>(std::move(kept->room)), std::move(kept->result));
 }
 
 RunResultPtr load(const fs::path& folder, std::optional<SharedRoom> room) {
@@ -161,16 +196,16 @@ void bind_files(nb::module_& module) {
         options.report = report;
         options.files.tile_images = images;
         ReportOptions& page = options.page;
-        page.style = of_word<ReportStyle>("report_style", report_style,
-                                          {{"auto", ReportStyle::automatic},
-                                           {"lighting", ReportStyle::lighting},
-                                           {"technical", ReportStyle::technical}});
+        page.style = named<ReportStyle>("report_style", report_style,
+                                        {{"auto", ReportStyle::automatic},
+                                         {"lighting", ReportStyle::lighting},
+                                         {"technical", ReportStyle::technical}});
         page.project = project;
         page.author = author;
         page.date = date;
         page.scale.colours =
-            of_word<ColourMap>("colours", colours, {{"viridis", ColourMap::viridis}, {"inferno", ColourMap::inferno}});
-        page.scale.type = of_word<ScaleType>(
+            named<ColourMap>("colours", colours, {{"viridis", ColourMap::viridis}, {"inferno", ColourMap::inferno}});
+        page.scale.type = named<ScaleType>(
             "scale", scale,
             {{"auto", ScaleType::automatic}, {"linear", ScaleType::linear}, {"log", ScaleType::logarithmic}});
         page.scale.high = scale_max;
@@ -187,8 +222,8 @@ void bind_files(nb::module_& module) {
       R"(Writes the files that `lichtmc run` writes into a folder: tables, state.h5, a report; docs/results.md lists them.
 
 One more, result.lichtmc, is for Result.load(), which gives the same result again, exactly. The folder and its parents
-are created. Files are replaced all together, when the new ones are complete: never is one half written. Files of an
-earlier result that this one does not have are removed.
+are created. Tables, state.h5 and result.lichtmc are replaced together, when all the new ones are complete, then those of
+the report: never is one half written. Files of an earlier result that this one does not have are removed.
 
 Args:
     folder: The folder.
@@ -205,7 +240,8 @@ Args:
 
 Raises:
     InputError: The folder cannot be used, another run is writing into it, or an argument is not valid.
-    RuntimeError: A file cannot be written; those of an earlier result are then unchanged.)");
+    RuntimeError: A file cannot be written. Unless it is one of the report, those of an earlier result are then
+        unchanged.)");
   result.def(
       "summary",
       [](const RunResult& run) {
@@ -224,6 +260,8 @@ Raises:
 A folder of Result.write() gives the result that was written, exactly. A folder of `lichtmc run` contains the sums of the
 walks and how the room was read: the room is read again, and the figures, to the last digit those of the run, are
 computed again. This takes as long as the direct light of the run, but no photons are simulated.
+
+Load only folders whose origin you trust: a checksum detects damage, not files that were made to do harm.
 
 Args:
     folder: The folder.

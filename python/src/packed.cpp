@@ -7,6 +7,7 @@
 
 #include <xxhash.h>
 
+#include "consistency.hpp"
 #include "fields_of_result.hpp"
 #include "lichtmc/error.hpp"
 #include "lichtmc/state_bytes.hpp"
@@ -26,12 +27,21 @@ std::string beginning(const std::string& kind) {
   return kind + ", layout 1, version " + std::string(version()) + ", ";
 }
 
-std::string first_line(const std::string& kind, std::string_view content) {
-  const XXH128_hash_t hash = XXH3_128bits(content.data(), content.size());
+std::string checksum(std::string_view bytes) {
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
   std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
+  std::snprintf(text.data(), text.size(), "XXH3-128 %016llx%016llx", static_cast<unsigned long long>(hash.high64),
                 static_cast<unsigned long long>(hash.low64));
-  return beginning(kind) + std::to_string(content.size()) + " bytes follow; XXH3-128 " + text.data() + "\n";
+  return text.data();
+}
+
+std::string first_line(const std::string& kind, std::string_view content) {
+  return beginning(kind) + std::to_string(content.size()) + " bytes follow; " + checksum(content) + "\n";
+}
+
+// The line before the others in result.lichtmc. It has no version, so that it can be compared by all versions.
+std::string line_of_seal(std::string_view seal) {
+  return "lichtmc, of the state.h5 that begins with " + checksum(seal) + "\n";
 }
 
 std::string packed(const std::string& kind, const std::function<void(BytesOut&)>& write) {
@@ -42,6 +52,11 @@ std::string packed(const std::string& kind, const std::function<void(BytesOut&)>
 
 [[noreturn]] void refuse(const std::string& source, const std::string& what) {
   throw InputError("Cannot read " + source + ": " + what);
+}
+
+// The checksum does not detect what was made on purpose.
+void require(bool consistent) {
+  if (!consistent) throw cereal::Exception("their numbers and indices do not fit each other");
 }
 
 void read_packed(const std::string& kind, std::string_view bytes, const std::string& source,
@@ -82,12 +97,15 @@ std::string pack(const RunResult& run) {
 }
 
 std::string pack_beside_state(const Room& room, const Result& result, std::string_view seal) {
-  return packed(of_result_beside_state, [&](BytesOut& out) { out(std::string(seal), room, result); });
+  return line_of_seal(seal) + packed(of_result_beside_state, [&](BytesOut& out) { out(room, result); });
 }
 
 Room unpack_room(std::string_view bytes, const std::string& source) {
   Room room;
-  read_packed(of_room, bytes, source, [&](BytesIn& in) { in(room); });
+  read_packed(of_room, bytes, source, [&](BytesIn& in) {
+    in(room);
+    require(is_consistent(room));
+  });
   return room;
 }
 
@@ -95,14 +113,23 @@ RunResult unpack_result(std::string_view bytes, const std::string& source) {
   Room room;
   Result result;
   std::string state;
-  read_packed(of_result, bytes, source, [&](BytesIn& in) { in(room, result, state); });
+  read_packed(of_result, bytes, source, [&](BytesIn& in) {
+    in(room, result, state);
+    require(is_consistent(result, room));
+  });
   result.state = parse_state(state, source);
   return {std::make_shared<KeptRoom>(std::move(room)), std::move(result)};
 }
 
-ResultBesideState unpack_beside_state(std::string_view bytes, const std::string& source) {
+std::optional<ResultBesideState> unpack_beside_state(std::string_view bytes, std::string_view seal,
+                                                     const std::string& source) {
+  const std::string line = line_of_seal(seal);
+  if (!bytes.starts_with(line)) return std::nullopt;
   ResultBesideState found;
-  read_packed(of_result_beside_state, bytes, source, [&](BytesIn& in) { in(found.seal, found.room, found.result); });
+  read_packed(of_result_beside_state, bytes.substr(line.size()), source, [&](BytesIn& in) {
+    in(found.room, found.result);
+    require(is_consistent(found.result, found.room));
+  });
   return found;
 }
 

@@ -5,6 +5,7 @@
 // anything is read.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,7 +16,7 @@ namespace lichtmc::python {
 std::string pack(const Room& room);
 // With the state.
 std::string pack(const RunResult& run);
-// Without the state, which is in a file of its own that begins with `seal`.
+// Without the state, which is in a file of its own that begins with `seal`: the first line has its checksum.
 std::string pack_beside_state(const Room& room, const Result& result, std::string_view seal);
 
 // source: what messages call the bytes. Throw InputError if they are damaged, of another version, or something else.
@@ -25,8 +26,9 @@ RunResult unpack_result(std::string_view bytes, const std::string& source);
 struct ResultBesideState {
   Room room;
   Result result;  // without its state
-  std::string seal;
 };
-ResultBesideState unpack_beside_state(std::string_view bytes, const std::string& source);
+// Nothing if the bytes belong to another state, whatever else they are.
+std::optional<ResultBesideState> unpack_beside_state(std::string_view bytes, std::string_view seal,
+                                                     const std::string& source);
 
 }  // namespace lichtmc::python

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import lichtmc
 import numpy as np
@@ -133,10 +134,50 @@ def test_a_stale_result_does_not_count(result, tmp_path):
     result.write(tmp_path / "one", report=False, images=False)
     lichtmc.simulate(cube(), photons=20_000, tile=0.5, seed=5).write(tmp_path / "two", report=False, images=False)
     shutil.copy(tmp_path / "two" / "state.h5", tmp_path / "one" / "state.h5")
-    with pytest.raises(lichtmc.InputError, match="Python"):
+    with pytest.raises(lichtmc.InputError, match="no result.lichtmc of the same result.*room=…"):
         lichtmc.Result.load(tmp_path / "one")
     loaded = lichtmc.Result.load(tmp_path / "one", room=cube())
     assert same_tiles(loaded, lichtmc.Result.load(tmp_path / "two"))
+
+
+def _of_another_version(file: Path) -> None:
+    content = file.read_bytes()
+    version = b"version " + lichtmc.__version__.encode()
+    assert version in content
+    file.write_bytes(content.replace(version, b"version 0.0.1", 1))
+
+
+def test_a_stale_result_of_another_version_does_not_count(result, tmp_path):
+    result.write(tmp_path / "one", report=False, images=False)
+    _of_another_version(tmp_path / "one" / "result.lichtmc")
+    with pytest.raises(lichtmc.InputError, match="version 0.0.1"):
+        lichtmc.Result.load(tmp_path / "one")
+    command_line("run", SCENES / "cube_paper.gltf", *RUN, "--seed", 5, "--no-report", "-o", "two", folder=tmp_path)
+    shutil.copy(tmp_path / "two" / "state.h5", tmp_path / "one" / "state.h5")
+    assert same_tiles(lichtmc.Result.load(tmp_path / "one"), lichtmc.Result.load(tmp_path / "two"))
+
+
+def test_a_full_disk_leaves_the_earlier_result(tmp_path):
+    """As on a full disk, the new tables cannot be written, but the new state, which is smaller, can."""
+    folder = tmp_path / "run"
+    lichtmc.simulate(cube(), photons=5000, tile=0.05).write(folder, report=False, images=False)
+    before = {file.name: file.read_bytes() for file in folder.iterdir()}
+    limit = len(before["state.h5"]) + 10_000
+    assert limit < max(map(len, before.values()))
+    program = f"""
+import lichtmc, resource, sys
+room = lichtmc.Room.from_gltf({str(SCENES / "cube_paper.gltf")!r})
+result = lichtmc.simulate(room, photons=5000, tile=0.05, seed=5)
+resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
+try:
+    result.write({str(folder)!r}, report=False, images=False)
+except lichtmc.RuntimeError:
+    sys.exit(3)
+"""
+    done = subprocess.run([sys.executable, "-c", program], env=ENVIRONMENT, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 3, done.stderr
+    assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
+    lichtmc.Result.load(folder)
 
 
 def test_a_room_that_was_moved_is_given(tmp_path):
@@ -173,7 +214,9 @@ def test_folders_that_cannot_be_used(result, tmp_path):
         lichtmc.Result.load(tmp_path)
     with pytest.raises(lichtmc.InputError, match="missing does not exist"):
         lichtmc.Result.load(tmp_path / "missing")
-    for argument in ({"report_style": "nice"}, {"colours": "jet"}, {"scale": "logarithmic"}):
+    for argument in ({"report_style": "nice"}, {"colours": "jet"}, {"scale": "logarithmic"},
+                     {"paths": 20_000}, {"paths": 20_000, "report": False}, {"scale_max": -1.0},
+                     {"scale_max": float("nan")}):
         with pytest.raises(lichtmc.InputError, match="allowed: "):
             result.write(tmp_path / "out", **argument)
     assert not (tmp_path / "out").exists()

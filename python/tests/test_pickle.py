@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import copy
+import ctypes
 import json
 import multiprocessing
 import pickle
+import resource
+import struct
+import threading
+from pathlib import Path
 
 import lichtmc
 import pytest
@@ -76,6 +81,92 @@ def test_copies(result):
         assert pickle.dumps(copied) == pickle.dumps(room)
     assert copy.copy(result) is result
     assert copy.deepcopy([result])[0] is result
+
+
+def test_a_room_is_pickled_while_another_thread_changes_it():
+    room = cube()
+    for number in range(20_000):
+        room.add_emitter(lichtmc.Isotropic((0.0, 0.0, 0.0)), 1.0, name=f"lamp {number}")
+    stop = threading.Event()
+
+    def change() -> None:
+        number = 0
+        while not stop.is_set() and number < 20_000:
+            room.add_emitter(lichtmc.Isotropic((0.0, 0.0, 0.0)), 1.0, name=f"another lamp {number}")
+            number += 1
+
+    thread = threading.Thread(target=change)
+    thread.start()
+    try:
+        for _ in range(20):
+            before = len(room.emitters)
+            again = pickle.loads(pickle.dumps(room))
+            assert before <= len(again.emitters) <= len(room.emitters)
+    finally:
+        stop.set()
+        thread.join()
+
+
+def _sealed(state: bytes, content: bytes) -> bytes:
+    """Content with the first line that it would have if lichtmc had written it."""
+
+    class Hash(ctypes.Structure):
+        _fields_ = (("low", ctypes.c_uint64), ("high", ctypes.c_uint64))
+
+    try:
+        xxh3 = ctypes.CDLL("libxxhash.so.0").XXH3_128bits
+    except (OSError, AttributeError):
+        pytest.skip("requires the library xxHash")
+    xxh3.argtypes, xxh3.restype = (ctypes.c_char_p, ctypes.c_size_t), Hash
+    checksum = xxh3(content, len(content))
+    beginning = state[: state.index(b"\n")].rsplit(b", ", 1)[0].decode()
+    line = f"{beginning}, {len(content)} bytes follow; XXH3-128 {checksum.high:016x}{checksum.low:016x}\n"
+    return line.encode() + content
+
+
+def test_wrong_numbers_of_elements_take_little_memory():
+    """The checksum does not detect them if it was made for them."""
+    state = cube().__getstate__()
+    content = state[state.index(b"\n") + 1:]
+    assert _sealed(state, content) == state
+    (length,) = struct.unpack_from("<Q", content)
+    place = 8 + length + 4  # of the number of surfaces, after the source and the quantity
+    assert struct.unpack_from("<Q", content, place) == (len(cube().surfaces),)
+    zeros = bytes(2_000_000)
+    forged = _sealed(state, content[:place] + struct.pack("<Q", len(zeros)) + zeros)
+    used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    limits = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (used + 100_000_000, limits[1]))
+    try:
+        with pytest.raises(lichtmc.InputError, match="damaged"):
+            _read(lichtmc.Room, forged)
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, limits)
+
+
+def _forged(state: bytes, found: bytes, replacement: bytes) -> bytes:
+    content = state[state.index(b"\n") + 1:]
+    assert content.count(found) == 1 and len(found) == len(replacement)
+    return _sealed(state, content.replace(found, replacement))
+
+
+@pytest.mark.filterwarnings("ignore::lichtmc.ResultWarning")
+def test_numbers_that_do_not_fit_each_other_are_refused():
+    """Views would show other memory."""
+    room = lichtmc.Room.from_triangles([(0.25, 0, 0), (1.25, 0, 0), (0.25, 0, 1)], [(0, 2, 1)], reflectance=0.5)
+    room.add_emitter(lichtmc.Isotropic((0.5, 1, 0.25)), 10.0, name="first")
+    room.add_emitter(lichtmc.Isotropic((0.5, 1.5, 0.25)), 20.0, name="second")
+    room.add_receivers([(0.5, 0.5, 0.25)])
+    triangle = struct.pack("<Q3I", 1, 0, 1, 2)
+    with pytest.raises(lichtmc.InputError, match="damaged"):
+        _read(lichtmc.Room, _forged(room.__getstate__(), triangle, struct.pack("<Q3I", 1, 0, 1, 1_000_000)))
+
+    result = lichtmc.simulate(room, photons=2000, tile=0.5, per_emitter=True)
+    state = result.__getstate__()
+    _read(lichtmc.Result, state)
+    receivers = b"second" + struct.pack("<ddQ", 20.0, 1.0, 1)
+    with pytest.raises(lichtmc.InputError, match="damaged"):
+        _read(lichtmc.Result, _forged(state, receivers, b"second" + struct.pack("<ddQ", 20.0, 1.0, 100_000_000)))
 
 
 def _read(cls: type, state: bytes) -> None:

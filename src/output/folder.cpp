@@ -64,9 +64,14 @@ namespace {
 constexpr std::string_view stage_prefix = ".lichtmc-";
 constexpr std::string_view temporary_state = "state.h5.tmp";  // the prefix used by write_file_atomically()
 
-// Whether a name is this prefix and the number of a process that does not exist.
+// Whether a name is this prefix and the number of a process that does not exist. What is atomically written to such a
+// name has ".tmp" and the number once more.
 bool is_of_ended_process(std::string_view name, std::string_view prefix) {
-  const std::string_view digits = name.substr(prefix.size());
+  std::string_view digits = name.substr(prefix.size());
+  constexpr std::string_view again = ".tmp";
+  const std::size_t half = digits.find(again);
+  if (half != std::string_view::npos && digits.substr(half + again.size()) == digits.substr(0, half))
+    digits = digits.substr(0, half);
   pid_t process = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), process);
   if (error != std::errc() || end != digits.data() + digits.size() || process <= 0) return false;

@@ -301,7 +301,7 @@ TEST_CASE("temporary files of killed runs are removed, and nothing else") {
     std::ofstream(stage / "receivers.csv") << "of another run";
   }
   fs::create_directories(folder.path() / (std::string("backup.tmp") + no_process));
-  for (const char* name : {"state.h5.tmp", "notes.tmp", "backup.tmp2147483646/kept"})
+  for (const char* name : {"state.h5.tmp", "state.h5.tmp2147483646.tmp", "notes.tmp", "backup.tmp2147483646/kept"})
     std::ofstream(folder.path() / (std::string(name) + no_process)) << "x";
   std::ofstream(folder.path() / ("state.h5.tmp" + std::to_string(::getppid()))) << "of a run that goes on";
   static_cast<void>(prepare_output(folder.path()));
