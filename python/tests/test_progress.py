@@ -139,7 +139,7 @@ def test_progress_is_readable() -> None:
 
 def test_without_a_limit_there_is_none_in_the_text() -> None:
     seen: list[str] = []
-    lichtmc.simulate(living_room(), target_error=0.5, progress=lambda p: seen.append(repr(p)))
+    lichtmc.simulate(living_room(), max_time=1.5, progress=lambda p: seen.append(repr(p)))
     walks = [text for text in seen if text.startswith("tiles: ")]
     assert walks and not any(" of " in text for text in walks)
 
