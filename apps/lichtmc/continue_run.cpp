@@ -34,9 +34,13 @@ void add_override_options(CLI::App& command, OverrideOptions& options, const std
 
 namespace {
 
+// The note of a state; what is no JSON is discarded.
+nlohmann::json parsed_note(const State& state) {
+  return nlohmann::json::parse(state.note(), nullptr, false);
+}
+
 // Whether Result.write() has written the state, of a room that was not read by a command line.
-bool is_from_python(const State& state) {
-  const nlohmann::json note = nlohmann::json::parse(state.note(), nullptr, false);
+bool is_from_python(const nlohmann::json& note) {
   return note.is_object() && note.contains("python");
 }
 
@@ -46,8 +50,8 @@ RunOptions noted_options(const State& state, const fs::path& file) {
     throw InputError("The state " + file.string() + " does not contain the options of its run" + why +
                      " (allowed: a state written by `lichtmc run`). Continue it with the program that wrote it.");
   };
-  const nlohmann::json note = nlohmann::json::parse(state.note(), nullptr, false);
-  if (is_from_python(state))
+  const nlohmann::json note = parsed_note(state);
+  if (is_from_python(note))
     throw InputError("The state " + file.string() +
                      " was written from Python, whose rooms have no options of a command line (allowed here: a state "
                      "written by `lichtmc run`). Continue it in Python: lichtmc.resume(lichtmc.Result.load(FOLDER), "
@@ -119,7 +123,7 @@ RunJob job_of(const State& state, const RunOptions& run, const OverrideOptions& 
 }
 
 Room noted_room(const State& state, const fs::path& file) {
-  if (is_from_python(state))
+  if (is_from_python(parsed_note(state)))
     throw InputError("The state " + file.string() +
                      " was written from Python, and beside it is no result.lichtmc of the same result (allowed: all "
                      "files of one Result.write(), or the room as well). Give the room: lichtmc.Result.load(FOLDER, "

@@ -7,7 +7,7 @@ import operator
 from collections.abc import Callable
 from typing import Any
 
-from lichtmc._core import InputError
+from lichtmc._core import InputError, Room
 
 
 def count(name: str, value: Any, *, least: int = 0, most: int = 2**64 - 1) -> int:
@@ -28,6 +28,20 @@ def count(name: str, value: Any, *, least: int = 0, most: int = 2**64 - 1) -> in
             f"Give it as such, for example {name}={max(least, 1)}."
         )
     return whole
+
+
+def threads_of(value: Any) -> int:
+    """A number of threads; 0: one per processor."""
+    return count("threads", value, most=2**31 - 1)
+
+
+def require_room(value: Any, function: str) -> None:
+    """The first argument of a function."""
+    if not isinstance(value, Room):
+        raise InputError(
+            f"The first argument of {function}() is {value!r} (allowed: a Room). Make one, for example with "
+            "Room.from_gltf(path)."
+        )
 
 
 def number(name: str, value: Any, meaning: str) -> float:

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Iterable
 
 from lichtmc import _core
-from lichtmc._arguments import count, number, optional, share
+from lichtmc._arguments import count, number, optional, share, threads_of
 from lichtmc._progress import listener
 from lichtmc._simulate import OnProgress, ResultWarning, warn_of
 from lichtmc._text import end_text
@@ -56,7 +56,7 @@ def resume(
         optional(share, "target_error", target_error),
         optional(number, "max_time", max_time, "above 0, in s"),
     )
-    workers = count("threads", threads, most=2**31 - 1)
+    workers = threads_of(threads)
     with listener(progress, max_time=max_time) as told:
         resumed = _core.resume(result, *rules, workers, told.callback)
         told.end(lambda: end_text(resumed))
@@ -84,7 +84,7 @@ def merge(
         raise _core.InputError(
             "The argument of merge() is one Result (allowed: a list of them). Give the parts as a list."
         )
-    workers = count("threads", threads, most=2**31 - 1)
+    workers = threads_of(threads)
     parts = [_require_result(part, f"results[{k}]") for k, part in enumerate(results)]
     with listener(progress) as told:
         merged, gaps = _core.merge(parts, workers, told.callback)

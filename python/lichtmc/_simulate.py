@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Literal
 
 from lichtmc import _core
-from lichtmc._arguments import count, flag, histories_of, number, numbers, optional, share, word
+from lichtmc._arguments import count, flag, histories_of, number, numbers, optional, require_room, share, threads_of, word
 from lichtmc._progress import listener
 from lichtmc._text import end_text
 
@@ -104,17 +104,13 @@ def simulate(
         InputError: The room or an argument is not valid.
         RuntimeError: Memory or the tracing device fails.
     """
-    if not isinstance(room, _core.Room):
-        raise _core.InputError(
-            f"The first argument of simulate() is {room!r} (allowed: a Room). Make one, for example with "
-            "Room.from_gltf(path)."
-        )
+    require_room(room, "simulate")
     settings = _core.make_settings(
         photons=optional(count, "photons", photons, least=1),
         target_error=optional(share, "target_error", target_error),
         max_time=optional(number, "max_time", max_time, "above 0, in s"),
         seed=count("seed", seed),
-        threads=count("threads", threads, most=2**31 - 1),
+        threads=threads_of(threads),
         estimator=word("estimator", estimator),
         engine=word("engine", engine),
         tile=number("tile", tile, "above 0, in m"),

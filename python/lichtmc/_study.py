@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from lichtmc import _core
-from lichtmc._arguments import count, number, optional
+from lichtmc._arguments import count, number, optional, require_room, threads_of
 from lichtmc._progress import listener
 
 
@@ -38,16 +38,12 @@ def study(
     Raises:
         InputError: The room or an argument is not valid, or the time is too short for a reference.
     """
-    if not isinstance(room, _core.Room):
-        raise _core.InputError(
-            f"The first argument of study() is {room!r} (allowed: a Room). Make one, for example with "
-            "Room.from_gltf(path)."
-        )
+    require_room(room, "study")
     arguments = (
         number("seconds", seconds, "5 or more, in s"),
         optional(number, "tile", tile, "above 0, in m"),
         count("seed", seed),
-        count("threads", threads, most=2**31 - 1),
+        threads_of(threads),
     )
     with listener(progress) as told:
         found = _core.study(room, *arguments, told.callback)

@@ -179,10 +179,4 @@ WholeArray whole_numbers_of(nb::handle value, const std::string& what) {
                    " (allowed: integers, as a list, tuple or numpy array). Convert it, for example by .astype(int).");
 }
 
-std::string shape_text(const WholeArray& array) {
-  std::string text = "(";
-  for (std::size_t k = 0; k < array.ndim(); ++k) text += (k > 0 ? ", " : "") + std::to_string(array.shape(k));
-  return text + (array.ndim() == 1 ? ",)" : ")");
-}
-
 }  // namespace lichtmc::python

@@ -65,7 +65,5 @@ Quantity unit_of(nb::handle value);
 // A C-contiguous array of whole numbers of any shape. Throws InputError if the value is none: also for floats.
 using WholeArray = nb::ndarray<const std::int64_t, nb::c_contig, nb::device::cpu>;
 WholeArray whole_numbers_of(nb::handle value, const std::string& what);
-// "(4, 3)", for messages.
-std::string shape_text(const WholeArray& array);
 
 }  // namespace lichtmc::python

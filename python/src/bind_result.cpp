@@ -13,6 +13,7 @@
 #include "bindings.hpp"
 #include "lichtmc/units.hpp"
 #include "result_parts.hpp"
+#include "room_parts.hpp"
 
 namespace lichtmc::python {
 
@@ -40,12 +41,6 @@ Balance balance_of(const Result& result) {
 
 double if_tiles(const Result& result, double value) {
   return result.tiles.empty() ? std::numeric_limits<double>::quiet_NaN() : value;
-}
-
-std::vector<std::string> texts_of(const std::vector<Ignored>& ignored) {
-  std::vector<std::string> texts;
-  for (const Ignored& one : ignored) texts.push_back(one.what);
-  return texts;
 }
 
 void bind_parts_of(nb::class_<RunResult>& of) {

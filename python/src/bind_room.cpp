@@ -217,12 +217,7 @@ void def_content(RoomClass& room) {
           [](const SharedRoom& shared) { return std::string(irradiance_unit(shared.room().quantity)); },
           "'lx' or 'W/m^2'.")
       .def_prop_ro(
-          "ignored",
-          [](const SharedRoom& shared) {
-            std::vector<std::string> texts;
-            for (const Ignored& one : shared.room().ignored) texts.push_back(one.what);
-            return texts;
-          },
+          "ignored", [](const SharedRoom& shared) { return texts_of(shared.room().ignored); },
           "What the file contains and the room does not model: a sentence or two each.")
       .def_prop_ro(
           "overrides", [](const SharedRoom& shared) { return shared.room().overrides; },

@@ -3,7 +3,6 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
-#include <algorithm>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,12 +17,10 @@ namespace lichtmc::python {
 
 namespace {
 
-// The tiles of a map are next to each other.
 std::pair<std::size_t, std::size_t> tiles_of(const OneSurface& surface) {
-  const std::vector<std::uint32_t>& cells = surface.grid().tile_of_cell;
-  const auto first = std::find_if(cells.begin(), cells.end(), [](std::uint32_t tile) { return tile != no_tile; });
-  if (first == cells.end()) return {0, 0};
-  return {*first, *first + surface.figures().tiles};
+  const std::size_t first = first_tile(surface.grid());
+  if (first == no_tile) return {0, 0};
+  return {first, first + surface.figures().tiles};
 }
 
 template <class Row, class Member>

@@ -10,6 +10,7 @@
 #include "lichtmc/channel.hpp"
 #include "lichtmc/emitter_parts.hpp"
 #include "lichtmc/photometry.hpp"
+#include "result_parts.hpp"
 
 namespace lichtmc::python {
 
@@ -95,12 +96,11 @@ bool is_consistent(const Tiling& tiling, const Room& room) {
 bool has_tiles_of_surfaces(const Result& result) {
   const std::vector<Tile>& tiles = result.tiling.tiles;
   for (std::size_t m = 0; m < result.surfaces.size(); ++m) {
-    const std::vector<std::uint32_t>& cells = result.tiling.maps[m].tile_of_cell;
-    const auto first = std::find_if(cells.begin(), cells.end(), [](std::uint32_t tile) { return tile != no_tile; });
-    if (first == cells.end()) continue;
+    const std::size_t first = first_tile(result.tiling.maps[m]);
+    if (first == no_tile) continue;
     const std::size_t count = result.surfaces[m].tiles;
-    if (count > tiles.size() - *first) return false;
-    for (std::size_t k = *first; k < *first + count; ++k) {
+    if (count > tiles.size() - first) return false;
+    for (std::size_t k = first; k < first + count; ++k) {
       if (tiles[k].map != m) return false;
     }
   }

@@ -1,17 +1,27 @@
 // Parts of results as Python sees them: each is a reference into a result, which it keeps alive.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "lichtmc/area.hpp"
 #include "lichtmc/result.hpp"
 #include "lichtmc/room.hpp"
+#include "lichtmc/tiles.hpp"
 #include "lichtmc/units.hpp"
 #include "run_result.hpp"
 
 namespace lichtmc::python {
+
+// The first tile of a map; the others are next to it. no_tile: it has none.
+inline std::uint32_t first_tile(const TileMap& map) {
+  const std::vector<std::uint32_t>& cells = map.tile_of_cell;
+  const auto first = std::find_if(cells.begin(), cells.end(), [](std::uint32_t tile) { return tile != no_tile; });
+  return first == cells.end() ? no_tile : *first;
+}
 
 // The tile maps of a result, and one of them.
 struct Surfaces {

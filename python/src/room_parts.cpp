@@ -14,4 +14,10 @@ Room room_for_checks(const Room& like) {
   return room;
 }
 
+std::vector<std::string> texts_of(const std::vector<Ignored>& ignored) {
+  std::vector<std::string> texts;
+  for (const Ignored& one : ignored) texts.push_back(one.what);
+  return texts;
+}
+
 }  // namespace lichtmc::python

@@ -35,22 +35,19 @@ using KeptRoomPtr = std::shared_ptr<const KeptRoom>;
 // into it to be checked with the library's messages before they enter the room.
 Room room_for_checks(const Room& like);
 
+// What the sources contain and the rooms do not model, as sentences.
+std::vector<std::string> texts_of(const std::vector<Ignored>& ignored);
+
 // Three numbers as a new array, shape (3,).
 inline View<double> array_of(const glm::dvec3& v) {
   return owned<double, 1>({v.x, v.y, v.z}, {3});
 }
 
 // Views (n, 2) or (n, 3) of points.
-template <class Kept>
-View<double> points_view(const std::shared_ptr<Kept>& kept, const std::vector<glm::dvec3>& points) {
-  static constexpr glm::dvec3 none{};
-  const std::size_t shape[2] = {points.size(), 3};
-  return View<double>(points.empty() ? &none.x : &points.front().x, 2, shape, keep(kept));
-}
-template <class Kept>
-View<double> points_view(const std::shared_ptr<Kept>& kept, const std::vector<glm::dvec2>& points) {
-  static constexpr glm::dvec2 none{};
-  const std::size_t shape[2] = {points.size(), 2};
+template <class Kept, class Point>
+View<double> points_view(const std::shared_ptr<Kept>& kept, const std::vector<Point>& points) {
+  static constexpr Point none{};
+  const std::size_t shape[2] = {points.size(), static_cast<std::size_t>(Point::length())};
   return View<double>(points.empty() ? &none.x : &points.front().x, 2, shape, keep(kept));
 }
 

@@ -24,12 +24,6 @@ DoubleArray doubles_of(nb::handle value, const std::string& what) {
   refuse_value(what, value, "numbers, as a list, tuple or numpy array", "Give it as such.");
 }
 
-std::string shape_text(const DoubleArray& array) {
-  std::string text = "(";
-  for (std::size_t k = 0; k < array.ndim(); ++k) text += (k > 0 ? ", " : "") + std::to_string(array.shape(k));
-  return text + (array.ndim() == 1 ? ",)" : ")");
-}
-
 glm::dvec3 vec3_of(nb::handle value, const std::string& what) {
   const DoubleArray array = doubles_of(value, what);
   if (array.ndim() != 1 || array.shape(0) != 3)

@@ -4,6 +4,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ using DoubleArray = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
 DoubleArray doubles_of(nb::handle value, const std::string& what);
 
 // "(4, 3)", for messages.
-std::string shape_text(const DoubleArray& array);
+template <class Array>
+std::string shape_text(const Array& array) {
+  std::string text = "(";
+  for (std::size_t k = 0; k < array.ndim(); ++k) text += (k > 0 ? ", " : "") + std::to_string(array.shape(k));
+  return text + (array.ndim() == 1 ? ",)" : ")");
+}
 
 }  // namespace lichtmc::python

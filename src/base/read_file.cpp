@@ -59,7 +59,10 @@ FileContent read_bytes(const std::filesystem::path& file, std::optional<std::uin
   if (!S_ISREG(about.st_mode)) return fault_of(kind_of(about.st_mode));
   const auto size = static_cast<std::uint64_t>(about.st_size);
   const auto too_large = [&](std::uint64_t bytes) {
-    return fault_of("it has " + std::to_string(bytes) + " bytes, more than the limit of " + std::to_string(most));
+    FileContent content =
+        fault_of("it has " + std::to_string(bytes) + " bytes, more than the limit of " + std::to_string(most));
+    content.too_large = true;
+    return content;
   };
   if (!needed && size > most) return too_large(size);
 
@@ -91,12 +94,13 @@ FileContent read_start_of_file(const std::filesystem::path& file, std::uint64_t 
 }
 
 std::string require_regular_file(const std::filesystem::path& file, std::uint64_t most_bytes, const std::string& name,
-                                 const std::string& remedy) {
+                                 const std::string& remedy, const std::string& remedy_if_too_large) {
   FileContent content = read_regular_file(file, most_bytes);
   if (content.fault.empty()) return std::move(content.bytes);
   if (content.missing) throw InputError("Cannot read " + name + " (" + content.fault + "). " + remedy);
   throw InputError("Cannot read " + name + " (" + content.fault + "; allowed: a regular file of up to " +
-                   std::to_string(most_bytes) + " bytes). " + remedy);
+                   std::to_string(most_bytes) + " bytes). " +
+                   (content.too_large && !remedy_if_too_large.empty() ? remedy_if_too_large : remedy));
 }
 
 }  // namespace lichtmc

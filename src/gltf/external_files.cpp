@@ -77,10 +77,6 @@ bool simplify_data_uri(Json& uri) {
   return true;
 }
 
-}  // namespace
-
-namespace {
-
 ContainedPath refused_without_folder() {
   ContainedPath refused;
   refused.fault = "the room is read from bytes in memory, which have no folder";

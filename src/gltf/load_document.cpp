@@ -6,7 +6,6 @@
 #include <limits>
 #include <new>
 #include <sstream>
-#include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -28,12 +27,8 @@ namespace {
 constexpr std::size_t most_bytes = std::numeric_limits<std::int32_t>::max();
 
 std::string read_bytes(const std::filesystem::path& path, const std::string& file) {
-  std::error_code unknown;
-  const bool too_large = std::filesystem::is_regular_file(path, unknown) &&
-                         std::filesystem::file_size(path, unknown) > most_bytes && !unknown;
-  std::string bytes = require_regular_file(
-      path, most_bytes, file,
-      too_large ? "Split the room into files, or leave out what is small." : "Give the name of a .gltf or .glb file.");
+  std::string bytes = require_regular_file(path, most_bytes, file, "Give the name of a .gltf or .glb file.",
+                                           "Split the room into files, or leave out what is small.");
   if (bytes.empty()) throw InputError(file + ": the file is empty. Give the name of a .gltf or .glb file.");
   return bytes;
 }

@@ -8,6 +8,7 @@
 #include "support/channel_rooms.hpp"
 #include "support/rooms.hpp"
 #include "support/surfaces.hpp"
+#include "support/two_sided_wall.hpp"
 #include "support/verdict.hpp"
 
 using namespace lichtmc;
@@ -60,22 +61,13 @@ void check_same(const std::string& what, const ImpulseResponses& a, const Impuls
 // 4 m × 3 m × 5 m without one wall, with a chequered partition, a panel that shines down, a spot, and a lamp behind
 // the partition whose light is late.
 Room room_with_everything() {
-  Room room = without_surface(make_cuboid({4.0, 3.0, 5.0}, {0.3, 0.8, 0.6, 0.5, 0.7, 0.4}), "wall_z1");
+  Room room = room_with_two_sided_wall();
   room.quantity = Quantity::radiometric;
-  Surface partition = make_floor(2.5, 2.2);
-  for (glm::dvec3& p : partition.positions) p = {p.x, p.z, 2.0};
-  partition.name = "partition";
-  partition.sides = Sides::both;
+  Surface& partition = room.surfaces[room.surfaces.size() - 2];
   partition.reflectance_map = 0;
   partition.reflectance_uvs = partition.uvs;
   room.reflectance_maps.push_back({"chequers", 2, 2, {0.9F, 0.2F, 0.3F, 0.8F}});
   partition.reflectance = mean_reflectance(room, partition);
-  room.surfaces.push_back(partition);
-  Surface panel = make_floor(0.5, 0.5);
-  for (glm::dvec3& p : panel.positions) p += glm::dvec3(0.5, 2.9, 3.5);
-  panel.name = "panel";
-  panel.reflectance = 0.5;
-  room.surfaces.push_back(panel);
   room.emitters = {surface_emitter(room.surfaces.size() - 1, 2.0),
                    {"spot", 1.0, SpotEmitter{{2.0, 2.5, 3.0}, {0.2, -1, 0.1}, 0.2, 0.6}},
                    lambert({1.0, 2.8, 1.0}, {0, -1, 0}, 3.0, 1.0)};
